@@ -4,7 +4,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from vicode.store.documents import DesignReadResult, ProjectReadResult, read_design, read_project_file
-from vicode.store.durable_write import is_read_only, write_text
+from vicode.store.durable_write import FileChangedError, is_read_only, replace_text, write_text
 from vicode.store.locations import find_faulty_components, find_location, iter_owning_components, locate_findings
 from vicode.store.projects import OpenProject, find_design_files, find_project_file, find_projects, open_project
 from vicode.store.source_map import SourceMap
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "DesignReadResult",
+    "FileChangedError",
     "OpenProject",
     "ProjectReadResult",
     "SourceMap",
@@ -35,6 +36,7 @@ __all__ = [
     "project_schema",
     "read_design",
     "read_project_file",
+    "replace_text",
     "save_design",
     "save_project_file",
     "write_text",

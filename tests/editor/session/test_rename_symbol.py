@@ -180,14 +180,14 @@ def test_a_failed_write_restores_the_other_files(
     before = texts_of(folder)
     plan = plan_symbol_rename(workspace, SPEED, "ahead")
     assert [change.file.name for change in plan.changes] == ["body.yaml", "follow_ball.yaml"]
-    write = rename_symbol.write_text
+    write = rename_symbol.replace_text
 
-    def refusing(file: Path, text: str) -> None:
+    def refusing(file: Path, old: str | None, new: str) -> None:
         if file.name == "follow_ball.yaml":
             raise OSError("the disk is full")
-        write(file, text)
+        write(file, old, new)
 
-    monkeypatch.setattr(rename_symbol, "write_text", refusing)
+    monkeypatch.setattr(rename_symbol, "replace_text", refusing)
     with pytest.raises(OSError, match="full"):
         apply_symbol_rename(workspace, plan)
     assert texts_of(folder) == before

@@ -23,6 +23,7 @@ def run_autosave(autosave: AutosaveService) -> None:
     async def tick() -> None:
         nonlocal paused_until_s
         autosave.save_idle_documents()
+        autosave.find_other_editors()
         started_s = time.perf_counter()
         if started_s < paused_until_s:
             return

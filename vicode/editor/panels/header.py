@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.command import Command
 from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.fields import set_enabled
@@ -50,7 +51,8 @@ class Header:
         if document.shared.disk_conflict is not None:
             return "Conflict: file changed on disk", "is-conflicting"
         autosave = " · Autosave on" if self.context.workspace.autosave else ""
-        return (f"Saved{autosave}", "") if document.is_saved else (f"Unsaved changes{autosave}", "is-unsaved")
+        more = autosave + (texts.ALSO_OPEN_ELSEWHERE if self.context.workspace.has_other_editor else "")
+        return (f"Saved{more}", "") if document.is_saved else (f"Unsaved changes{more}", "is-unsaved")
 
     def refresh(self) -> None:
         document = self.context.document

@@ -18,6 +18,7 @@ ENTER_SEARCH_TERM = "Enter a search term"
 SELECT_ROW_FIRST = "Select a row first"
 RENDERING = "Rendering…"
 SAVED = "Saved"
+ALSO_OPEN_ELSEWHERE = " · Open in another editor"
 
 INTERNAL_ERROR = "Internal error; the change may not be saved. See the server log."
 CLIPBOARD_DENIED = "Clipboard access denied. Download the file instead."

@@ -10,6 +10,7 @@ from vicode.editor.session import texts
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import ChangeNotice, DocumentSession
 from vicode.editor.session.library import Library
+from vicode.editor.session.open_folders import OpenFolders
 from vicode.editor.session.presence import DISK_USER
 from vicode.editor.session.recovery import JournalSnapshot, RecoverableDesign, RecoveryStore
 from vicode.editor.session.workspace import DiskConflictError, Workspace
@@ -17,6 +18,7 @@ from vicode.model.merge import merge_designs
 from vicode.store import read_design
 
 _AUTOSAVE_DELAY_S = 1.0
+_EDITOR_CHECK_INTERVAL_S = 2.0
 
 
 @dataclass(eq=False)
@@ -29,6 +31,8 @@ class AutosaveService:
 
     def __post_init__(self) -> None:
         """Restore the autosave setting of each project from the last server."""
+        self._open_folders = OpenFolders(self.recovery.folder / "open")
+        self._editors_checked_s = 0.0
         noted = self.recovery.autosaved_projects
         for workspace in self.library.workspaces:
             workspace.autosave = str(workspace.folder.resolve()) in noted
@@ -62,6 +66,22 @@ class AutosaveService:
             except (OSError, ValueError) as error:
                 _notify_once(document, texts.cannot_save(document.file.name, error_reason(error)))
 
+    def find_other_editors(self, interval_s: float = _EDITOR_CHECK_INTERVAL_S) -> None:
+        """Note which projects another editor has open, at most once per interval, and notify the users."""
+        now_s = time.monotonic()
+        if now_s - self._editors_checked_s < interval_s:
+            return
+        self._editors_checked_s = now_s
+        for workspace in self.library.workspaces:
+            is_shared = False
+            with contextlib.suppress(OSError):
+                is_shared = self._open_folders.has_other_editor(workspace.folder)
+            if is_shared == workspace.has_other_editor:
+                continue
+            workspace.has_other_editor = is_shared
+            for document in workspace.documents:
+                _notify_once(document, texts.OTHER_EDITOR if is_shared else texts.NO_OTHER_EDITOR)
+
     def close(self) -> None:
         """Save and journal the latest edits, then close the journals."""
         self.save_idle_documents(0)
@@ -69,6 +89,7 @@ class AutosaveService:
             with contextlib.suppress(OSError):
                 self.recovery.write(snapshot)
         self.recovery.close()
+        self._open_folders.close()
 
     def recoverable(self, workspace: Workspace) -> tuple[RecoverableDesign, ...]:
         """The recoverable designs of a project; journals equal to their file are discarded.

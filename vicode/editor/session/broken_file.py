@@ -5,7 +5,7 @@ from pathlib import Path
 
 from vicode.editor.session.code_marks import CodeMark, message_with_fix
 from vicode.findings import Finding
-from vicode.store import read_design, write_text
+from vicode.store import FileChangedError, read_design, replace_text
 
 
 class FileModifiedError(Exception):
@@ -47,12 +47,9 @@ def write_fixed_text(file: Path, text: str, original: str) -> None:
         OSError: The file cannot be written.
     """
     try:
-        now = read_file_text(file)
-    except (FileNotFoundError, UnicodeDecodeError):
+        replace_text(file, original, text)
+    except FileChangedError:
         raise FileModifiedError from None
-    if now != original:
-        raise FileModifiedError
-    write_text(file, text)
 
 
 def _line_starts(text: str) -> list[int]:

@@ -23,8 +23,8 @@ from vicode.store import (
     find_project_file,
     is_read_only,
     read_project_file,
+    replace_text,
     save_project_file,
-    write_text,
 )
 
 
@@ -69,7 +69,9 @@ class ProjectEdit:
             text = merge_lines(base, now, wanted)
             if text is None or (text and read_project_file(text, "project.yaml").project is None):
                 return texts.not_done(texts.PROJECT_LINES_CHANGED)
-            _write_or_remove(self.workspace, file, None if self.old is None and not text else text)
+            _write_or_remove(
+                self.workspace, file, None if self.old is None and not text else text, now if file else None
+            )
         except (OSError, ValueError) as error:
             return texts.not_done(error_reason(error))
         return ""
@@ -175,7 +177,7 @@ def edit_project_file(
         return ProjectEditResult(error=texts.not_representable(reason))
     if new == old:
         return ProjectEditResult()
-    _write_or_remove(workspace, file, new)
+    _write_or_remove(workspace, file, new, old)
     edit = ProjectEdit(workspace=workspace, summary=summary, old=old, new=new)
     return ProjectEditResult(edit=edit, broken_designs=_newly_broken(project, changed))
 
@@ -230,10 +232,10 @@ def _newly_broken(before: Project, after: Project) -> tuple[str, ...]:
     return tuple(name or "project.yaml" for name in names if new[name] > old[name])
 
 
-def _write_or_remove(workspace: Workspace, file: Path | None, text: str | None) -> None:
-    """Write project.yaml, or remove it if `text` is None, and notify all windows of the project."""
+def _write_or_remove(workspace: Workspace, file: Path | None, text: str | None, old: str | None) -> None:
+    """Replace `old` in project.yaml, or remove the file if `text` is None, and notify all windows of the project."""
     if text is not None:
-        write_text(file or workspace.folder / "project.yaml", text)
+        replace_text(file or workspace.folder / "project.yaml", old, text)
     elif file is not None:
         file.unlink()
     workspace.sync_from_disk()

@@ -12,7 +12,14 @@ from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Design
 from vicode.model.names import is_valid_name, snake_case
 from vicode.model.project import Project
-from vicode.store import find_project_file, is_read_only, read_project_file, save_design, save_project_file, write_text
+from vicode.store import (
+    find_project_file,
+    is_read_only,
+    read_project_file,
+    replace_text,
+    save_design,
+    save_project_file,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,9 +62,12 @@ def plan_component_rename(workspace: Workspace, old: str, new: str) -> Component
     is_moved = target.resolve() != file.resolve()
     if is_moved and target.exists():
         return ComponentRenamePlan(old=old, new=new, error=texts.file_exists(target.name))
-    own = _own_change(renamed[old], file, target if is_moved else file, (old, new))
-    users = [_user_change(renamed[name], workspace.files[name], new) for name in touched if name != old]
-    project_change = _project_change(workspace.folder, (old, new))
+    try:
+        own = _own_change(renamed[old], file, target if is_moved else file, (old, new))
+        users = [_user_change(renamed[name], workspace.files[name], new) for name in touched if name != old]
+        project_change = _project_change(workspace.folder, (old, new))
+    except ValueError as reason:
+        return ComponentRenamePlan(old=old, new=new, error=texts.not_representable(reason))
     changes = (own, *users, *([project_change] if project_change else []))
     return ComponentRenamePlan(old=old, new=new, changes=changes, removed=file if is_moved else None)
 
@@ -72,7 +82,7 @@ def apply_component_rename(workspace: Workspace, plan: ComponentRenamePlan) -> s
     if current != plan:
         return current.error or texts.PLAN_OUTDATED
     for change in plan.changes:
-        write_text(change.file, change.new)
+        replace_text(change.file, change.old, change.new)
     if plan.removed is not None:
         plan.removed.unlink()
     workspace.drop_document(plan.old, renamed_to=plan.new)

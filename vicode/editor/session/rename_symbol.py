@@ -21,7 +21,14 @@ from vicode.model.rename import ReferenceKind, ReferenceRename, SymbolRef, is_de
 from vicode.model.rename.cpp import count_identifier_in_cpp, has_reference_in_cpp
 from vicode.model.rename.python import has_reference_in_python
 from vicode.model.traversal import iter_code
-from vicode.store import find_project_file, is_read_only, read_project_file, save_design, save_project_file, write_text
+from vicode.store import (
+    find_project_file,
+    is_read_only,
+    read_project_file,
+    replace_text,
+    save_design,
+    save_project_file,
+)
 
 _KINDS = {"uses": "alias"}
 _PROJECT_SECTIONS = ("enumerations", "constants", "components", "agents")
@@ -151,11 +158,11 @@ def _write_all(workspace: Workspace, plan: SymbolRenamePlan, transaction: FileTr
     written: list[FileChange] = []
     try:
         for change in plan.changes:
-            write_text(change.file, change.new)
+            replace_text(change.file, change.old, change.new)
             written.append(change)
     except OSError:
         for change in written:
-            write_text(change.file, change.old or "")
+            replace_text(change.file, change.new, change.old or "")
         raise
     finally:
         workspace.sync_from_disk(transaction)

@@ -258,6 +258,10 @@ PLAN_OUTDATED = "a file has changed: check the list again"
 NO_READABLE_DESIGN = "the file contains no readable design"
 
 
+OTHER_EDITOR = "Another editor has this folder open; the changes of both are merged when they are saved"
+NO_OTHER_EDITOR = "No other editor has this folder open any more"
+
+
 def cannot_save(file: str, reason: str) -> str:
     return f"{file} cannot be saved: {reason}"
 

@@ -1,5 +1,6 @@
 """An open project: its designs with unsaved edits, and their files."""
 
+import contextlib
 import time
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
@@ -16,9 +17,20 @@ from vicode.model.merge import merge_designs
 from vicode.model.names import snake_case
 from vicode.model.project import Project
 from vicode.output import back_up_edited
-from vicode.store import OpenProject, find_design_files, open_project, read_design, save_design, write_text
+from vicode.store import (
+    FileChangedError,
+    OpenProject,
+    find_design_files,
+    open_project,
+    read_design,
+    replace_text,
+    save_design,
+    write_text,
+)
+from vicode.store.documents import PROJECT_FILES
 
 _POLL_INTERVAL_S = 0.8
+_MAX_SAVE_ATTEMPTS = 20
 
 
 class DiskConflictError(Exception):
@@ -43,6 +55,8 @@ class Workspace:
     users: UserDirectory = field(default_factory=UserDirectory)
     autosave: bool = False
     """Whether designs are saved automatically a second after their last edit."""
+    has_other_editor: bool = False
+    """Whether another editor has the folder open."""
     project: Project = field(init=False)
     broken_files: dict[str, Path] = field(init=False)
     files: dict[str, Path] = field(init=False)
@@ -78,7 +92,7 @@ class Workspace:
         Raises:
             OSError: The folder no longer exists.
         """
-        seen = frozenset(_signature(file) for file in (*find_design_files(self.folder), *_project_files(self.folder)))
+    XX
         if seen != self._seen:
             self._seen = seen
             self._apply_project(open_project(self.folder), transaction)
@@ -154,6 +168,14 @@ class Workspace:
             OSError: The file cannot be written.
             ValueError: The design cannot be represented in a file.
         """
+        for _attempt in range(_MAX_SAVE_ATTEMPTS):
+            # Another program may write the file between the merge with its version and the replacement.
+            with contextlib.suppress(FileChangedError):
+                self._merge_and_write(document, overwrite=overwrite)
+                return
+        self._merge_and_write(document, overwrite=overwrite)
+
+    def _merge_and_write(self, document: DocumentSession, *, overwrite: bool) -> None:
         text = _read(document.file)
         if (text or "") != document.shared.disk_text:
             self._reconcile_with_disk(document.shared, _disk_version(document, text))
@@ -215,7 +237,7 @@ class Workspace:
         if text:
             design = read_design(text, file.name).design or design
         text = text or save_design(design, "")
-        write_text(file, text)
+        replace_text(file, None, text)
         self.files[component], self._texts[component] = file, text
         self.project = replace(self.project, designs=(*self.project.designs, design))
         document = self.open_document(component)
@@ -270,8 +292,11 @@ class Workspace:
     def _write(self, document: DocumentSession, text: str | None, patched: str) -> None:
         """Write a design as a patch of `patched`; `text` is the content of the file, None if it is missing."""
         new = save_design(document.design, patched)
-        if new != text:
+        if new != text and text is None and document.file.exists():
+            # Not a design any more: it was backed up.
             write_text(document.file, new)
+        elif new != text:
+            replace_text(document.file, text, new)
         findings = read_design(new, document.file.name).findings
         written = DiskVersion(text=new, design=document.design, parse_findings=findings)
         document.adopt_disk_version(written, texts.SAVE)
@@ -372,7 +397,3 @@ def _signature(file: Path) -> tuple[str, int, int]:
     except OSError:
         return (str(file), 0, 0)
     return (str(file), status.st_mtime_ns, status.st_size)
-
-
-def _project_files(folder: Path) -> tuple[Path, ...]:
-    return (folder / "project.yaml", folder / "project.yml")
