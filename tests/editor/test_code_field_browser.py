@@ -112,9 +112,11 @@ def test_the_linter_marks_code_and_knows_declared_names(editor: str, page: Page)
     select_state(page, "LookForBall")
     page.get_by_label("Inspector").get_by_role("button", name="Add to actions: Code").first.click()
     code = page.get_by_label("Python", exact=True).first
-    # Typed immediately after adding the action; the letters are not shortcuts of the canvas.
+    # Typed immediately after adding the action: the letters are not shortcuts of the canvas, and the field is empty.
     expect(code).to_be_focused()
-    retype(page, code, "log.info(Side.left, wrong)")
+    expect(findings(page).get_by_text("No problems found")).to_be_visible()
+    page.keyboard.type("log.info(Side.left, wrong)")
+    expect(code).to_have_text("log.info(Side.left, wrong)")
     expect(page.locator(".squiggle.warning")).to_have_text("wrong")
     expect(page.get_by_label("Inspector").get_by_role("button", name="F821")).to_have_count(1)
     retype(page, code, "self.percep")

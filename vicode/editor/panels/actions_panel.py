@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from nicegui import ui
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.code_field import code_field, pairs_field
 from vicode.editor.panels.fields import Attribute, FieldBinding, attribute_binding
 from vicode.editor.panels.form import Form, ItemRows, Rows
@@ -44,7 +45,7 @@ def actions_panel(form: Form, owner: TrackedItem, section: str, *, calls: bool =
     with ui.row().classes("adders"):
         add("Set", "edit_note", lambda: Assign(values=(_first_assignment(context),)))
         Rows(form, list_calls, lambda _row, label: add(label, "call_made", make_call))
-        add("Code", "code", lambda: RunCode(code=python_code("pass\n")))
+        add("Code", "code", lambda: RunCode(code=python_code("")))
 
 
 def _action(form: Form, item: TrackedItem) -> None:
@@ -85,11 +86,11 @@ def python_code(text: str) -> Code:
 
 
 def replace_python(code: Code | None, text: str) -> Code:
-    """Replace the Python text of code; texts in other languages stay."""
+    """Replace the Python text of code; texts in other languages stay. Without any text, the Python text is empty."""
     others = tuple(pair for pair in (code.texts if code else ()) if pair[0] != "python")
     # A YAML block of several lines ends with a newline; a single line does not.
     ended = text + "\n" if "\n" in text and not text.endswith("\n") else text
-    return Code(texts=((("python", ended), *others) if text.strip() else others))
+    return Code(texts=((("python", ended), *others) if text.strip() or not others else others))
 
 
 def parse_assignments(text: str) -> tuple[tuple[str, str], ...]:
@@ -117,7 +118,7 @@ def _action_field(form: Form, item: TrackedItem) -> None:
     context = form.context
     match item.get():
         case RunCode():
-            code_field(form, code_binding(item, "Python", "code"))
+            code_field(form, replace(code_binding(item, "Python", "code"), hint=texts.CODE_HINT))
         case Assign():
             attribute = Attribute(
                 label="name = expression, one per line",

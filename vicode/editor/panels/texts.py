@@ -33,6 +33,7 @@ ARITHMETIC_HELP = "xabsl: arithmetic and restart semantics of XABSL. Empty: defa
 TIME_UNIT_HELP = "Unit of state_time and component_time in expressions. Empty: seconds."
 USER_NAME_HELP = "Other users see this name next to your selection and in the history."
 
+CODE_HINT = "Python statements, such as self.tries += 1"
 CODE_OWNER_CHANGED = "Another user removed, renamed or moved the owner of this code."
 DESIGN_CHANGED_RENAME_AGAIN = "The design changed. Rename again."
 USED_BY_FOLLOWING = "It is used in these places, which will report errors:"
