@@ -135,7 +135,7 @@ def test_a_new_source_keeps_the_transitions_of_all_states(document: DocumentSess
     document.edit("prepare", lambda design: replace(design, states=states))
     outcome = apply_gesture(document, {"kind": "reconnect", "id": "A/1", "end": "source", "state": "B"})
     assert outcome.new_selection == (ItemRef(kind="transitions", id="B/2"),)
-    assert document.design.states == (
+    assert tuple(replace(state, at=None) for state in document.design.states) == (
         replace(states[0], transitions=states[0].transitions[:1]),
         replace(states[1], transitions=(*states[1].transitions, moved)),
         states[2],

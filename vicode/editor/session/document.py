@@ -10,6 +10,7 @@ from typing import Any
 from vicode.editor.session import texts
 from vicode.editor.session.descriptions import describe_path
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
+from vicode.editor.session.positions import keep_positions
 from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
 from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import Scene, diff_scenes, make_scene, parse_transition_key
@@ -200,7 +201,7 @@ class DocumentSession:
             change: Maps the current design to the new one.
             coalesce_key: Consecutive edits of a user with the same key, such as a field being typed in, are one entry.
         """
-        design = change(self.design)
+        design = keep_positions(self.design, change(self.design))
         reason = self.shared.find_lost_content(design)
         if reason:
             self.shared.notice = ChangeNotice(texts.edit_refused(reason), DISK_USER, self.shared.notice.rev + 1)
