@@ -92,7 +92,8 @@ class Workspace:
         Raises:
             OSError: The folder no longer exists.
         """
-    XX
+        files = (*find_design_files(self.folder), *(self.folder / name for name in PROJECT_FILES))
+        seen = frozenset(map(_signature, files))
         if seen != self._seen:
             self._seen = seen
             self._apply_project(open_project(self.folder), transaction)
