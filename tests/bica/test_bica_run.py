@@ -43,7 +43,7 @@ def test_it_runs_from_a_copied_folder_on_a_bare_python(robot: Path) -> None:
     done = run(robot, *in_world("--seconds", "1"))
     assert (done.returncode, done.stderr) == (0, "")
     assert "stopped: limit" in done.stdout
-    assert "iterations: 50" in done.stdout
+    assert "iterations: 60" in done.stdout
 
 
 def test_the_same_seed_gives_the_same_trace(robot: Path, tmp_path: Path) -> None:

@@ -81,3 +81,27 @@ def test_a_summary_does_without_world_and_times() -> None:
         "0.00 s in 1 iterations, stopped: limit, last state: -",
         "errors: 2",
     ]
+
+
+def test_a_summary_compares_target_and_real_frequency() -> None:
+    times = {"count": 9, "mean_ms": 1.0, "max_ms": 2.0}
+    summary = {
+        "time_ns": 0,
+        "iterations": 9,
+        "stopped": "limit",
+        "state": "",
+        "errors": 0,
+        "tick_ms": 100 / 6,
+        "overruns": 2,
+        "cycle_times": {
+            "Eyes": {**times, "target_hz": 15.0, "real_frequency_hz": 14.25},
+            "Player": {**times, "target_hz": None, "real_frequency_hz": 60.0},
+        },
+    }
+    assert describe_summary(summary).splitlines()[2:] == [
+        "component    works   mean ms    max ms target Hz   real Hz",
+        "Eyes             9     1.000     2.000     15.00     14.25",
+        "Player           9     1.000     2.000         -     60.00",
+        "overruns: 2 iterations took longer than the tick of 16.67 ms",
+        "errors: 0",
+    ]

@@ -3,7 +3,7 @@
 The package uses only the standard library. Copied into a robot program, it runs without vicode.
 """
 
-from .clock import Clock, RealClock, SimulatedClock
+from .clock import Clock, PacedClock, RealClock, SimulatedClock
 from .component import RESERVED_NAMES, Component, State
 from .errors import ComponentError, CyclicUseError, ErrorRecord
 from .observer import IterationRecord, Observer, StepRecord
@@ -22,6 +22,7 @@ __all__ = [
     "ErrorRecord",
     "IterationRecord",
     "Observer",
+    "PacedClock",
     "RealClock",
     "Root",
     "SimulatedClock",

@@ -117,10 +117,10 @@ def describe_exception(error: BaseException) -> str:
     return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
 
-def print_error(message: str) -> None:
+def print_error(message: str, *, kind: str = "error") -> None:
     """Write a message to standard error; it is lost if standard error is missing, closed or broken."""
     with suppress(Exception):
-        sys.stderr.write(f"error: {message}\n")
+        sys.stderr.write(f"{kind}: {message}\n")
 
 
 def _make_located_record(component: Component, error: Exception) -> ErrorRecord:

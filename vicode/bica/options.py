@@ -18,7 +18,12 @@ def make_parser() -> argparse.ArgumentParser:
     add("--ticks", type=count, metavar="N", help="stop after N iterations")
     add("--seconds", type=seconds, metavar="S", help="stop after S seconds of real or simulated time")
     add("--until-done", action="store_true", help="stop when the root component is done")
-    add("--tick-ms", type=tick_ms, default=20.0, metavar="MS", help="period of the iterations (default: 20)")
+    add(
+        "--tick-ms",
+        type=tick_ms,
+        metavar="MS",
+        help="time between iterations (default: fits the frequencies, up to 20)",
+    )
     add("--real-time", action="store_true", help="run in real time instead of simulated time")
     add(
         "--on-error",

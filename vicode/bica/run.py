@@ -9,20 +9,20 @@ import json
 import math
 import os
 import sys
-import time
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
-from .clock import RealClock, SimulatedClock
+from .clock import PacedClock, SimulatedClock
 from .errors import ComponentError, CyclicUseError, print_error
 from .loader import UserCodeError, load_component, make_world, wrap_user_errors
 from .observer import TRACE_HEADER, IterationRecord, Observer, to_json_value
 from .options import make_parser
 from .root import Root
 from .stop_signals import StopSignals
+from .tick import choose_tick_ns, describe_wrong_frequencies
 
 if TYPE_CHECKING:
     import argparse
@@ -56,9 +56,10 @@ def _open_missing_streams() -> None:
     while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
         os.set_inheritable(descriptor, True)
     os.close(descriptor)
-    nowhere = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - open until the end
-    sys.stdout = sys.stdout or nowhere
-    sys.stderr = sys.stderr or nowhere
+    if sys.stdout is None or sys.stderr is None:
+        nowhere = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - open until the end
+        sys.stdout = sys.stdout or nowhere
+        sys.stderr = sys.stderr or nowhere
 
 
 def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[Root, _RecordWriter]:
@@ -126,7 +127,7 @@ class _RecordWriter:
             if self.options.real_time:
                 sys.stdout.flush()
 
-    def write_summary(self, root: Root, stopped: str, world_summary: Any) -> None:
+    def write_summary(self, root: Root, stopped: str, tick_ns: int, world_summary: Any) -> None:
         summary = {
             "stopped": stopped,
             "iterations": root.iteration,
@@ -136,10 +137,14 @@ class _RecordWriter:
             "errors": root.errors.total(),
             "world": world_summary,
         }
-        cycle_times = {name: times.as_plain() for name, times in root.cycle_times.items()}
-        # The trace excludes cycle times: it must be the same for each run with one seed.
+        # The trace excludes measured times: it must be the same for each run with one seed.
         self.write_trace({"summary": summary})
         self.close_trace()
+        summary["tick_ms"] = tick_ns / 1e6
+        if isinstance(root.clock, PacedClock):
+            summary["overruns"] = root.clock.overruns
+        targets = {type(each).__name__: {"target_hz": each.frequency_hz} for each in root.components}
+        cycle_times = {name: {**times.as_plain(), **targets[name]} for name, times in root.cycle_times.items()}
         if self.options.stream:
             sys.stdout.write(json.dumps({"summary": {**summary, "cycle_times": cycle_times}}) + "\n")
         else:
@@ -152,7 +157,7 @@ def _make_root(component_class: type[Component], world: Any, writer: _RecordWrit
     is_observed = writer.trace is not None or options.stream
     root = Root(
         component_class,
-        clock=RealClock() if options.real_time else SimulatedClock(),
+        clock=PacedClock() if options.real_time else SimulatedClock(),
         world=world,
         on_error=options.on_error,
         observer=Observer(partial(writer.write_iteration, world), values=options.values) if is_observed else None,
@@ -161,13 +166,22 @@ def _make_root(component_class: type[Component], world: Any, writer: _RecordWrit
     return root
 
 
+def _find_tick_ns(root: Root, options: argparse.Namespace) -> int:
+    """Return the given tick or one that fits the frequencies; warn of frequencies that it does not fit."""
+    frequencies_hz = [component.frequency_hz for component in root.components if component.frequency_hz]
+    tick_ns = round(options.tick_ms * 1e6) if options.tick_ms else choose_tick_ns(frequencies_hz)
+    for warning in describe_wrong_frequencies(root.components, tick_ns):
+        print_error(warning, kind="warning")
+    return tick_ns
+
+
 def _run(root: Root, writer: _RecordWriter, signals: StopSignals) -> int:
     """Run until the end, close the components and the world, and write the summary."""
-    stopped = "error"
+    stopped, tick_ns = "error", _find_tick_ns(root, writer.options)
     failure: BaseException | None = None
     try:
         with wrap_user_errors("the world failed", only_user_code=True), root:
-            stopped = _loop(root, writer.options, signals)
+            stopped = _loop(root, writer.options, tick_ns, signals)
     except KeyboardInterrupt:
         stopped = "interrupted"
     except ComponentError as error:
@@ -181,47 +195,36 @@ def _run(root: Root, writer: _RecordWriter, signals: StopSignals) -> int:
             world_summary = _call_optional(root.world, "summary")
     except UserCodeError as error:
         failure = failure or error
-    writer.write_summary(root, stopped, world_summary)
+    writer.write_summary(root, stopped, tick_ns, world_summary)
     if failure is not None:
         raise failure
     return {"error": 1, "interrupted": signals.exit_code}.get(stopped, int(writer.is_incomplete))
 
 
-def _loop(root: Root, options: argparse.Namespace, signals: StopSignals) -> str:
+def _loop(root: Root, options: argparse.Namespace, tick_ns: int, signals: StopSignals) -> str:
     """Run iterations and return the reason for the end."""
-    world = root.world
-    tick_ns = round(options.tick_ms * 1e6)
-    limit = _count_ticks(options, tick_ns)
+    world, clock = root.world, root.clock
+    most_iterations = math.inf if options.ticks is None else options.ticks
+    end_ns = math.inf if options.seconds is None else round(options.seconds * 1e9)
     advance_world = getattr(world, "advance", None)
     signals.is_deferred = True
-    while root.iteration < limit:
+    if isinstance(clock, PacedClock):
+        clock.start()
+    while root.iteration < most_iterations and clock.now_ns() < end_ns and not signals.was_received():
         if advance_world is not None:
-            advance_world(root.clock.now_ns())
+            advance_world(clock.now_ns())
         root.step()
-        if signals.received is not None:
-            return "interrupted"
+        if signals.was_received():
+            break
         if getattr(world, "finished", False):
             return "finished"
         if options.until_done and root.main.is_done:
             return "done"
-        _wait(root, tick_ns)
-    return "limit"
-
-
-def _wait(root: Root, tick_ns: int) -> None:
-    """Wait for the next tick; delays are not compensated."""
-    clock = root.clock
-    if isinstance(clock, SimulatedClock):
-        clock.advance(tick_ns)
-        return
-    remaining_ns = root.now_ns + tick_ns - clock.now_ns()
-    if remaining_ns > 0:
-        time.sleep(remaining_ns / 1e9)
-
-
-def _count_ticks(options: argparse.Namespace, tick_ns: int) -> float:
-    by_seconds = math.inf if options.seconds is None else math.ceil(options.seconds * 1e9 / tick_ns)
-    return min(by_seconds, math.inf if options.ticks is None else options.ticks)
+        if isinstance(clock, PacedClock):
+            clock.wait(tick_ns, end_ns=end_ns, is_cancelled=signals.was_received)
+        elif isinstance(clock, SimulatedClock):
+            clock.advance(tick_ns)
+    return "interrupted" if signals.was_received() else "limit"
 
 
 def _call_optional(world: Any, name: str) -> Any:
@@ -232,6 +235,6 @@ def _call_optional(world: Any, name: str) -> Any:
 def _format_summary(summary: dict[str, Any], cycle_times: dict[str, Any]) -> str:
     lines = [f"{name}: {value if isinstance(value, str) else json.dumps(value)}" for name, value in summary.items()]
     for name, times in cycle_times.items():
-        numbers = ", ".join(f"{key} {value:g}" for key, value in times.items())
+        numbers = ", ".join(f"{key} {value:g}" for key, value in times.items() if value is not None)
         lines.append(f"{name}: {numbers}")
     return "\n".join(lines) + "\n"

@@ -16,7 +16,7 @@ _MESSAGE = b"stopping after this iteration; press Ctrl-C again to stop immediate
 class StopSignals:
     """Handles Ctrl-C, SIGTERM and, unless `nohup` ignores it, SIGHUP.
 
-    All raise `KeyboardInterrupt`, except the first one if `is_deferred` is set: the caller reads `received`.
+    All raise `KeyboardInterrupt`, except the first one if `is_deferred` is set: the caller asks `was_received`.
     """
 
     def __init__(self, *, is_silent: bool) -> None:
@@ -27,6 +27,9 @@ class StopSignals:
             number = getattr(signal, name, None)
             if number is not None and (name != "SIGHUP" or signal.getsignal(number) != signal.SIG_IGN):
                 signal.signal(number, self._handle_signal)
+
+    def was_received(self) -> bool:
+        return self.received is not None
 
     @property
     def exit_code(self) -> int:

@@ -33,7 +33,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--trace", metavar="FILE", help="write a trace (docs/traces.md) to FILE")
     add("--values", action="store_true", help="include outputs and variables in the trace, for replay in the editor")
     add("--real-time", action="store_true", help="run in real time instead of as fast as possible")
-    add("--tick-ms", type=options.tick_ms, metavar="MS", help="time between iterations (default: 20)")
+    add(
+        "--tick-ms",
+        type=options.tick_ms,
+        metavar="MS",
+        help="time between iterations (default: fits the frequencies, up to 20)",
+    )
     add("--until-done", action="store_true", help="stop when the root component is done")
     add(
         "--on-error",

@@ -115,10 +115,14 @@ def describe_summary(summary: TraceRecord) -> str:
     times: Mapping[str, TraceRecord] = summary.get("cycle_times") or {}
     if times:
         width = max(len(name) for name in times)
-        lines.append(f"{'component':{max(width, 9)}}    works   mean ms    max ms        Hz")
+        lines.append(f"{'component':{max(width, 9)}}    works   mean ms    max ms target Hz   real Hz")
         for name, each in times.items():
-            figures = f"{each['mean_ms']:9.3f} {each['max_ms']:9.3f} {each['real_frequency_hz']:9.2f}"
+            figures = f"{each['mean_ms']:9.3f} {each['max_ms']:9.3f}"
+            figures += f" {_format_frequency(each.get('target_hz'))} {_format_frequency(each['real_frequency_hz'])}"
             lines.append(f"{name:{max(width, 9)}} {each['count']:8} {figures}")
+    if "overruns" in summary:
+        tick = f"{summary['tick_ms']:.4g} ms"
+        lines.append(f"overruns: {summary['overruns']} iterations took longer than the tick of {tick}")
     lines.append(f"errors: {summary['errors']}")
     return "\n".join(lines) + "\n"
 
@@ -247,6 +251,10 @@ def _start_stderr_reader(stream: IO[str], watcher: TracePrinter) -> threading.Th
     thread = threading.Thread(target=read, daemon=True)
     thread.start()
     return thread
+
+
+def _format_frequency(hertz: float | None) -> str:
+    return f"{hertz:9.2f}" if hertz else f"{'-':>9}"
 
 
 def _format_value(value: object) -> str:
