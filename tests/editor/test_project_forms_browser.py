@@ -174,3 +174,25 @@ def test_an_agent_is_edited_and_another_one_added(editor: str, page: Page, proje
     renamed.get_by_role("button", name="Remove agent seeker").click()
     expect(renamed).to_have_count(0)
     assert "seeker" not in file.read_text()
+
+
+def test_inputs_and_commands_are_added_in_one_place(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "project.yaml"
+    before = file.read_text()
+    open_player(page, editor)
+    inspector = page.get_by_label("Inspector")
+    inspector.get_by_label("New input").fill("order_given")
+    page.keyboard.press("Enter")
+    expect(inspector.get_by_text("sensors.order_given")).to_be_visible()
+    expect(used(page, "sensors")).to_be_visible()
+    inspector.get_by_label("New command").fill("dance")
+    inspector.get_by_label("Parameters", exact=True).fill("speed, side: Side")
+    page.keyboard.press("Enter")
+    expect(inspector.get_by_text("speed, side", exact=True)).to_be_visible()
+    inspector.get_by_label("New input").fill("order_given")
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("There is already an input order_given")).to_be_visible()
+    page.get_by_role("button", name="Undo").click()
+    page.get_by_role("button", name="Undo").click()
+    expect(used(page, "sensors")).to_have_count(0)
+    assert file.read_text() == before

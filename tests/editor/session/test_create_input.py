@@ -7,6 +7,7 @@ import pytest
 
 from vicode.editor.session import DocumentSession, Workspace
 from vicode.editor.session.fixes import Fix, find_fixes
+from vicode.editor.session.interface_edits import add_command, add_input
 from vicode.editor.session.project_edits import edit_design_and_project
 from vicode.model.project import Interface
 from vicode.model.texts import rewrite_text
@@ -109,3 +110,40 @@ def test_an_existing_output_is_used(open_waiter: Open) -> None:
     labels = [fix.label for fix in fixes(workspace, document)]
     assert "Use ears.order_given" in labels
     assert not any(label.startswith("Create input order_given") for label in labels)
+
+
+def test_inputs_and_commands_are_added_by_name(open_waiter: Open) -> None:
+    workspace, document = open_waiter(DESIGN, "")
+    for edit in (
+        add_command(workspace.project, document.design, "walk", "speed, turn: int"),
+        add_input(workspace.project, document.design, "order_given", "bool"),
+    ):
+        assert edit.error == ""
+        assert not edit_design_and_project(document, workspace, edit.label, edit.change_design, edit.change_project)
+    assert [(use.alias, use.component) for use in document.design.uses] == [("walk", "Walk"), ("sensors", "Sensors")]
+    walk = workspace.project.interface("Walk")
+    assert walk is not None
+    assert [(each.name, each.type) for each in walk.parameters] == [("speed", "float"), ("turn", "int")]
+    assert names(workspace.project.interface("Sensors")) == [("order_given", "bool")]
+    assert document.undo_label == "add input order_given"
+
+
+@pytest.mark.parametrize(
+    ("name", "detail", "error"),
+    [
+        ("Walk", "", "there is already a component Walk"),
+        ("run", "a, a", "there is already a parameter a"),
+        ("run", "a b", "invalid"),
+        ("", "", ""),
+    ],
+)
+def test_invalid_commands_are_rejected(open_waiter: Open, name: str, detail: str, error: str) -> None:
+    workspace, document = open_waiter(DESIGN, PROJECT + "  Walk: {}\n")
+    edit = add_command(workspace.project, document.design, name, detail)
+    assert edit.error
+    assert error in edit.error or error == "invalid"
+
+
+def test_an_input_that_exists_is_rejected(open_waiter: Open) -> None:
+    workspace, document = open_waiter(DESIGN, PROJECT + "  Sensors: {outputs: {battery: {type: float}}}\n")
+    assert add_input(workspace.project, document.design, "battery", "bool").error == "there is already an input battery"

@@ -111,6 +111,22 @@ def declaration_caption(declaration: Declaration | None, kind: str) -> str:
     return "; ".join(parts) or ("range, XABSL, arguments" if kind == "output" else "range, XABSL")
 
 
+def describe_declaration(declaration: Declaration | None) -> str:
+    """Describe type, unit, range, value and arguments, then the description."""
+    if declaration is None:
+        return ""
+    arguments, range_ = declaration.arguments, declaration.range
+    parts = (
+        format_arguments(arguments) if arguments is not None else "",
+        declaration.type,
+        declaration.unit,
+        f"{number_text.format_number(range_[0])} to {number_text.format_number(range_[1])}" if range_ else "",
+        f"= {declaration.initial}" if declaration.initial else "",
+    )
+    summary = ", ".join(part for part in parts if part)
+    return ": ".join(part for part in (summary, declaration.doc) if part)
+
+
 def format_arguments(arguments: tuple[Declaration, ...]) -> str:
     return f"arguments {', '.join(argument.name for argument in arguments)}" if arguments else "no arguments"
 

@@ -24,6 +24,7 @@ from vicode.editor.panels.fields import (
     state_names,
 )
 from vicode.editor.panels.form import Form, Rows
+from vicode.editor.panels.interface_lists import commands_list, inputs_list
 from vicode.editor.panels.project.project_form import project_form
 from vicode.editor.panels.widgets import add_button, heading, icon_button, panel_title
 from vicode.editor.panels.window_context import WindowContext
@@ -43,6 +44,8 @@ def design_panel(form: Form) -> None:
     design = form.item()
     panel_title("Component", form.context.design.component)
     attribute_field(form, design, DOC)
+    inputs_list(form)
+    commands_list(form)
     attribute_field(form, design, FREQUENCY)
     choice_field(form, attribute_binding(design, _INITIAL), state_names)
     attribute_field(form, design, _RESUME)

@@ -1,13 +1,89 @@
 """Edits that add inputs and commands: a declaration in project.yaml, and the use of its component in a design."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from vicode.editor.session import texts
 from vicode.model.design import Declaration, Design, Use
 from vicode.model.edits import unique_name
-from vicode.model.names import snake_case
+from vicode.model.expressions import BOOL, FLOAT, INT
+from vicode.model.names import is_valid_name, snake_case
 from vicode.model.project import MISSING, Interface, Project
 
 _SENSORS = "Sensors"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfaceEdit:
+    """An edit of a design and project.yaml, or the error message."""
+
+    label: str = ""
+    error: str = ""
+    change_design: Callable[[Design], Design] = lambda design: design
+    change_project: Callable[[Project], Project] = lambda project: project
+
+
+def add_input(project: Project, design: Design, name: str, type_: str) -> InterfaceEdit:
+    """Declare an output of a component without an implementation, and use the component in the design."""
+    place = place_input(project, design)
+    interface = project.interface(place.component)
+    error = _validate_name(name, "input", interface is not None and _has_declaration(interface, name))
+    if error:
+        return InterfaceEdit(error=error)
+    output = Declaration(name=name, type=type_)
+    return InterfaceEdit(
+        label=f"add input {name}",
+        change_design=place.add_use,
+        change_project=lambda old: place.add_output(old, output),
+    )
+
+
+def add_command(project: Project, design: Design, name: str, parameters: str) -> InterfaceEdit:
+    """Declare a component without an implementation, and use it in the design.
+
+    Args:
+        project: The project.
+        design: The design.
+        name: The name of the component, or an alias such as `walk`.
+        parameters: Names separated by commas, each with an optional type: `speed, turn: int`.
+    """
+    component = name[:1].upper() + name[1:]
+    declarations = tuple(_parse_parameter(part) for part in parameters.split(",") if part.strip())
+    errors = [_validate_name(component, "component", component in shared_names(project))]
+    errors += [
+        _validate_name(item.name, "parameter", item.name in {other.name for other in declarations[:index]})
+        for index, item in enumerate(declarations)
+    ]
+    if error := next(filter(None, errors), ""):
+        return InterfaceEdit(error=error)
+    added = Interface(component=component, parameters=declarations)
+    return InterfaceEdit(
+        label=f"add command {component}",
+        change_design=use_under_free_alias(project, design, component).add_use,
+        change_project=lambda old: replace(old, components=(*old.components, added)),
+    )
+
+
+def type_names(project: Project) -> list[str]:
+    """The types that a declaration can have."""
+    return [BOOL, INT, FLOAT, *(enumeration.name for enumeration in project.enumerations)]
+
+
+def _parse_parameter(text: str) -> Declaration:
+    name, _colon, type_ = text.partition(":")
+    return Declaration(name=name.strip(), type=type_.strip() or FLOAT)
+
+
+def _validate_name(name: str, kind: str, is_taken: bool) -> str:
+    if not name:
+        return texts.NAME_MISSING
+    if not is_valid_name(name):
+        return texts.invalid_identifier(name)
+    return texts.name_exists(kind, name) if is_taken else ""
+
+
+def _has_declaration(interface: Interface, name: str) -> bool:
+    return any(each.name == name for each in (*interface.readable, *interface.parameters))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,4 +136,4 @@ def shared_names(project: Project) -> set[str]:
 
 def _may_hold_inputs(interface: Interface) -> bool:
     """Whether the component is not implemented and does not only take commands."""
-    return interface.implementation == MISSING and (bool(interface.outputs) or not interface.parameters)
+    return interface.implementation == MISSING and (bool(interface.outputs) or interface.component == _SENSORS)

@@ -150,7 +150,7 @@ def invalid_identifier(name: str) -> str:
 
 
 def name_exists(kind: str, name: str) -> str:
-    return f"there is already {'an' if kind[0] in 'aeo' else 'a'} {kind} {name}"
+    return f"there is already {'an' if kind[0] in 'aeio' else 'a'} {kind} {name}"
 
 
 def alias_exists(name: str) -> str:

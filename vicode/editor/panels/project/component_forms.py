@@ -5,7 +5,7 @@ from collections.abc import Callable
 from nicegui import ui
 
 from vicode.editor.panels.collapsible import collapsible_section
-from vicode.editor.panels.declarations import format_arguments
+from vicode.editor.panels.declarations import describe_declaration
 from vicode.editor.panels.fields import DOC, FREQUENCY, XABSL_NAME, Attribute, FieldKind, choice_field
 from vicode.editor.panels.form import Form, ItemRows
 from vicode.editor.panels.project.declaration_forms import add_buttons, declaration_form, form_group, show_write_error
@@ -19,10 +19,8 @@ from vicode.editor.panels.project.project_fields import (
 )
 from vicode.editor.panels.widgets import add_button, heading
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import number_text
 from vicode.editor.session.item_paths import TrackedItem
 from vicode.editor.session.project_edits import add_declaration
-from vicode.model.design import Declaration
 
 TITLE = Attribute(label="Title", name="title", kind=FieldKind.TEXT)
 _IMPLEMENTATION = Attribute(
@@ -46,9 +44,14 @@ def component_form(form: Form, node: TrackedItem, *, alias: str = "") -> None:
                 project_text_field(form, node, attribute)
     for section, title, hint in _SECTIONS:
         heading(title, hint=f"{hint} as {alias}.…" if alias and section != "parameters" else hint)
-        ItemRows(form, node, section, _declaration)
-        with ui.row().classes("adders"):
-            add_button("Add", f"Add {section.removesuffix('s')}", _adder(form.context, node, section))
+        ItemRows(form, node, section, declaration_row)
+        declaration_adder(form.context, node, section)
+
+
+def declaration_adder(context: WindowContext, node: TrackedItem, section: str) -> None:
+    """Build the button that adds a declaration to a section of a component."""
+    with ui.row().classes("adders"):
+        add_button("Add", f"Add {section.removesuffix('s')}", _adder(context, node, section))
 
 
 def _adder(context: WindowContext, node: TrackedItem, section: str) -> Callable[[], None]:
@@ -57,31 +60,16 @@ def _adder(context: WindowContext, node: TrackedItem, section: str) -> Callable[
     )
 
 
-def _declaration(form: Form, node: TrackedItem) -> None:
+def declaration_row(form: Form, node: TrackedItem, prefix: str = "") -> None:
+    """Build the collapsible form of a declaration; `prefix` precedes its name in the title."""
     section = collapsible_section(
         form,
-        f"project {node_path(node).steps} whole",
-        lambda: node_name(node),
-        lambda: _about(node.get()),
+        f"project {node_path(node).steps} whole {prefix}",
+        lambda: prefix + node_name(node),
+        lambda: describe_declaration(node.get()),
         lambda: declaration_form(form, node),
     )
     section.classes("declaration-more declared-line")
-
-
-def _about(declaration: Declaration | None) -> str:
-    """Describe type, unit, range, value and arguments, then the description."""
-    if declaration is None:
-        return ""
-    arguments, range_ = declaration.arguments, declaration.range
-    parts = (
-        format_arguments(arguments) if arguments is not None else "",
-        declaration.type,
-        declaration.unit,
-        f"{number_text.format_number(range_[0])} to {number_text.format_number(range_[1])}" if range_ else "",
-        f"= {declaration.initial}" if declaration.initial else "",
-    )
-    summary = ", ".join(part for part in parts if part)
-    return ": ".join(part for part in (summary, declaration.doc) if part)
 
 
 def agent_form(form: Form, node: TrackedItem) -> None:
