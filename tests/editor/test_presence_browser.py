@@ -54,6 +54,31 @@ def test_people_see_each_other(editor: str, page: Page, other: Page) -> None:
     expect(page.locator(".outline")).to_have_count(0)
 
 
+def test_a_browser_is_one_person(editor: str, page: Page, second_window: Page) -> None:
+    open_player(page, editor)
+    # Another program at this host sets the cookie of its sessions, which has the same name.
+    page.context.add_cookies([{"name": "session", "value": "another", "url": editor}])
+    open_player(second_window, editor)
+    create_state(second_window, "Pause")
+    expect(state(page, "Pause")).to_be_visible()
+    page.get_by_role("button", name="Undo").click()
+    expect(state(second_window, "Pause")).to_have_count(0)
+    expect(page.get_by_role("group", name="Connected users").locator(".person")).to_have_count(1)
+
+
+def test_windows_that_open_together_are_one_person(editor: str, page: Page, second_window: Page) -> None:
+    open_player(page, editor)
+    # The request of the second window is sent before the first one has an id.
+    cookie = next(each for each in page.context.cookies() if each.get("name") == "vicode_browser")
+    page.context.clear_cookies()
+    second_window.add_init_script(f"document.cookie = 'vicode_browser={cookie.get('value')}; path=/'")
+    open_player(second_window, editor)
+    create_state(second_window, "Pause")
+    expect(state(page, "Pause")).to_be_visible()
+    page.get_by_role("button", name="Undo").click()
+    expect(state(second_window, "Pause")).to_have_count(0)
+
+
 def test_undo_takes_back_ones_own_work_only(editor: str, page: Page, other: Page) -> None:
     open_player(page, editor)
     open_player(other, editor)
@@ -68,13 +93,12 @@ def test_undo_takes_back_ones_own_work_only(editor: str, page: Page, other: Page
     select_state(page, "LookForBall")
     expect(page.get_by_role("textbox", name="Description")).to_have_value("theirs")
 
-    # Ben's edit came last: this undo takes the name, then the state, out below it.
-    page.get_by_role("button", name="Undo").click()
+    # Ben's edit came last: this undo takes the state out below it.
     page.get_by_role("button", name="Undo").click()
     expect(state(other, "Pause")).to_have_count(0)
     expect(page.get_by_role("textbox", name="Description")).to_have_value("theirs")
     page.get_by_role("button", name="Redo").click()
-    expect(state(other, "State")).to_be_visible()
+    expect(state(other, "Pause")).to_be_visible()
 
     # What Ben changed since is not undone, and it is said.
     page.get_by_role("textbox", name="Description").fill("mine")

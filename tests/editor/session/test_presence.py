@@ -25,6 +25,20 @@ def test_users_are_guests_until_they_choose_a_name() -> None:
     assert users.name_of("nobody") == "someone"
 
 
+def test_two_guests_have_two_names() -> None:
+    users = UserDirectory()
+    for id_, name in (("1", ""), ("2", "Guest 3"), ("3", "")):
+        users.get_or_create_user(id_, name)
+    users.get_or_create_user("1", "Ada")
+    users.get_or_create_user("4")
+    names = [users.name_of(id_) for id_ in "1234"]
+    assert names == ["Ada", "Guest 3", "Guest 2", "Guest 1"]
+    for number in range(1200):
+        users.get_or_create_user(f"many {number}")
+    recent = [users.name_of(f"many {number}") for number in range(300, 1200)]
+    assert len(set(recent)) == len(recent)
+
+
 def test_presences_are_listed_and_changes_are_notified() -> None:
     users, room = UserDirectory(), PresenceRoom()
     counts: list[int] = []

@@ -1,6 +1,7 @@
 """Presence: the users of the editor, and what each of their windows selects and edits."""
 
 from dataclasses import dataclass, field, replace
+from itertools import count
 from typing import Any
 
 from vicode.editor.session.subscribers import Subscribers
@@ -49,12 +50,16 @@ class UserDirectory:
         if known is None:
             if len(self._known) >= _MAX_USERS:
                 self._known.pop(next(iter(self._known)))
-            number = len(self._known) + 1
-            known = User(id=id_, name=wanted or f"Guest {number}", colour=(number - 1) % COLOUR_COUNT)
+            guest = self._first_free_guest_name()
+            known = User(id=id_, name=wanted or guest, colour=len(self._known) % COLOUR_COUNT)
         elif wanted:
             known = replace(known, name=wanted)
         self._known[id_] = known
         return known
+
+    def _first_free_guest_name(self) -> str:
+        taken = {user.name for user in self._known.values()}
+        return next(name for name in (f"Guest {number}" for number in count(1)) if name not in taken)
 
     def name_of(self, id_: str) -> str:
         """The name of a user in a sentence."""
