@@ -1,12 +1,19 @@
 """Output files: compares them with a folder and writes them atomically."""
 
+import errno
+import fcntl
 import os
+import re
 import shutil
-from collections.abc import Callable, Iterable
+import stat
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from difflib import unified_diff
 from enum import StrEnum
 from pathlib import Path
+
+_TEMPORARY = re.compile(r"\..+\.[0-9a-f]{8}\.tmp")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -107,10 +114,10 @@ def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = Tru
     target = path.resolve()
     temporary = target.with_name(f".{target.name}.{os.urandom(4).hex()}.tmp")
     try:
-        _write_new(temporary, content.encode("utf-8") if isinstance(content, str) else content, is_durable=is_durable)
-        if target.exists():
-            temporary.chmod(target.stat().st_mode & 0o777)
-        temporary.replace(target)
+        with _write_new(temporary, content.encode("utf-8") if isinstance(content, str) else content, is_durable):
+            if target.exists():
+                temporary.chmod(target.stat().st_mode & 0o777)
+            temporary.replace(target)
     except OSError as error:
         temporary.unlink(missing_ok=True)
         if error.errno is None:
@@ -121,13 +128,28 @@ def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = Tru
         raise
 
 
-def _write_new(file: Path, content: bytes, *, is_durable: bool) -> None:
+@contextmanager
+def _write_new(file: Path, content: bytes, is_durable: bool) -> Iterator[None]:
+    """Write a file; while it is open, its lock keeps `remove_leftovers` from removing it."""
     descriptor = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
     with os.fdopen(descriptor, "wb") as stream:
+        with suppress(OSError):
+            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
         stream.write(content)
         stream.flush()
         if is_durable:
             os.fsync(stream.fileno())
+        yield
+
+
+def remove_leftovers(folder: Path) -> None:
+    """Remove the temporary files in a folder that killed programs left."""
+    for file in folder.glob(".*.tmp"):
+        with suppress(OSError):
+            if _TEMPORARY.fullmatch(file.name) and file.is_file() and not file.is_symlink():
+                with file.open("rb") as stream:
+                    fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                    file.unlink()
 
 
 def _compare_one(path: str, new: str, old: str | None) -> FileDiff:
@@ -138,8 +160,15 @@ def _compare_one(path: str, new: str, old: str | None) -> FileDiff:
 
 
 def _read(path: Path) -> str | None:
-    """The text with line feeds as line breaks, None if the file does not exist. Invalid UTF-8 bytes are escaped."""
+    """The text with line feeds as line breaks, None if the file does not exist. Invalid UTF-8 bytes are escaped.
+
+    Raises:
+        OSError: It cannot be read, or is a pipe or device, which might block.
+    """
     try:
+        mode = path.stat().st_mode
+        if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+            raise OSError(errno.EINVAL, "it is not a regular file", str(path))
         return path.read_text(encoding="utf-8", errors="backslashreplace")
     except (FileNotFoundError, IsADirectoryError, NotADirectoryError):
         return None

@@ -1,13 +1,14 @@
 """Files against a folder: new, changed, unchanged, stale; written whole or not at all."""
 
 import errno
+import fcntl
 import os
 from pathlib import Path
 
 import pytest
 
 from vicode import output
-from vicode.output import FileStatus, OutputFile
+from vicode.output import FileStatus, OutputFile, remove_leftovers
 
 HEADER = "# Ours.\n"
 
@@ -99,3 +100,20 @@ def test_a_write_keeps_permissions_and_follows_links(tmp_path: Path) -> None:
     output.write_atomically(link, "new")
     assert link.is_symlink()
     assert (file.read_text(), file.stat().st_mode & 0o777) == ("new", 0o640)
+
+
+def test_a_pipe_in_the_output_folder_is_reported_not_opened(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "a.py")
+    with pytest.raises(OSError, match="not a regular file"):
+        output.compare_files([OutputFile(path="a.py", text="x")], tmp_path)
+
+
+def test_leftovers_are_removed_but_not_files_being_written(tmp_path: Path) -> None:
+    left, held = tmp_path / ".a.py.01234567.tmp", tmp_path / ".b.py.89abcdef.tmp"
+    for file in (left, held, tmp_path / ".c.tmp", tmp_path / "d.01234567.tmp"):
+        file.write_text("half")
+    with held.open() as stream:
+        fcntl.flock(stream, fcntl.LOCK_EX)
+        remove_leftovers(tmp_path)
+    assert not left.exists()
+    assert len(list(tmp_path.iterdir())) == 3

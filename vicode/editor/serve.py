@@ -5,6 +5,7 @@ import asyncio
 import gc
 import os
 import secrets
+import signal
 import socket
 import tempfile
 from dataclasses import dataclass
@@ -68,16 +69,16 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
     from nicegui import app, background_tasks, ui
     from starlette.middleware.gzip import GZipMiddleware
 
+    from vicode.editor.connection_limits import LimitedHttpProtocol
     from vicode.editor.gc_policy import GcPolicy
     from vicode.editor.pages.routes import register_pages
     from vicode.editor.session import Library
     from vicode.editor.session.autosave import AutosaveService
     from vicode.editor.session.recovery import open_recovery_store
-    from vicode.model.python_parser import serialize_calls
 
-    # NiceGUI 3.18 parses props with it; CPython must not parse in two threads at once: see `model.python_parser`.
-    ast.literal_eval = serialize_calls(ast.literal_eval)
     library = Library(path)
+    library.remove_leftovers()
+    _prepare_process()
     start = address.page_url(_first_page(library))
     register_pages(library, AutosaveService(library, open_recovery_store()), tour=tour)
     _add_access_control(app, address)
@@ -100,10 +101,29 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
         reconnect_timeout=60,
         storage_secret=secrets.token_urlsafe(32),
         uvicorn_logging_level="warning",
+        http=LimitedHttpProtocol,
         # Compression for local connections costs more time than it saves: 0.2 s per page load.
         gzip_middleware_factory=GZipMiddleware if address.token else None,
         ws_per_message_deflate=bool(address.token),
     )
+
+
+def _prepare_process() -> None:
+    from vicode.editor.connection_limits import raise_file_limit
+    from vicode.editor.malformed_messages import shorten_socket_errors
+    from vicode.model.python_parser import serialize_calls
+
+    # NiceGUI 3.18 parses props with it; CPython must not parse in two threads at once: see `model.python_parser`.
+    ast.literal_eval = serialize_calls(ast.literal_eval)
+    raise_file_limit()
+    shorten_socket_errors()
+    _end_on_hangup()
+
+
+def _end_on_hangup() -> None:
+    """End as for SIGTERM, which saves, when the terminal is closed; not if SIGHUP is ignored, as by nohup."""
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, lambda _number, _frame: os.kill(os.getpid(), signal.SIGTERM))
 
 
 def _add_access_control(app: "App", address: ServerAddress) -> None:

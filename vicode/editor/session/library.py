@@ -6,6 +6,7 @@ from pathlib import Path
 from vicode.editor.session.overview import ProjectOverview
 from vicode.editor.session.presence import UserDirectory
 from vicode.editor.session.workspace import Workspace
+from vicode.output import remove_leftovers
 from vicode.samples import DEFAULT_SAMPLE, copy_sample
 from vicode.store import find_projects
 
@@ -35,6 +36,13 @@ class Library:
         if not self.workspaces:
             self.workspaces.append(Workspace(self.folder, _key(self.folder, self.folder), self.users))
         return self.workspaces[0]
+
+    def remove_leftovers(self) -> None:
+        """Remove the temporary files that a killed editor left beside designs and generated files."""
+        for workspace in self.workspaces:
+            generated = (workspace.output_folder, *workspace.output_folder.rglob("*/"))
+            for folder in {workspace.folder, *(file.parent for file in workspace.files.values()), *generated}:
+                remove_leftovers(folder)
 
     def add_sample(self) -> Workspace:
         """Copy the default sample into the opened folder and return its project.
