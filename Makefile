@@ -14,7 +14,7 @@ PYTHON = $(shell for name in python3 python3.14 python3.13 python3.12 python3.11
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help edit test fast check nightly bench gen clean chromium
+.PHONY: help edit test fast check nightly versions bench gen clean chromium
 
 help:  ## list these commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-8s  %s\n", $$1, $$2}' Makefile
@@ -35,12 +35,15 @@ check: $(VENV)/.ready-dev  ## format, lint, types, architecture, fast tests (two
 	$(BIN)/lint-imports
 	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
 
-nightly: $(VENV)/.ready-test chromium  ## the long runs: kills, fuzzing, many more examples, the browser tests 20 times, and over a slow line
+nightly: $(VENV)/.ready-test chromium versions  ## the long runs: fuzzing, other Pythons and versions, the browser tests 20 times
 	@VICODE_HYPOTHESIS=nightly $(PYTEST) $(PARALLEL) --timeout 3600 -m "nightly or hypothesis"
 	@failed=0; for run in $$(seq 20); do echo "Browser tests, run $$run of 20:"; \
 		VICODE_ONE_TRY=1 $(PYTEST) $(PARALLEL) -m "browser and not nightly" || failed=1; done; \
 		echo "Browser tests, up to 120 ms for each message:"; \
 		VICODE_LINE_MS=120 VICODE_ONE_TRY=1 $(PYTEST) $(PARALLEL) -m "browser and not nightly" || failed=1; exit $$failed
+
+versions: $(VENV)/.ready-nightly  ## pass the fast tests with the lowest allowed versions and on each Python
+	@.ci/versions
 
 bench: $(VENV)/.ready-bench  ## measure against a hand-written machine and other libraries
 	@$(BIN)/python -m benchmarks

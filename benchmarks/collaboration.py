@@ -84,7 +84,6 @@ class Client:
         self.scene: dict[str, Any] = {}
         self.last: tuple[int, int] | None = None
         self.loaded = asyncio.Event()
-        self.renames = asyncio.Event()
         self.rev = 0
 
     async def connect(self) -> None:
@@ -116,10 +115,8 @@ class Client:
                 return
 
     async def create_own_state(self) -> None:
-        """Make the state that this window moves, and name it."""
-        await self._gesture({"kind": "create", "x": 0, "y": 0})
-        await asyncio.wait_for(self.renames.wait(), 60)
-        await self._gesture({"kind": "rename", "item": {"of": "states", "id": self.created_state}, "name": self.name})
+        """Create the state that this window moves."""
+        await self._gesture({"kind": "create", "x": 0, "y": 0, "name": self.name})
 
     async def move_state_repeatedly(self, until_s: float) -> None:
         """Move the own state now and then."""
@@ -154,9 +151,6 @@ class Client:
         self.log.last_event_s = now_s
         if "presence.show" in code:
             await self._emit("presencePainted", {})
-        if "renameInPlace" in code:
-            self.created_state = re.findall(r"State\d*", code)[-1]
-            self.renames.set()
         revs = re.findall(r'"rev":(\d+)', code)
         self.rev = int(revs[-1]) if revs else self.rev
         if '"load"' in code:
