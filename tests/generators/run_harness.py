@@ -71,8 +71,8 @@ components:
     outputs: {{ready: {{type: bool}}, level: {{type: float}}, where: {{type: Side}}}}
   Sensors:
     parameters: {{power: 3}}
-    outputs: {{order_given: {{type: bool}}, near: {{type: bool, arguments: {{limit: {{type: float}}}}}}}}
-    variables: {{side: {{type: Side}}}}
+    outputs: {{order_given: bool, near: {{type: bool, arguments: {{limit: {{type: float}}}}}}}}
+    variables: {{side: Side}}
   Arm:
     implementation: parts_{name}:Arm
     parameters: {{reach: {{type: float, default: patience * 4}}, fast: {{type: bool}}, side: {{type: Side}}, lift: 7}}

@@ -49,6 +49,10 @@ def _look(edit: Callable[[State], State]) -> Callable[[Design], Design]:
     return lambda design: replace(design, states=(edit(design.states[0]), *design.states[1:]))
 
 
+def _with_variable(design: Design, *, type: str = "", initial: str = "") -> Design:  # noqa: A002
+    return replace(design, variables=(Declaration(name="tries", type=type, initial=initial),))
+
+
 def _run(text: str) -> RunCode:
     return RunCode(code=Code(texts=(("python", text),)))
 
@@ -56,6 +60,14 @@ def _run(text: str) -> RunCode:
 @pytest.mark.parametrize(
     ("edit", "old", "new"),
     [
+        (
+            lambda design: replace(design, variables=(*design.variables, Declaration(name="lost", type="bool"))),
+            "  tries: 0\n",
+            "  tries: 0\n  lost: bool\n",
+        ),
+        (lambda design: _with_variable(design, type="float"), "tries: 0", "tries: float"),
+        (lambda design: _with_variable(design, type="Side"), "tries: 0", "tries: {type: Side}"),
+        (lambda design: _with_variable(design, initial="float"), "tries: 0", "tries: {initial: float}"),
         (lambda design: replace(design, doc="new"), 'doc: "quoted"   #', 'doc: "new"      #'),
         (lambda design: replace(design, doc=""), 'doc: "quoted"   # beside\n', ""),
         (
@@ -112,6 +124,11 @@ def _run(text: str) -> RunCode:
 def test_an_edit_uses_the_notation_of_the_file(edit: Callable[[Design], Design], old: str, new: str) -> None:
     assert TEXT.count(old) == 1
     assert _edited(edit) == TEXT.replace(old, new)
+
+
+def test_a_type_alone_becomes_a_value_in_place() -> None:
+    text = TEXT.replace("tries: 0", "tries: int  # so far")
+    assert "  tries: 3    # so far\n" in _edited(lambda design: _with_variable(design, initial="3"), text)
 
 
 def test_unread_parts_are_kept() -> None:

@@ -19,6 +19,7 @@ from vicode.model.expressions import (
     OutputRef,
     Scope,
     Variable,
+    is_type_only,
     parse_expression,
     walk,
 )
@@ -97,7 +98,7 @@ def parse_expressions(
 
 def parse_initial_values(declaration: Declaration, path: DesignPath, scope: Scope) -> Iterator[TypedExpression]:
     """Yield the initial value of a declaration and the defaults of its arguments."""
-    if declaration.initial:
+    if declaration.initial and not is_type_only(declaration, scope):
         key = {"parameters": "default", "constants": "value", "arguments": "default"}.get(str(path[-2]), "initial")
         yield _parse(ExpressionSite.INITIAL_VALUE, (*path, key), declaration.initial, scope, receiver=declaration)
     for argument in declaration.arguments or ():

@@ -82,8 +82,8 @@ def _evaluate_declarations(
 def evaluate_initial_value(
     text: str, type_: str, scope: Scope, constants: Mapping[str, ConstantValue]
 ) -> ConstantValue | None:
-    """Evaluate an expression. An empty one is false, 0 or the first element. Return None if the value is unknown."""
-    if not text:
+    """Evaluate an expression. Without a value it is false, 0 or the first element. Return None if it is unknown."""
+    if not text or text in scope.enumerations:
         return zero_value(type_, scope)
     parsed = parse_expression(text, scope, type_)
     return None if parsed.tree is None or parsed.diagnostics else evaluate(parsed.tree, constants)

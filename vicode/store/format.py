@@ -70,9 +70,10 @@ _FREQUENCY = KeySchema("frequency", FREQUENCY, "frequency in Hz; default: runs o
 def _declaration(name: str, value_key: str, meaning: str, *more: KeySchema) -> RecordSchema:
     return RecordSchema(
         name=name,
-        description=f"a declaration, or just its {value_key} value",
+        description=f"a declaration, or just its type or {value_key} value",
         model=Declaration,
         shorthand_key=value_key,
+        shorthand_words=dict.fromkeys(("bool", "int", "float"), "type"),
         flow_width=FLOW_WIDTH,
         synonyms={word: value_key for word in ("default", "initial", "value") if word != value_key},
         keys=(

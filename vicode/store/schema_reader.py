@@ -185,7 +185,7 @@ class SchemaReader:
         )
 
     def _read_record(self, node: YamlNode, schema: RecordSchema, path: DesignPath, key: YamlNode | None) -> TypedNode:
-        short = schema.find_key(schema.shorthand_key) if schema.shorthand_key else None
+        short = schema.find_shorthand(node.text if isinstance(node, YamlScalar) else "")
         if short and not _is_full_notation(node, short) and not (isinstance(node, YamlScalar) and node.is_empty):
             inner = self.read(node, short.schema, (*path, short.name))
             return TypedNode(

@@ -115,6 +115,7 @@ class RecordSchema:
     Attributes:
         shorthand_key: A value that is not a mapping is the value of this key. If the value of this key is a mapping
             itself, this also applies to mappings without this key.
+        shorthand_words: Scalars that are the value of another key than `shorthand_key`.
         model: Class of the model, if there are no variants.
         variants: Class of the model by the key that selects it; exactly one of these keys must be given.
         nested: Classes by the fields of the model that hold them.
@@ -131,6 +132,7 @@ class RecordSchema:
     variants: Mapping[str, type] = field(default_factory=dict)
     nested: Mapping[str, type] = field(default_factory=dict)
     shorthand_key: str = ""
+    shorthand_words: Mapping[str, str] = field(default_factory=dict)
     missing_message: tuple[str, str] = ("", "")
     dependent_keys: tuple[tuple[str, str], ...] = ()
     synonyms: Mapping[str, str] = field(default_factory=dict)
@@ -142,6 +144,10 @@ class RecordSchema:
 
     def find_key(self, name: str) -> KeySchema | None:
         return next((key for key in self.keys if key.name == name), None)
+
+    def find_shorthand(self, text: str) -> KeySchema | None:
+        """Return the key whose value a scalar is; None if the record has no short form."""
+        return self.find_key(self.shorthand_words.get(text, self.shorthand_key))
 
 
 ValueSchema = ScalarSchema | PairSchema | ListSchema | MapSchema | RecordSchema

@@ -189,9 +189,9 @@ class TargetBuilder:
         self, schema: RecordSchema, data: FormatValue, old: TypedNode | None, *, in_flow: bool
     ) -> TargetNode:
         values = dict(cast("tuple[tuple[str, FormatValue], ...]", data))
-        short = schema.find_key(schema.shorthand_key) if schema.shorthand_key else None
-        if short and _fits_shorthand(short, values) and (old is None or old.notation is YamlNotation.SHORTHAND):
-            inner = old.children[short.name] if old is not None else None
+        short = _fitting_shorthand(schema, values)
+        if short and (old is None or old.notation is YamlNotation.SHORTHAND):
+            inner = old.children.get(short.name) if old is not None else None
             return self.build(short.schema, values[short.name], inner, in_flow=in_flow)
         if old is None or old.notation is not YamlNotation.FULL or isinstance(old.node, YamlScalar):
             members = [self._new_pair(schema, key, values[key.name]) for key in schema.keys if key.name in values]
@@ -286,12 +286,18 @@ def _single_item_value(schema: ListSchema, items: tuple[FormatValue, ...]) -> Fo
     return None if is_blank else pairs[0][1]
 
 
-def _fits_shorthand(short: KeySchema, values: dict[str, FormatValue]) -> bool:
-    if list(values) != [short.name]:
-        return False
-    if isinstance(short.schema, MapSchema):
-        return short.name not in dict(cast("tuple[tuple[str, FormatValue], ...]", values[short.name]))
-    return True
+def _fitting_shorthand(schema: RecordSchema, values: dict[str, FormatValue]) -> KeySchema | None:
+    """The key whose value is the short form of a record; None if the record must be written in full."""
+    if len(values) != 1:
+        return None
+    ((name, value),) = values.items()
+    short = schema.find_shorthand(value.strip() if isinstance(value, str) else "")
+    if short is None or short.name != name:
+        return None
+    is_ambiguous = isinstance(short.schema, MapSchema) and name in dict(
+        cast("tuple[tuple[str, FormatValue], ...]", value)
+    )
+    return None if is_ambiguous else short
 
 
 def _reject_duplicate_names(pairs: tuple[tuple[str, FormatValue], ...]) -> None:

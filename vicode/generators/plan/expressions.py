@@ -23,6 +23,7 @@ from vicode.model.expressions import (
     OutputRef,
     Scope,
     Ternary,
+    is_type_only,
     parse_expression,
     walk,
 )
@@ -99,7 +100,7 @@ def _converted_arguments(reference: OutputRef, scope: Scope) -> tuple[tuple[str,
 def initial_value(declaration: Declaration, scope: Scope) -> Expr:
     """Return the initial value of a declaration; the default is false, 0 or the first element."""
     type_ = scope.type_of(declaration)
-    if declaration.initial:
+    if declaration.initial and not is_type_only(declaration, scope):
         return typed_tree(declaration.initial, scope, type_)
     if type_ == UNKNOWN:
         raise UnsoundDesignError(f"'{declaration.name}' has an unknown type")

@@ -2,7 +2,14 @@
 
 from vicode.model.expressions.functions import FUNCTIONS, BuiltinFunction
 from vicode.model.expressions.parse import ExpressionDiagnostic, ParsedExpression, parse_expression
-from vicode.model.expressions.scope import Scope, ScopeSymbol, ScopeSymbolKind, build_scope, infer_declaration_type
+from vicode.model.expressions.scope import (
+    Scope,
+    ScopeSymbol,
+    ScopeSymbolKind,
+    build_scope,
+    infer_declaration_type,
+    is_type_only,
+)
 from vicode.model.expressions.tree import (
     BOOL,
     FLOAT,
@@ -59,6 +66,7 @@ __all__ = [
     "build_scope",
     "children",
     "infer_declaration_type",
+    "is_type_only",
     "parse_expression",
     "walk",
 ]

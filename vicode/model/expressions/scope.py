@@ -84,6 +84,11 @@ def _build_scope(
     return Scope(symbols=symbols, uses=dict(uses), enumerations=elements)
 
 
+def is_type_only(declaration: Declaration, scope: Scope) -> bool:
+    """Whether a declaration without a type has the name of an enumeration in place of its value."""
+    return not declaration.type and declaration.initial in scope.enumerations
+
+
 _LITERAL_TYPES = (
     (re.compile(r"\s*[+-]?\d+\s*\Z"), INT),
     (re.compile(r"\s*(True|False|true|false)\s*\Z"), BOOL),
@@ -95,7 +100,8 @@ _ELEMENT = re.compile(r"\s*([A-Za-z]\w*)\s*\.\s*[A-Za-z_]\w*\s*\Z", re.ASCII)
 def infer_declaration_type(declaration: Declaration, enumerations: Mapping[str, tuple[str, ...]]) -> str:
     """Return the declared type, or infer it from `initial`; the default is float.
 
-    Return UNKNOWN for an undeclared type.
+    Return UNKNOWN for an undeclared type. Without a type, `initial` may be the name of an enumeration: the short form
+    `side: Side` declares only a type.
     """
     if declaration.type:
         known = declaration.type in (BOOL, INT, FLOAT) or declaration.type in enumerations
@@ -103,6 +109,8 @@ def infer_declaration_type(declaration: Declaration, enumerations: Mapping[str, 
     for pattern, type_ in _LITERAL_TYPES:
         if pattern.match(declaration.initial):
             return type_
+    if declaration.initial in enumerations:
+        return declaration.initial
     element = _ELEMENT.match(declaration.initial)
     if element and element.group(1) in enumerations:
         return element.group(1)

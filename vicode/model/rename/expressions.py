@@ -39,7 +39,8 @@ def _is_reference(word: _Identifier, rename: ReferenceRename) -> bool:
         case ReferenceKind.ALIAS:
             return not word.is_behind_dot and (word.after == "." or word.inside == "done")
         case ReferenceKind.ENUMERATION:
-            return not word.is_behind_dot and word.after == "."
+            # An enumeration alone is the type of a declaration in its short form.
+            return not word.is_behind_dot and word.after in ("", ".")
         case ReferenceKind.MEMBER | ReferenceKind.ELEMENT:
             return word.is_behind_dot and word.before == rename.owner
         case ReferenceKind.ARGUMENT:
