@@ -169,3 +169,14 @@ def test_an_observed_component_calls_again_with_the_same_mistake() -> None:
         places.append(root.errors)
     assert places[0] == places[1]
     assert len(places[1]) == 1
+
+
+def test_integers_that_python_does_not_print_are_recorded() -> None:
+    class Counter(Component):
+        def __init__(self, root: Root) -> None:
+            super().__init__(root)
+            self.total = 10**5000
+
+    observer = Observer(values=True)
+    Root(Counter, clock=SimulatedClock(), observer=observer).step()
+    assert f'"total": "{hex(10**5000)}"' in json.dumps(observer.records)

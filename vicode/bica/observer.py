@@ -20,6 +20,7 @@ TRACE_HEADER = {"vicode-trace": 1, "runtime": "bica"}
 """The first line of a trace: the version of the form and the writer."""
 
 _MAX_ERRORS = 20
+_MAX_INT_BITS = 1024
 
 ActivationLink = Literal["root", "requires", "modulates"]
 
@@ -143,6 +144,9 @@ def to_json_value(value: object) -> Any:
         return f"{type(value).__name__}.{value.name}"
     if isinstance(value, float) and not math.isfinite(value):
         return str(value)
+    if isinstance(value, int) and value.bit_length() > _MAX_INT_BITS:
+        # Python refuses to write long integers in decimal.
+        return hex(value)
     if value is None or isinstance(value, bool | int | float | str):
         return value
     return type(value).__name__

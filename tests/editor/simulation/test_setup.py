@@ -106,3 +106,11 @@ def test_breakpoints_are_removed_with_their_items(lamps: Path) -> None:
     kept = ItemRef(kind="transitions", id="@common/0")
     gone = ItemRef(kind="transitions", id="Dark/7")
     assert Breakpoints(items=frozenset({kept, gone})).existing_in(design).items == {kept}
+
+
+def test_the_default_period_fits_the_frequencies(lamps: Path) -> None:
+    assert prepare_lamp(lamps).setup.tick_ns == 20_000_000
+    timer = lamps / "timer.yaml"
+    timer.write_text(timer.read_text(encoding="utf-8") + "frequency: 15\n", encoding="utf-8")
+    assert prepare_lamp(lamps).setup.tick_ns == 16_666_667
+    assert prepare_lamp(lamps, tick_ms=5.0).setup.tick_ns == 5_000_000

@@ -50,7 +50,9 @@ class InputSourceForm:
         self.pick.classes("trace-pick").on("click", js_handler=f"() => runMethod({self.upload.id}, 'pickFiles', [])")
         with ui.expansion("Run options").classes("section run-options").props("dense dense-toggle"):
             self.seed = ui.number("Seed of the world", value=0, precision=0, on_change=self._set_numbers)
-            self.tick = ui.number("Period", value=20, min=1, max=3_600_000, on_change=self._set_numbers)
+            self.tick = ui.number(
+                "Period", placeholder="fits the frequencies", min=1, max=3_600_000, on_change=self._set_numbers
+            )
             self.tick.props("suffix=ms")
             for box in (self.seed, self.tick):
                 box.props("dense outlined stack-label").classes("field")
@@ -97,9 +99,9 @@ class InputSourceForm:
 
     def _set_numbers(self) -> None:
         seed, tick = self.seed.value, self.tick.value
-        if not isinstance(seed, int | float) or not isinstance(tick, int | float) or not 1 <= tick <= 3_600_000:
+        if not isinstance(seed, int | float) or (tick is not None and not 1 <= tick <= 3_600_000):
             return
-        self.controller.set_config(replace(self.controller.config, seed=int(seed), tick_ms=float(tick)))
+        self.controller.set_config(replace(self.controller.config, seed=int(seed), tick_ms=tick))
 
     async def _handle_upload(self, event: UploadEventArguments) -> None:
         # The browser may send more than it announced.

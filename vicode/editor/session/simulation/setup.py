@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from vicode.bica.tick import choose_tick_ns
 from vicode.check import check_project
 from vicode.editor.session.simulation.inputs import SimulationInput, collect_inputs, input_types, make_stub
 from vicode.editor.view import transition_key
@@ -22,11 +23,13 @@ class NotReadyError(Exception):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunConfig:
-    """How to simulate: the stubbed components (None: all hand-written ones), the seed of the world, the period."""
+    """How to simulate: the stubbed components (None: all hand-written ones), the seed of the world, the time between
+    iterations (None: fits the frequencies).
+    """
 
     stubbed: frozenset[str] | None = None
     seed: int = 0
-    tick_ms: float = 20.0
+    tick_ms: float | None = None
     limit_s: float = 2.0
     memory_bytes: int = 1 << 30
 
@@ -104,11 +107,18 @@ def prepare_run(
         parameter_types=tuple((each.name, types[each.key]) for each in inputs if not each.component),
         world=project.world if runs_by_hand else "",
         seed=config.seed,
-        tick_ns=round(config.tick_ms * 1e6),
+        tick_ns=round(config.tick_ms * 1e6) if config.tick_ms else _fitting_tick_ns(whole, design),
         limit_s=config.limit_s,
         memory_bytes=config.memory_bytes,
     )
     return PreparedRun(design=design, files=(*files, probes), setup=setup, inputs=inputs)
+
+
+def _fitting_tick_ns(project: Project, design: Design) -> int:
+    """The tick of `vicode run`."""
+    names = {design.component, *used_components(project, design)}
+    declared: list[Design | Interface] = [*project.designs, *project.components]
+    return choose_tick_ns(each.frequency_hz for each in declared if each.frequency_hz and each.component in names)
 
 
 def with_decision_ids(design: Design) -> Design:
