@@ -177,7 +177,8 @@ def test_a_page_is_dark_before_anything_has_loaded(editor: str, page: Page, cons
 def test_chosen_colours_are_kept(editor: str, page: Page) -> None:
     page.emulate_media(color_scheme="light")
     open_player(page, editor)
-    page.get_by_role("button", name="Theme").click()
+    page.get_by_role("button", name="View", exact=True).click()
+    page.get_by_role("menuitem", name="Theme").click()
     expect(page.locator("body.body--dark")).to_be_attached()
     page.wait_for_function("document.cookie.includes('vicode_colours=dark')")
     page.reload()

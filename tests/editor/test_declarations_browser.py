@@ -121,11 +121,11 @@ def test_a_new_name_that_others_say_is_written_everywhere(editor: str, page: Pag
 def test_what_few_need_stands_in_folds(editor: str, page: Page, project: Path) -> None:
     open_design(page, editor, "Player?select=Kick")
     page.get_by_text("Team and XABSL").click()
-    capacity = page.get_by_label("Capacity (robots in this state at once)")
+    capacity = page.get_by_label("Capacity (robots at once)")
     capacity.fill("many")
     expect(page.get_by_text("enter a whole number of robots")).to_be_visible()
     capacity.fill("1")
-    page.get_by_label("Synchronized (robots that enter together)").fill("2")
+    page.get_by_label("Synchronized (robots)").fill("2")
     page.get_by_label("Name in XABSL").fill("strike")
     # A form that is built anew keeps its folds open.
     page.get_by_label("State", exact=True).fill("Strike")

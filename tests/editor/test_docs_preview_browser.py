@@ -14,7 +14,8 @@ def test_the_page_of_a_design_follows_what_is_edited(editor: str, page: Page, pr
     open_player(page, editor)
     select_state(page, "Kick")
     with page.context.expect_page() as opened:
-        page.get_by_role("button", name="Open documentation").click()
+        page.get_by_role("button", name="View", exact=True).click()
+        page.get_by_role("menuitem", name="Open documentation").click()
     shown = opened.value
     expect(shown.locator("#state-Kick")).to_be_in_viewport()
     assert shown.url.endswith("/docs/forward/component-Player.html#state-Kick")

@@ -51,7 +51,11 @@ class DesignPage:
         user = identify_user(library.users)
         session = DocumentSession(document.shared, user.id)
         self.context = context = WindowContext(
-            workspace=workspace, document=session, client=ui.context.client, page=self
+            workspace=workspace,
+            document=session,
+            client=ui.context.client,
+            page=self,
+            open_sections=library.users.open_sections(user.id),
         )
         theme = Theme(context.code_editors, apply_theme())
         findings = FindingNavigator(context)

@@ -3,6 +3,7 @@
 import contextlib
 
 from nicegui import ui
+from nicegui.translations import translations
 from starlette.requests import Request
 
 from vicode.editor.pages import texts
@@ -25,6 +26,9 @@ def register_pages(library: Library, autosave: AutosaveService | None = None, *,
     if autosave is not None:
         run_autosave(autosave)
 
+    translations["en-US"].update(
+        connection_lost=texts.CONNECTION_LOST, trying_to_reconnect=texts.CONNECTION_LOST_EFFECT
+    )
     serve_thumbnails(library)
     serve_docs_preview(library)
 

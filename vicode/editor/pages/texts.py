@@ -14,6 +14,12 @@ MAYBE_REMOVED = "It may have been renamed or removed."
 MAYBE_FIXED = "It may have been fixed or removed."
 MAYBE_IN_UNREADABLE_FILE = "It may be in a file that cannot be read:"
 
+CONNECTION_LOST = "No connection to the editor"
+CONNECTION_LOST_EFFECT = (
+    "Trying to reconnect. The editor keeps what you changed so far, saved or not, also if it is restarted. "
+    "What you change now may be lost."
+)
+
 ITEM_MISSING = "This item no longer exists"
 ONLY_PROJECT_COMPONENTS = "Only other components of this project can be added"
 NO_CONFLICT = "No conflict to resolve"

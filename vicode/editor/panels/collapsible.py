@@ -21,10 +21,21 @@ _SCROLL_INTO_VIEW = """
 
 
 def collapsible_section(
-    form: Form, key: str, title: Callable[[], str], caption: Callable[[], str], build: Callable[[], object]
+    form: Form,
+    key: str,
+    title: Callable[[], str],
+    caption: Callable[[], str],
+    build: Callable[[], object],
+    *,
+    is_shared: bool = False,
 ) -> ui.expansion:
-    """Build a section; `caption` summarizes its content, `key` identifies it within the design."""
+    """Build a section.
+
+    `caption` summarizes its content. `key` identifies it within the design; a shared section is open in all designs or
+    in none.
+    """
     context = form.context
+    key = key if is_shared else f"{context.design.component}/{key}"
     built: list[bool] = []
 
     def fill() -> None:

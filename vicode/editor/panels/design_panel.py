@@ -44,11 +44,12 @@ def design_panel(form: Form) -> None:
     design = form.item()
     panel_title("Component", form.context.design.component)
     attribute_field(form, design, DOC)
+    with ui.element("div").classes("field-row"):
+        choice_field(form, attribute_binding(design, _INITIAL), state_names)
+        attribute_field(form, design, FREQUENCY)
+    attribute_field(form, design, _RESUME)
     inputs_list(form)
     commands_list(form)
-    attribute_field(form, design, FREQUENCY)
-    choice_field(form, attribute_binding(design, _INITIAL), state_names)
-    attribute_field(form, design, _RESUME)
     _xabsl(form, design)
     heading("Uses", hint="components this design requires or modulates")
     _uses(form)
@@ -74,7 +75,7 @@ def _xabsl(form: Form, item: TrackedItem) -> None:
             choice_field(form, attribute_binding(item, attribute), _list_options(options)).element.props("clearable")
             ui.label(attribute.help).classes("empty")
 
-    collapsible_section(form, "xabsl", lambda: "XABSL", caption, build)
+    collapsible_section(form, "xabsl", lambda: "XABSL", caption, build, is_shared=True)
 
 
 def _list_options(options: Sequence[str]) -> ListOptions:
@@ -92,7 +93,7 @@ def _code(form: Form, design: TrackedItem) -> None:
         for name in ("module", "members"):
             code_field(form, code_binding(design, name.capitalize(), name))
 
-    collapsible_section(form, "code", lambda: "Code", caption, build)
+    collapsible_section(form, "code", lambda: "Code", caption, build, is_shared=True)
 
 
 def common_panel(form: Form) -> None:

@@ -316,7 +316,10 @@ def state_names(design: Design) -> list[str]:
 
 
 def checkbox_field(form: Form, binding: FieldBinding) -> Field:
-    return add_field(form, Field(form.context, binding, ui.checkbox(binding.label).props("dense")))
+    element = ui.checkbox(binding.label).props("dense")
+    if binding.hint:
+        element.tooltip(binding.hint)
+    return add_field(form, Field(form.context, binding, element))
 
 
 def set_enabled(element: DisableableElement, *, flag: bool) -> None:

@@ -13,7 +13,8 @@ from vicode.editor.panels.widgets import icon_button, primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.view.page_urls import design_url
 
-_ICONS = ("find", "undo", "redo", "lay-out", "links", "page", "theme", "help")
+_ICONS = ("find", "undo", "redo")
+_VIEW_MENU = ("table", "links", "page", "theme", "tour", "help")
 
 
 class Header:
@@ -33,7 +34,9 @@ class Header:
         self.presence_bar = PresenceBar(context)
         self.buttons = {name: _icon(named[name]) for name in _ICONS}
         save, generate = named["save"], named["generate"]
-        ui.button(save.label, icon=save.icon, on_click=save.handler).props("flat no-caps dense").classes("head-button")
+        _labeled(named["lay-out"])
+        _build_menu([named[name] for name in _VIEW_MENU])
+        _labeled(save)
         primary_button(generate.label, generate.handler, icon=generate.icon)
 
     def _build_breadcrumbs(self, trail: Sequence[str]) -> None:
@@ -67,6 +70,29 @@ class Header:
 
 def _icon(command: Command) -> ui.button:
     return icon_button(command.icon, command.label, command.handler, keys=" or ".join(command.keys))
+
+
+def _labeled(command: Command) -> ui.button:
+    button = ui.button(command.label, icon=command.icon, on_click=command.handler, color=None).props(
+        "flat no-caps dense"
+    )
+    # Narrow windows hide the label.
+    button.props["aria-label"] = command.label
+    return button.classes("head-button")
+
+
+def _build_menu(commands: Sequence[Command]) -> None:
+    with (
+        ui.button("View", icon="visibility", color=None)
+        .props("flat no-caps dense aria-label=View aria-haspopup=menu")
+        .classes("head-button"),
+        ui.menu().props("auto-close"),
+    ):
+        for command in commands:
+            with ui.menu_item(on_click=command.handler).props("role=menuitem").classes("view-item"):
+                ui.icon(command.icon)
+                ui.label(command.label)
+                ui.label(" or ".join(command.keys)).classes("small")
 
 
 def _separator() -> None:

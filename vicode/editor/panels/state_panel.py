@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+from nicegui import ui
+
 from vicode.editor.panels import texts
 from vicode.editor.panels.actions_panel import (
     actions_panel,
@@ -32,8 +34,8 @@ from vicode.model.design import Call, Design, State
 
 _NAME = Attribute(label="State", name="name")
 _FLAGS = (
-    Attribute(label="Final (the component is done)", name="final", kind=FieldKind.CHECKBOX),
-    Attribute(label="Disabled (not generated)", name="disabled", kind=FieldKind.CHECKBOX),
+    Attribute(label="Final", name="final", kind=FieldKind.CHECKBOX, hint="The component is done in this state"),
+    Attribute(label="Disabled", name="disabled", kind=FieldKind.CHECKBOX, hint="Not generated"),
 )
 
 
@@ -50,8 +52,8 @@ def _count(label: str, name: str, hint: str, help_text: str) -> Attribute:
 
 
 _TEAM = (
-    _count("Capacity (robots in this state at once)", "capacity", "no limit", texts.CAPACITY_HELP),
-    _count("Synchronized (robots that enter together)", "synchronized", "not synchronized", texts.SYNCHRONIZED_HELP),
+    _count("Capacity (robots at once)", "capacity", "no limit", texts.CAPACITY_HELP),
+    _count("Synchronized (robots)", "synchronized", "not synchronized", texts.SYNCHRONIZED_HELP),
     XABSL_NAME,
 )
 _REQUIRES = Attribute(label="Components", name="requires", format=list, parse=tuple)
@@ -68,15 +70,19 @@ def state_panel(form: Form, name: str) -> None:
     panel_title("State", name, is_visually_hidden=True)
     name_field(form, attribute_binding(item, _NAME), node_renamer(form.context, "states"))
     attribute_field(form, item, DOC)
-    _initial(form, item)
-    for attribute in _FLAGS:
-        attribute_field(form, item, attribute)
-
-    def build_team() -> None:
-        for attribute in _TEAM:
+    with ui.element("div").classes("field-row"):
+        _initial(form, item)
+        for attribute in _FLAGS:
             attribute_field(form, item, attribute)
 
-    collapsible_section(form, f"team {name}", lambda: "Team and XABSL", lambda: _team_caption(item.get()), build_team)
+    def build_team() -> None:
+        with ui.element("div").classes("field-row"):
+            for attribute in _TEAM:
+                attribute_field(form, item, attribute)
+
+    collapsible_section(
+        form, "team", lambda: "Team and XABSL", lambda: _team_caption(item.get()), build_team, is_shared=True
+    )
     heading("Requires", hint="updated before this state runs")
     choice_field(form, attribute_binding(item, _REQUIRES), _aliases, multiple=True)
     heading("Modulates", hint="controlled by this state")

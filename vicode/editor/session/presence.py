@@ -42,6 +42,7 @@ class UserDirectory:
     """All users since the start of the server, under chosen names or names such as "Guest 2"."""
 
     _known: dict[str, User] = field(default_factory=dict)
+    _open_sections: dict[str, set[str]] = field(default_factory=dict)
 
     def get_or_create_user(self, id_: str, name: str = "") -> User:
         """The user of an id, renamed if `name` is given."""
@@ -49,7 +50,9 @@ class UserDirectory:
         known = self._known.get(id_)
         if known is None:
             if len(self._known) >= _MAX_USERS:
-                self._known.pop(next(iter(self._known)))
+                oldest = next(iter(self._known))
+                self._known.pop(oldest)
+                self._open_sections.pop(oldest, None)
             guest = self._first_free_guest_name()
             known = User(id=id_, name=wanted or guest, colour=len(self._known) % COLOUR_COUNT)
         elif wanted:
@@ -60,6 +63,10 @@ class UserDirectory:
     def _first_free_guest_name(self) -> str:
         taken = {user.name for user in self._known.values()}
         return next(name for name in (f"Guest {number}" for number in count(1)) if name not in taken)
+
+    def open_sections(self, id_: str) -> set[str]:
+        """The keys of the sections of forms that a user left open."""
+        return self._open_sections.setdefault(id_, set())
 
     def name_of(self, id_: str) -> str:
         """The name of a user in a sentence."""

@@ -85,7 +85,10 @@ def project_form(form: Form) -> None:
         root = context.design.component
         _adder(context, "Agent", lambda project: project_edits.add_agent(project, root))
 
-    collapsible_section(form, "project", lambda: f"Project {context.workspace.project.name}", caption, build)
+    def title() -> str:
+        return f"Project {context.workspace.project.name}"
+
+    collapsible_section(form, "project", title, caption, build, is_shared=True)
 
 
 def _adder(context: WindowContext, kind: str, change: Callable[[Project], Project]) -> None:
