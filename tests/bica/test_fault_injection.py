@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vicode.bica import Component, ComponentError, ErrorRecord, Root, SimulatedClock, State
+from vicode.bica import Component, ComponentError, ErrorRecord, Observer, Root, SimulatedClock, State
 
 SECOND_NS = 1_000_000_000
 HOUR_NS = 3600 * SECOND_NS
@@ -145,12 +145,14 @@ def fail_to_log(_record: ErrorRecord) -> None:
     make_error=st.sampled_from(ERRORS),
     stream=st.sampled_from(STREAMS),
     on_error=st.sampled_from(("continue", fail_to_log)),
+    observer=st.one_of(st.none(), st.builds(Observer, values=st.just(True))),
 )
-def test_no_exception_clock_or_stream_stops_the_components(steps, make_error, stream, on_error) -> None:  # type: ignore[no-untyped-def]
+def test_no_exception_clock_or_stream_stops_the_components(steps, make_error, stream, on_error, observer) -> None:  # type: ignore[no-untyped-def]
     clock, faults = SetClock(), Faults(make_error())
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sys, "stderr", make_stream(stream))
-        root = Root(Walker, clock=clock, world=faults, on_error=on_error)
+        root = Root(Walker, clock=clock, world=faults, on_error=on_error, observer=observer)
+        root.measure = observer is not None
         walker, eyes, expected = root.component(Walker), root.component(Eyes), Expected()
         for points, jump_ns in steps:
             faults.points = points
@@ -162,6 +164,8 @@ def test_no_exception_clock_or_stream_stops_the_components(steps, make_error, st
             assert (walker.acted_in == root.iteration) == expected.acts
             assert eyes.times_ns == expected.eyes_ns
     assert root.errors.total() == faults.raised
+    if observer is not None:
+        assert sum(len(record["errors"]) for record in observer.records) == faults.raised
 
 
 class Expected:
