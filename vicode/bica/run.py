@@ -13,7 +13,7 @@ from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, Literal, TextIO
 
 from .clock import PacedClock, SimulatedClock
 from .errors import ComponentError, CyclicUseError, print_error
@@ -65,7 +65,9 @@ def _open_missing_streams() -> None:
 def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[Root, _RecordWriter]:
     component_class = load_component(options.component)
     try:
-        trace = Path(options.trace).open("w", encoding="utf-8") if options.trace else None  # noqa: SIM115 - by the writer
+        # An open descriptor, such as the standard output, keeps what is there.
+        mode: Literal["a", "w"] = "a" if str(options.trace).startswith("/dev/fd/") else "w"
+        trace = Path(options.trace).open(mode, encoding="utf-8") if options.trace else None  # noqa: SIM115 - by the writer
         writer = _RecordWriter(trace=trace, options=options)
         files.callback(writer.close_trace)
         writer.write_trace(TRACE_HEADER)

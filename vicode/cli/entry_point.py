@@ -1,7 +1,9 @@
 """Entry point of the command line: parses arguments, runs the command, returns the exit code."""
 
 import argparse
+import codecs
 import gc
+import io
 import os
 import sys
 from collections.abc import Sequence
@@ -12,11 +14,13 @@ from vicode.cli.console import describe_os_error
 
 COMMANDS = ("edit", "gen", "check", "docs", "run", "sample", "export", "import", "schema", "xabsl")
 _BATCH_COMMANDS = ("gen", "check")
-EXIT_OK, EXIT_FINDINGS, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 2, 130
+EXIT_OK, EXIT_FINDINGS, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_PIPE_CLOSED = 0, 1, 2, 130, 141
+_ASCII = {"→": "->", "…": "...", "×": "x", "–": "-", "·": "-"}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
+    _make_streams_lenient()
     words = sys.argv[1:] if arguments is None else arguments
     # A command is parsed without the modules of the others, which are slow to import.
     parsed = _make_parser(words[:1] if words and words[0] in COMMANDS else COMMANDS).parse_args(words)
@@ -33,18 +37,34 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         # The reader closed the pipe; keep the final flush of the interpreter from failing, too.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return EXIT_FAILED
+        return EXIT_PIPE_CLOSED
     except OSError as error:
         print(f"vicode: {describe_os_error(error)}", file=sys.stderr)
         return EXIT_FAILED
     return code
 
 
+def _make_streams_lenient() -> None:
+    """Replace characters that the encoding of the output does not have, instead of failing."""
+    codecs.register_error("vicode", _replace_unencodable)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper) and stream.errors == "strict":
+            stream.reconfigure(errors="vicode")
+
+
+def _replace_unencodable(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    text = error.object[error.start : error.end]
+    return "".join(_ASCII.get(char) or char.encode("ascii", "backslashreplace").decode() for char in text), error.end
+
+
 def _make_parser(names: Sequence[str]) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="vicode",
         description="Edit, check, and run state machines for robots, and generate code from them.",
-        epilog="Exit codes: 0 success, 1 findings or outdated files, 2 the command could not run.",
+        epilog="Exit codes: 0 success, 1 findings or outdated files, 2 the command could not run, "
+        "141 the output was closed, as by head.",
     )
     parser.add_argument("--version", action="version", version=f"vicode {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)

@@ -1,9 +1,12 @@
 """Run a component and show its state changes."""
 
 import argparse
+import contextlib
+import os
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--ticks", type=options.count, metavar="N", help="stop after N iterations")
     add("--seed", type=int, default=0, metavar="N", help="random seed of the world (default: %(default)s)")
-    add("--trace", metavar="FILE", help="write a trace (docs/traces.md) to FILE")
+    add("--trace", metavar="FILE", help="write a trace (docs/traces.md) to FILE; - is the standard output")
     add("--values", action="store_true", help="include outputs and variables in the trace, for replay in the editor")
     add("--real-time", action="store_true", help="run in real time instead of as fast as possible")
     add(
@@ -67,7 +70,21 @@ def run(args: argparse.Namespace) -> int:
     print_findings((each for each in opened.findings if each.rule.code in _UNPROVIDED), to_stderr=True)
     with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
         class_path = _generate(opened, component, Path(folder))
-        return _run_process(_command(opened, class_path, folder, args), is_plain=args.plain)
+        if args.trace != "-":
+            return _run_process(_command(opened, class_path, folder, args), is_plain=args.plain)
+        with _duplicate_stdout() as descriptor, contextlib.redirect_stdout(sys.stderr):
+            args.trace = f"/dev/fd/{descriptor}"
+            return _run_process(_command(opened, class_path, folder, args), is_plain=True, kept=(descriptor,))
+
+
+@contextlib.contextmanager
+def _duplicate_stdout() -> Iterator[int]:
+    """A descriptor of the standard output, which the child writes the trace to."""
+    descriptor = os.dup(sys.stdout.fileno())
+    try:
+        yield descriptor
+    finally:
+        os.close(descriptor)
 
 
 def _root_component(opened: LoadedProject) -> str | None:
@@ -105,7 +122,7 @@ def _command(opened: LoadedProject, class_path: str, folder: str, args: argparse
     return command + [name for name, is_given in flags.items() if is_given]
 
 
-def _run_process(command: list[str], *, is_plain: bool) -> int:
+def _run_process(command: list[str], *, is_plain: bool, kept: tuple[int, ...] = ()) -> int:
     from vicode.cli.trace_output import PlainTracePrinter, follow_process
     from vicode.simulation.environment import fresh_environment
 
@@ -121,6 +138,7 @@ def _run_process(command: list[str], *, is_plain: bool) -> int:
         errors="replace",
         env=fresh_environment(),
         start_new_session=True,
+        pass_fds=kept,
     )
     watcher: TracePrinter = PlainTracePrinter()
     if is_live:

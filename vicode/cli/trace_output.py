@@ -3,9 +3,11 @@
 import contextlib
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
+import textwrap
 import threading
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -111,7 +113,7 @@ def describe_summary(summary: TraceRecord) -> str:
     passed = f"{summary['time_ns'] / 1e9:.2f} s in {summary['iterations']} iterations"
     lines = ["", f"{passed}, stopped: {summary['stopped']}, last state: {summary['state'] or '-'}"]
     if summary.get("world") is not None:
-        lines.append(f"world: {describe_world(summary['world'])}")
+        lines += _wrap(f"world: {describe_world(summary['world'])}")
     times: Mapping[str, TraceRecord] = summary.get("cycle_times") or {}
     if times:
         width = max(len(name) for name in times)
@@ -125,6 +127,13 @@ def describe_summary(summary: TraceRecord) -> str:
         lines.append(f"overruns: {summary['overruns']} iterations took longer than the tick of {tick}")
     lines.append(f"errors: {summary['errors']}")
     return "\n".join(lines) + "\n"
+
+
+def _wrap(line: str) -> list[str]:
+    """Wrap a line at the width of the terminal, if the output is one."""
+    if not sys.stdout.isatty():
+        return [line]
+    return textwrap.wrap(line, shutil.get_terminal_size().columns, subsequent_indent="       ")
 
 
 @dataclass(slots=True)

@@ -17,7 +17,9 @@ def shorten_socket_errors() -> None:
 
 
 def shorten_record(record: logging.LogRecord) -> bool:
-    """Replace the traceback if a message could not be decoded; keeps each record."""
+    """Replace the traceback if a message could not be decoded; drop the one that uvicorn logs for a second Ctrl-C."""
+    if record.name == "uvicorn.error" and "KeyboardInterrupt" in str(record.msg):
+        return False
     error = record.exc_info[1] if record.exc_info else None
     if error is not None and _is_decoding_error(error):
         record.msg = f"Malformed message from a browser: {type(error).__name__}: {str(error)[:200]!r}"

@@ -2,6 +2,7 @@
 
 import ast
 import asyncio
+import atexit
 import gc
 import os
 import secrets
@@ -80,7 +81,10 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
     library.remove_leftovers()
     _prepare_process()
     start = address.page_url(_first_page(library))
-    register_pages(library, AutosaveService(library, open_recovery_store()), tour=tour)
+    autosave = AutosaveService(library, open_recovery_store())
+    # A second Ctrl-C skips the shutdown of the server.
+    atexit.register(autosave.close)
+    register_pages(library, autosave, tour=tour)
     _add_access_control(app, address)
     # Quasar's loading bar is a landmark without a name, and useless here: all traffic uses one socket.
     app.config.quasar_config.update({"loadingBar": {"skipHijack": True}, "ripple": False})
