@@ -118,7 +118,8 @@ class Component:
                 for component in current.requires:
                     component.step()
             now_ns = root.now_ns
-            if now_ns - self._worked_ns >= self._period_ns:
+            period_ns = self._period_ns
+            if not period_ns or now_ns - self._worked_ns >= period_ns:
                 self._worked_ns = now_ns
                 if self._called:
                     self._called = []
