@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from nicegui import App
 
     from vicode.editor.session import Library
+    from vicode.editor.session.autosave import AutosaveService
 
 STORAGE_VARIABLE = "NICEGUI_STORAGE_PATH"
 
@@ -74,17 +75,12 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
     from vicode.editor.gc_policy import GcPolicy
     from vicode.editor.pages.routes import register_pages
     from vicode.editor.session import Library
-    from vicode.editor.session.autosave import AutosaveService
-    from vicode.editor.session.recovery import open_recovery_store
 
     library = Library(path)
     library.remove_leftovers()
     _prepare_process()
     start = address.page_url(_first_page(library))
-    autosave = AutosaveService(library, open_recovery_store())
-    # A second Ctrl-C skips the shutdown of the server.
-    atexit.register(autosave.close)
-    register_pages(library, autosave, tour=tour)
+    register_pages(library, _start_autosave(library), tour=tour)
     _add_access_control(app, address)
     # Quasar's loading bar is a landmark without a name, and useless here: all traffic uses one socket.
     app.config.quasar_config.update({"loadingBar": {"skipHijack": True}, "ripple": False})
@@ -110,6 +106,16 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
         gzip_middleware_factory=GZipMiddleware if address.token else None,
         ws_per_message_deflate=bool(address.token),
     )
+
+
+def _start_autosave(library: "Library") -> "AutosaveService":
+    from vicode.editor.session.autosave import AutosaveService
+    from vicode.editor.session.recovery import open_recovery_store
+
+    autosave = AutosaveService(library, open_recovery_store())
+    # A second Ctrl-C skips the shutdown of the server.
+    atexit.register(autosave.close)
+    return autosave
 
 
 def _prepare_process() -> None:
