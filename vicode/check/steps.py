@@ -1,16 +1,19 @@
-"""Rules for stepping components in an iteration: stepped twice, or read but never stepped."""
+"""Rules for stepping components in an iteration: stepped twice, or read but not stepped."""
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import replace
 from functools import cache, partial
 from itertools import combinations
 
 from vicode.check.context import RuleContext
 from vicode.check.graphs import StepSite
+from vicode.check.typed_expressions import TypedExpression
 from vicode.findings import Finding, Note
 from vicode.model.design import COMMON, Use
 from vicode.model.expressions import Done, OutputRef, walk
 
+_MAX_NAMES = 4
 SharedDescendants = Callable[[str, str], frozenset[str]]
 
 
@@ -78,26 +81,68 @@ def _has_frequency(context: RuleContext, component: str) -> bool:
     return interface is None or bool(interface.frequency_hz)
 
 
-def find_never_stepped(context: RuleContext) -> Iterator[Finding]:
-    """D426: an output of a component that neither the design, its code nor a stepped component steps."""
-    stepped = {step.component for step in context.steps} | _stepped_by_code(context)
-    for component in tuple(stepped):
-        stepped |= context.graphs.transitive_steps(component)
-    idle = {use.alias: use.component for use in context.design.uses if _is_idle(context, use, stepped)}
-    if not idle:
+def find_unstepped_reads(context: RuleContext) -> Iterator[Finding]:
+    """D426: an output that is read in a state in which nothing steps its component.
+
+    Only the states count in which neither the state, the common actions, code nor a stepped component steps it.
+    """
+    always = {step.component for step in context.steps if step.state == COMMON} | _stepped_by_code(context)
+    stepped = {
+        state.name: _with_descendants(context, always.union(_stepped_in(context, state.name)))
+        for state in context.design.states
+        if not state.disabled
+    }
+    needing = {use.alias: use.component for use in context.design.uses if _needs_steps(context, use)}
+    if not needing:
         return
     for expression in context.expressions:
+        states = _reading_states(expression, stepped)
         for node in walk(expression.tree) if expression.tree is not None else ():
-            if isinstance(node, OutputRef | Done) and node.alias in idle:
-                message = f"'{node.alias}' is read, but {idle[node.alias]} is never stepped"
-                fix = f"add requires: [{node.alias}] to the states that read it"
-                yield context.make_finding("D426", expression.path, message, fix, span=node.span)
+            if isinstance(node, OutputRef | Done) and node.alias in needing:
+                component = needing[node.alias]
+                idle = [state for state in states if component not in stepped[state]]
+                # A common transition may test done(x) in all states, of which some do not call x.
+                if idle and not (isinstance(node, Done) and len(idle) < len(states)):
+                    yield _report_unstepped_read(context, expression, node, component, idle)
 
 
-def _is_idle(context: RuleContext, use: Use, stepped: Collection[str]) -> bool:
-    """Return whether the component needs steps, but is not stepped."""
-    if use.component in stepped:
-        return False
+def _report_unstepped_read(
+    context: RuleContext, expression: TypedExpression, node: OutputRef | Done, component: str, idle: list[str]
+) -> Finding:
+    alias, where = node.alias, ", ".join(idle[:_MAX_NAMES]) + (", …" if len(idle) > _MAX_NAMES else "")
+    if any(step.component == component for step in context.steps):
+        message = f"'{alias}' is read in {where}, but nothing steps {component} there"
+    else:
+        message = f"'{alias}' is read, but {component} is never stepped"
+    fix = f"add requires: [{alias}] to {where}"
+    finding = context.make_finding("D426", expression.path, message, fix, span=node.span)
+    return replace(finding, name=alias)
+
+
+def _reading_states(expression: TypedExpression, states: Collection[str]) -> list[str]:
+    """The states that evaluate an expression after the components that they require were stepped.
+
+    `enter` is excluded: it may use the values of the previous state.
+    """
+    match expression.path:
+        case ("common", *_):
+            return list(states)
+        case ("states", str(name), str(phase), *_) if phase != "enter" and name in states:
+            return [name]
+        case _:
+            return []
+
+
+def _stepped_in(context: RuleContext, state: str) -> set[str]:
+    return {step.component for step in context.steps if step.state == state}
+
+
+def _with_descendants(context: RuleContext, components: Collection[str]) -> frozenset[str]:
+    return frozenset(components).union(*(context.graphs.transitive_steps(each) for each in components))
+
+
+def _needs_steps(context: RuleContext, use: Use) -> bool:
+    """Return whether the outputs of a component change only when it is stepped."""
     interface = context.project.interface(use.component)
     return interface is None or not interface.is_generated or context.project.design(use.component) is not None
 
@@ -110,4 +155,4 @@ def _stepped_by_code(context: RuleContext) -> set[str]:
     return {component for component, call in calls if any(map(call.search, texts))}
 
 
-RULES = (find_stepped_twice, find_never_stepped)
+RULES = (find_stepped_twice, find_unstepped_reads)

@@ -92,7 +92,7 @@ _RECORDS = (
     ("D423", "shadowed-transition", Severity.WARNING, "transition that is never tested"),
     ("D424", "unused-declaration", Severity.WARNING, "unused declaration"),
     ("D425", "stepped-twice", Severity.WARNING, "component stepped twice in an iteration"),
-    ("D426", "never-stepped", Severity.WARNING, "output read from a component that is never stepped"),
+    ("D426", "not-stepped", Severity.WARNING, "output read where nothing steps its component"),
     ("D427", "outside-range", Severity.WARNING, "value outside the declared range"),
     ("D428", "unused-use", Severity.WARNING, "unused alias in uses"),
     ("D430", "no-effect", Severity.NOTE, "transition from a state to itself"),

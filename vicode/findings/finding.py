@@ -47,6 +47,7 @@ class Finding:
     """A violation of a rule.
 
     `message` describes the problem, `fix` how to fix it. A finding with `languages` prevents generation of only those.
+    `name` is the name that quick fixes use.
     """
 
     rule: Rule
@@ -56,6 +57,7 @@ class Finding:
     location: SourceLocation | None = None
     notes: tuple[Note, ...] = ()
     languages: tuple[str, ...] = ()
+    name: str = ""
 
     def applies_to(self, language: str) -> bool:
         return not self.languages or language in self.languages

@@ -71,6 +71,7 @@ class RunHost:
         for stub in self._stubs:
             # Calls made while guards were inspected do not belong to the iteration.
             stub.drain_calls()
+            stub.hold_outputs()
         world = self._root.world
         advance = getattr(world, "advance", None)
         if advance is not None:

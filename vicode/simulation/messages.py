@@ -32,10 +32,14 @@ class StubOutput:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stub:
-    """A component whose outputs are set by the user."""
+    """A component whose outputs are set by the user.
+
+    They change when the component is stepped, or at once if `is_live`: the outputs of a generated class need no steps.
+    """
 
     component: str
     outputs: tuple[StubOutput, ...] = ()
+    is_live: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -205,7 +209,7 @@ def decode_setup(line: bytes) -> Setup:
     plain = _parse(line)
     try:
         stubs = tuple(
-            Stub(component=each["component"], outputs=tuple(StubOutput(**output) for output in each["outputs"]))
+            Stub(**{**each, "outputs": tuple(StubOutput(**output) for output in each["outputs"])})
             for each in plain.pop("stubs")
         )
         functions = tuple((alias, tuple(names)) for alias, names in plain.pop("functions"))

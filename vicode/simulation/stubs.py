@@ -20,22 +20,33 @@ Enumerations = Mapping[str, type[Enum]]
 
 
 class StubComponent(Component):
-    """Holds its outputs and ignores its parameters."""
+    """Holds its outputs and ignores its parameters.
+
+    As in a run, its outputs change only when it is stepped. The values that it will then have are shown in advance if
+    it was stepped in the last iteration.
+    """
 
     stub: Stub
 
     def __init__(self, root: Root) -> None:
         super().__init__(root)
-        self._is_done = False
         self._enumerations: Enumerations = {}
         self._calls: list[dict[str, Any]] = []
+        initial = {output.name: output.value for output in self.stub.outputs}
+        self._given: dict[str, Any] = {**initial, DONE: False}
+        self._held = self._shown = self._given
 
     def modulate(self, **_parameters: Any) -> None:
         """Accept any parameters; they appear in the trace."""
 
     @property
     def is_done(self) -> bool:
-        return self._is_done
+        return self._shown[DONE] is True and self.root.iteration - self._stepped_in <= 1
+
+    def work(self) -> None:
+        """Take over the values that the user set."""
+        self._held = self._given
+        self._show(self._held)
 
     def set_initial_values(self, enumerations: Enumerations) -> None:
         """Set the initial values; enumerations are known only after the package is loaded."""
@@ -45,11 +56,22 @@ class StubComponent(Component):
 
     def set_outputs(self, values: Mapping[str, Any]) -> None:
         """Set outputs by name; unknown names are ignored."""
-        if DONE in values:
-            self._is_done = bool(values[DONE])
-        for output in self.stub.outputs:
-            if output.name in values:
-                self._set(output, values[output.name])
+        self._given = {**self._given, **{name: value for name, value in values.items() if name in self._given}}
+        if self.stub.is_live:
+            self._held = self._given
+        if self.stub.is_live or self._stepped_in >= self.root.iteration or not self.root.iteration:
+            self._show(self._given)
+
+    def hold_outputs(self) -> None:
+        """Return to the values of the last step, before an iteration."""
+        self._show(self._held)
+
+    def _show(self, values: dict[str, Any]) -> None:
+        if values is not self._shown:
+            before, self._shown = self._shown, values
+            for output in self.stub.outputs:
+                if values[output.name] != before[output.name]:
+                    self._set(output, values[output.name])
 
     def drain_calls(self) -> list[dict[str, Any]]:
         """Return the calls of functions since the last call."""

@@ -158,7 +158,8 @@ def test_parameters_and_stubbed_designs_can_be_set(lamps: Path) -> None:
         assert simulation.shown_iteration is not None
         assert simulation.shown_iteration.tree[0]["values"]["patience"] == 1.5
         await simulation.set_input(("Timer", "is_done"), True)
-        await simulation.step()
+        # The state calls the timer after the decision, so its value is read in the next iteration.
+        await simulation.step(2)
         assert simulation.shown_iteration.transition == "Lit/1"
 
     simulate(prepare_lamp(lamps, stubbed=frozenset({"Eye", "Bulb", "Timer"})), lamps, act)

@@ -72,9 +72,8 @@ def fix_misplaced_call(case: FixContext) -> list[Fix]:
 
 def fix_missing_requirement(case: FixContext) -> list[Fix]:
     """D426: the state requires the component that it reads."""
-    name, span = case.state_name(), case.finding.subject.span if case.finding.subject else None
-    alias = case.finding.message.split("'")[1]
-    if not name or span is None:
+    name, alias = case.state_name(), case.finding.name
+    if not name:
         return []
     return [Fix(label=f"Require {alias} in {name}", edit=lambda old: add_requirement(old, name, alias))]
 

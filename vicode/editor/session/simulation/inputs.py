@@ -85,7 +85,9 @@ def collect_inputs(project: Project, design: Design, stubbed: tuple[str, ...]) -
     return tuple(inputs)
 
 
-def make_stub(component: str, inputs: tuple[SimulationInput, ...], types: Mapping[tuple[str, str], str]) -> Stub:
+def make_stub(
+    project: Project, component: str, inputs: tuple[SimulationInput, ...], types: Mapping[tuple[str, str], str]
+) -> Stub:
     outputs = tuple(
         StubOutput(
             name=each.name,
@@ -96,7 +98,9 @@ def make_stub(component: str, inputs: tuple[SimulationInput, ...], types: Mappin
         for each in inputs
         if each.component == component and each.name != DONE
     )
-    return Stub(component=component, outputs=outputs)
+    interface = project.interface(component)
+    is_live = interface is not None and interface.is_generated and project.design(component) is None
+    return Stub(component=component, outputs=outputs, is_live=is_live)
 
 
 def input_types(project: Project, inputs: tuple[SimulationInput, ...]) -> dict[tuple[str, str], str]:

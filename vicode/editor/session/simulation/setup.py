@@ -102,7 +102,7 @@ def prepare_run(
         component=class_path,
         probes=f"{class_path.partition('.')[0]}._probes",
         path=(str(folder.resolve()),),
-        stubs=tuple(make_stub(component, inputs, types) for component in stub_names),
+        stubs=tuple(make_stub(whole, component, inputs, types) for component in stub_names),
         functions=_function_outputs(stubbed, design, stub_names),
         parameter_types=tuple((each.name, types[each.key]) for each in inputs if not each.component),
         world=project.world if runs_by_hand else "",
