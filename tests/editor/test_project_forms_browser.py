@@ -6,9 +6,17 @@ from pathlib import Path
 from playwright.sync_api import Locator, Page, expect
 
 from tests.editor.player_page import component as used
-from tests.editor.player_page import open_player
+from tests.editor.player_page import open_player, select_state
 
 expect.set_options(timeout=20_000)
+
+
+# Ends the animations of the bar with messages; returns whether it is hidden then.
+AFTER_SOME_SECONDS = """() => {
+  const bar = document.querySelector(".undo-bar");
+  bar.getAnimations().forEach(each => each.finish());
+  return getComputedStyle(bar).visibility === "hidden";
+}"""
 
 
 def open_project_fold(page: Page, url: str) -> Locator:
@@ -151,8 +159,20 @@ def test_the_project_itself_has_a_form(editor: str, page: Page, project: Path) -
     page.keyboard.press("Tab")
     expect(inspector.get_by_label("Languages")).to_be_focused()
     expect(inspector.get_by_label("Project description")).to_have_value("It plays.\nAnd scores.")
-    undo(page)
-    expect(inspector.get_by_label("Project description")).to_have_value(re.compile("^A forward soccer player"))
+    # The message leaves by itself, each time.
+    bar = page.locator(".undo-bar")
+    for description in ("It plays well.", "It plays better."):
+        inspector.get_by_label("Project description").fill(description)
+        page.keyboard.press("Tab")
+        expect(bar).to_be_visible()
+        page.mouse.move(500, 300)
+        page.keyboard.press("Escape")
+        page.wait_for_function(AFTER_SOME_SECONDS)
+    # The form of another item starts at its top.
+    panel = page.locator(".side-panels .q-tab-panel").first
+    panel.evaluate("panel => (panel.scrollTop = 400)")
+    select_state(page, "Kick")
+    page.wait_for_function("!document.querySelector('.side-panels .q-tab-panel').scrollTop")
 
 
 def test_an_agent_is_edited_and_another_one_added(editor: str, page: Page, project: Path) -> None:

@@ -23,7 +23,7 @@ def editor(project: Path, tmp_path: Path) -> Iterator[str]:
 
 def expect_step(page: Page, number: int, title: str) -> None:
     card = page.get_by_role("region", name="Tour")
-    expect(card).to_contain_text(f"{number} of 8")
+    expect(card).to_contain_text(f"{number} of 10")
     expect(card.get_by_role("heading")).to_have_text(title)
 
 
@@ -51,13 +51,17 @@ def test_the_tour_follows_what_is_done(editor: str, page: Page, project: Path) -
     page.get_by_label("Inspector").get_by_role("button", name="Transition").click()
     page.get_by_text("to Kick", exact=True).click()
     expect_step(page, 5, "Undo")
-    for _edit in range(5):
+    for _edit in range(3):
         page.get_by_role("button", name="Undo").click()
     expect_step(page, 6, "Findings")
     page.get_by_role("button", name="Next").click()
-    expect_step(page, 7, "Table view")
+    expect_step(page, 7, "Inputs and commands")
+    page.get_by_role("button", name="Next").click()
+    expect_step(page, 8, "Simulate")
+    page.get_by_role("button", name="Next").click()
+    expect_step(page, 9, "Table view")
     page.keyboard.press("F4")
-    expect_step(page, 8, "Generate code")
+    expect_step(page, 10, "Generate code")
     assert Axe().run(page, context=".tour", options={"resultTypes": ["violations"]}).response["violations"] == []
     page.get_by_role("button", name="Done").click()
     expect(page.get_by_role("region", name="Tour")).to_have_count(0)

@@ -71,7 +71,8 @@ def test_the_help_lists_every_key(sketch: EditorDriver) -> None:
     sketch.page.locator(".stage").last.focus()
     sketch.press("?")
     help_ = sketch.page.locator(".help")
-    for text in ("Ctrl+D", "Duplicate", "Ctrl+S", "Drag a label", "Shift+F10"):
+    texts = ("Ctrl+D", "Duplicate", "Ctrl+S", "Drag a label", "Shift+F10", "F6", "F9", "F10", "Page: Simulate tab")
+    for text in texts:
         expect(help_.get_by_text(text, exact=True).first).to_be_visible()
     sketch.press("Escape")
     expect(help_).to_have_count(0)

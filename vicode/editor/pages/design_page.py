@@ -62,7 +62,7 @@ class DesignPage:
         with ui.element("div").classes("shell"):
             skip = ui.element("a").classes("skip-link")
             self.undo_bar = UndoBar()
-            dialogs = DesignDialogs(show_toast=show_toast, offer_undo=self.offer_undo)
+            dialogs = DesignDialogs(show_toast=show_toast, offer_undo=self.undo_bar.show)
             head = ui.element("header").classes("head")
             self.designs = DesignsList(library, (workspace.key, document.design.component), dialogs)
             with ui.element("main").classes("design-view").props("tabindex=-1") as main:
@@ -99,7 +99,7 @@ class DesignPage:
         self.navigator.open_component(component)
 
     def offer_undo(self, text: str, undo: Callable[[], object]) -> None:
-        self.undo_bar.show(text, undo)
+        self.undo_bar.show(text, undo, is_brief=True)
 
     def _commands(self, theme: Theme, others: tuple[Command, ...]) -> tuple[Command, ...]:
         page_commands = PageCommands(self.context, self.view.canvas_controller, theme)

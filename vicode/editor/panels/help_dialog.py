@@ -8,7 +8,7 @@ from vicode.editor.canvas.commands import CANVAS_COMMANDS, GESTURE_HELP, Command
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.dialogs import titled_dialog
 
-_PAGE = {MenuGroup.DESIGN: "Design", MenuGroup.EDIT: "Edit", MenuGroup.VIEW: "View"}
+_PAGE = {MenuGroup.DESIGN: "design", MenuGroup.EDIT: "edit", MenuGroup.VIEW: "view", MenuGroup.SIMULATE: "Simulate tab"}
 
 
 def show_help(commands: Sequence[Command]) -> None:
@@ -17,7 +17,7 @@ def show_help(commands: Sequence[Command]) -> None:
             for group in CommandGroup:
                 _section(f"Canvas: {group.lower()}", _canvas_rows(group))
             for place, title in _PAGE.items():
-                _section(f"Page: {title.lower()}", _page_rows(commands, place))
+                _section(f"Page: {title}", _page_rows(commands, place))
             _section("Canvas: mouse and touch", GESTURE_HELP)
         with ui.row().classes("dialog-buttons"):
             ui.button("Close", on_click=dialog.close).props("flat no-caps autofocus")
@@ -30,7 +30,7 @@ def _canvas_rows(group: CommandGroup) -> list[tuple[str, str]]:
 
 
 def _page_rows(commands: Iterable[Command], place: MenuGroup) -> list[tuple[str, str]]:
-    canvas_names = {each.name for each in CANVAS_COMMANDS}
+    canvas_names = {each.name for each in CANVAS_COMMANDS if each.keys}
     shown = (each for each in commands if each.menu_group == place and each.keys and each.name not in canvas_names)
     return [(" or ".join(each.keys), each.label) for each in shown]
 

@@ -20,6 +20,11 @@ _FOCUS_CANVAS = """(event) => {
 }"""
 
 
+_SCROLL_TO_TOP = """
+for (let each = getHtmlElement(%d); each && !each.matches(".side"); each = each.parentElement) each.scrollTop = 0;
+"""
+
+
 class Inspector:
     """Builds a form when another item is selected or its kind changes; else it refreshes the form."""
 
@@ -29,10 +34,10 @@ class Inspector:
         self._selection_number = 0
         """Changes if another item is selected, but not if the same item was renamed or moved."""
         self._form = Form(context, RemovedTexts())
-        with ui.element("div").props("data-form") as host:
+        with ui.element("div").props("data-form") as self._host:
             Rows(self._form, self._list_keys, self._build, "inspector")
-        host.on("keydown.escape", js_handler=_FOCUS_CANVAS)
-        context.linter.changes.subscribe(lambda: None if host.is_deleted else self.refresh())
+        self._host.on("keydown.escape", js_handler=_FOCUS_CANVAS)
+        context.linter.changes.subscribe(lambda: None if self._host.is_deleted else self.refresh())
 
     def refresh(self) -> None:
         self._form.refresh()
@@ -42,6 +47,7 @@ class Inspector:
         self._last_seen = (context.selected, context.design)
         if tuple(rebase_selection(item, before[1], context.design) for item in before[0]) != context.selected:
             self._selection_number += 1
+            context.client.run_javascript(_SCROLL_TO_TOP % self._host.id)
         return [(self._selection_number, self._item_kind())]
 
     def _item_kind(self) -> object:

@@ -62,6 +62,18 @@ STEPS = (
         target=".dock",
     ),
     TourStep(
+        title="Inputs and commands",
+        text="Press Escape to select nothing: the inspector then lists the inputs, which guards read by name, and the "
+        "commands, which states give. Each list has a button that adds one.",
+        target=".side",
+    ),
+    TourStep(
+        title="Simulate",
+        text="In the tab Simulate, set the inputs by hand. F10 runs one step, F6 plays and pauses; "
+        "the active state is highlighted.",
+        target=".dock",
+    ),
+    TourStep(
         title="Table view",
         text="Press F4 or this switch: all states and transitions as rows, edited with the keyboard.",
         target=".view-switch",
