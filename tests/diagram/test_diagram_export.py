@@ -19,7 +19,7 @@ from vicode.diagram.primitives import PathShape, ShapeGroup, TextShape, VectorIm
 from vicode.diagram.spatial_index import Rect
 from vicode.diagram.svg import write_svg
 from vicode.diagram.text_metrics import Font, text_width
-from vicode.model.design import Code, CommonSection, DecisionGroup, Design, Guard, State, Transition, Use
+from vicode.model.design import STATE_COLORS, Code, CommonSection, DecisionGroup, Design, Guard, State, Transition, Use
 
 CANVAS_SHEET = Path(__file__).parents[2] / "vicode" / "editor" / "canvas" / "js" / "canvas.css"
 SVG = "{http://www.w3.org/2000/svg}"
@@ -276,6 +276,30 @@ def test_colors_are_those_of_the_canvas(palette: ColorPalette, selector: str) ->
     assert len(names) > 10
     for name in names:
         assert getattr(palette, name) == shown[name.replace("_", "-")], name
+
+
+@pytest.mark.parametrize(("dark", "palette"), [(False, LIGHT), (True, DARK)])
+@pytest.mark.parametrize("color", STATE_COLORS)
+def test_states_have_their_color_and_stay_legible(color: str, dark: bool, palette: ColorPalette) -> None:
+    design = Design(component="Robot", states=(State(name="Plain"), State(name="Colored", color=color)))
+    svg = export_design(design, "svg", ExportOptions(dark=dark)).decode()
+    fill = getattr(palette, f"color_{color}")
+    assert svg.count(f'fill="{fill}"') == 1
+    for drawn in (palette.text, palette.muted):
+        assert _contrast(drawn, fill) >= 4.5
+    assert _contrast(palette.modulates, fill) >= 4
+
+
+def _contrast(one: str, other: str) -> float:
+    light, dark = sorted((_luminance(one), _luminance(other)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+def _luminance(color: str) -> float:
+    """The relative luminance as defined by WCAG 2."""
+    parts = [int(color[index : index + 2], 16) / 255 for index in (1, 3, 5)]
+    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
 @pytest.mark.parametrize(("form", "mark"), [("mermaid", "%% "), ("plantuml", "' "), ("dot", "// ")])

@@ -11,7 +11,8 @@ from hypothesis import Phase, given, settings
 from tests.strategies import designs
 from vicode.model import design as design_model
 from vicode.model import project as project_model
-from vicode.store.format import DESIGN_RECORDS, PROJECT_RECORDS
+from vicode.store.format import DESIGN_RECORDS
+from vicode.store.project_format import PROJECT_RECORDS
 from vicode.store.schema_types import ListSchema, MapSchema, RecordSchema, ValueSchema
 
 RECORDS = {record.name: record for record in (*DESIGN_RECORDS, *PROJECT_RECORDS)}

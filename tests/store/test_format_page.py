@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 
 from vicode.store import read_design, read_project_file
-from vicode.store.format import DESIGN_RECORDS, PROJECT_RECORDS
+from vicode.store.format import DESIGN_RECORDS
 from vicode.store.line_index import MAX_FINDINGS
+from vicode.store.project_format import PROJECT_RECORDS
 from vicode.store.schema_types import (
     KeySchema,
     ListSchema,

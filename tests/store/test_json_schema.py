@@ -18,8 +18,9 @@ from vicode.store import (
     save_design,
     save_project_file,
 )
-from vicode.store.format import DESIGN, PROJECT
+from vicode.store.format import DESIGN
 from vicode.store.line_index import LineIndex, ReadReport
+from vicode.store.project_format import PROJECT
 from vicode.store.schema_types import ListSchema, MapSchema, RecordSchema, ValueSchema
 from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar, parse_yaml
 

@@ -6,6 +6,7 @@ from typing import Any
 from hypothesis import strategies as st
 
 from vicode.model.design import (
+    STATE_COLORS,
     Action,
     Assign,
     Call,
@@ -120,6 +121,7 @@ states: st.SearchStrategy[State] = st.builds(
     xabsl_name=st.just("") | texts,
     doc=st.just("") | texts,
     at=points,
+    color=st.sampled_from(("", *STATE_COLORS)),
     final=st.booleans(),
     capacity=counts,
     synchronized=counts,

@@ -29,6 +29,7 @@ class DiagramNode:
     label: str
     title: str
     subtitle: str = ""
+    color: str = ""
     initial: bool = False
     final: bool = False
     disabled: bool = False
@@ -123,6 +124,7 @@ def _state_node(design: Design, state: State, at: Point) -> DiagramNode:
         size=state_size(state.name),
         label=shorten(state.name, NAME_FONT, _MAX_NAME_WIDTH),
         title="\n".join(part for part in (f"State {state.name}", state.doc) if part),
+        color=state.color,
         initial=state.name == design.initial,
         final=state.final,
         disabled=state.disabled,

@@ -24,6 +24,12 @@ class ColorPalette:
     modulates: str
     common: str
     common_fill: str
+    color_blue: str
+    color_green: str
+    color_yellow: str
+    color_orange: str
+    color_red: str
+    color_purple: str
 
 
 def css_variable_palette() -> ColorPalette:
@@ -51,6 +57,12 @@ LIGHT = ColorPalette(
     modulates="#0f766e",
     common="#7c3aed",
     common_fill="#f5f0ff",
+    color_blue="#e0edff",
+    color_green="#e2f5d3",
+    color_yellow="#fef6c0",
+    color_orange="#ffe6cc",
+    color_red="#fee0e0",
+    color_purple="#f1e4ff",
 )
 DARK = ColorPalette(
     paper="#11161e",
@@ -70,4 +82,10 @@ DARK = ColorPalette(
     modulates="#4fd1c0",
     common="#b794ff",
     common_fill="#241c38",
+    color_blue="#1a3560",
+    color_green="#24421b",
+    color_yellow="#443a0f",
+    color_orange="#4d2c12",
+    color_red="#4d1d26",
+    color_purple="#3a2460",
 )

@@ -146,7 +146,8 @@ class _DiagramRenderer:
 
     def _state(self, node: DiagramNode) -> Iterable[PathShape | TextShape]:
         pal, (x, y), size = self.palette, node.center, node.size
-        fill, dash = (pal.faint, (4, 4)) if node.disabled else (pal.box, ())
+        colored = getattr(pal, f"color_{node.color}") if node.color else pal.box
+        fill, dash = (pal.faint, (4, 4)) if node.disabled else (colored, ())
         yield PathShape(
             commands=rounded_rect_path(node.center, size.width, size.height, 12),
             fill=fill,

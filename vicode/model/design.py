@@ -10,6 +10,10 @@ Point = tuple[float, float]
 """Center on the canvas in pixels, x to the right, y downwards."""
 
 
+STATE_COLORS = ("blue", "green", "yellow", "orange", "red", "purple")
+"""The colors that a state can have in diagrams."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Code:
     """A block of hand-written code, as pairs of language and text."""
@@ -142,6 +146,7 @@ class State:
 
     `id` survives renaming and identifies code regions. `modulates` are calls that run after `actions`.
     A `disabled` state stays in the design, but is not generated (`vicode.model.disabled`).
+    `color` is one of STATE_COLORS, "" for none; it has no effect but in diagrams.
     `capacity` is the maximum number of robots in the state, `synchronized` the number that must enter simultaneously.
     """
 
@@ -150,6 +155,7 @@ class State:
     xabsl_name: str = ""
     doc: str = ""
     at: Point | None = None
+    color: str = ""
     final: bool = False
     capacity: int | None = None
     synchronized: int | None = None

@@ -44,6 +44,12 @@ def update_state(design: Design, name: str, change: Callable[[State], State]) ->
     return replace(design, states=states)
 
 
+def set_color(design: Design, names: Collection[str], color: str) -> Design:
+    """Set the color of states; "" for none."""
+    states = tuple(replace(state, color=color) if state.name in names else state for state in design.states)
+    return replace(design, states=states)
+
+
 def rename_state(design: Design, old: str, new: str) -> Design:
     """Rename a state and update transitions to it. A state with code gets an id to keep its region marks valid."""
     if old == new or design.state(old) is None or design.state(new) is not None:

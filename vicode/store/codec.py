@@ -5,7 +5,8 @@ from typing import Any, cast
 
 from vicode.model.design import Design
 from vicode.model.project import Project
-from vicode.store.format import DESIGN, PROJECT
+from vicode.store.format import DESIGN
+from vicode.store.project_format import PROJECT
 from vicode.store.schema_types import (
     FormatValue,
     ListSchema,

@@ -4,7 +4,8 @@ from collections.abc import Iterable
 
 from vicode.findings import DesignPath
 from vicode.store.documents import read_record
-from vicode.store.format import DESIGN, PROJECT
+from vicode.store.format import DESIGN
+from vicode.store.project_format import PROJECT
 from vicode.store.schema_types import RecordSchema
 from vicode.store.source_map import SourceMap
 

@@ -8,8 +8,9 @@ from vicode.findings import Finding, FindingSubject, sort_findings
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.store.codec import decode_design, decode_project
-from vicode.store.format import DESIGN, PROJECT
+from vicode.store.format import DESIGN
 from vicode.store.line_index import LineIndex, ReadReport
+from vicode.store.project_format import PROJECT
 from vicode.store.schema_reader import SchemaReader
 from vicode.store.schema_types import RecordSchema
 from vicode.store.source_map import SourceMap

@@ -1,4 +1,4 @@
-"""Version 1 of the format: all keys of design files and of project.yaml, with the model fields that hold them.
+"""Version 1 of the format: all keys of design files, with the model fields that hold them; see also `project_format`.
 
 The reader, the writer, the conversion from and to the model, the JSON Schema and the tables of docs/design-format.md
 are derived from these schemas.
@@ -6,6 +6,7 @@ are derived from these schemas.
 
 from vicode.languages import LANGUAGES
 from vicode.model.design import (
+    STATE_COLORS,
     Assign,
     Call,
     Code,
@@ -20,7 +21,6 @@ from vicode.model.design import (
     Transition,
     Use,
 )
-from vicode.model.project import Agent, Enumeration, Interface, Project
 from vicode.store.schema_types import (
     KeySchema,
     ListSchema,
@@ -56,15 +56,14 @@ CODE = MapSchema(
     wrapper=Code,
 )
 
-_VERSION = KeySchema(
+VERSION_KEY = KeySchema(
     "vicode", ScalarSchema(scalar_type=ScalarType.VERSION), "version of the format, 1", required=True, constant=VERSION
 )
-_DOC = KeySchema("doc", TEXT, "description; becomes the docstring of generated code")
-_XABSL_NAME = KeySchema("xabsl_name", TEXT, "name in XABSL")
-_TITLE = KeySchema("title", TEXT, "short heading")
+DOC_KEY = KeySchema("doc", TEXT, "description; becomes the docstring of generated code")
+XABSL_NAME_KEY = KeySchema("xabsl_name", TEXT, "name in XABSL")
 _ID = KeySchema("id", NAME, "identifier that does not change with edits; written by the editor")
 _POSITION = KeySchema("at", POSITION, "center on the canvas")
-_FREQUENCY = KeySchema("frequency", FREQUENCY, "frequency in Hz; default: runs on every step", field="frequency_hz")
+FREQUENCY_KEY = KeySchema("frequency", FREQUENCY, "frequency in Hz; default: runs on every step", field="frequency_hz")
 
 
 def _declaration(name: str, value_key: str, meaning: str, *more: KeySchema) -> RecordSchema:
@@ -83,14 +82,14 @@ def _declaration(name: str, value_key: str, meaning: str, *more: KeySchema) -> R
             KeySchema(
                 "range", PairSchema(description="a range [low, high]"), "lowest and highest value, both included"
             ),
-            _DOC,
-            _XABSL_NAME,
+            DOC_KEY,
+            XABSL_NAME_KEY,
             *more,
         ),
     )
 
 
-def _declarations(record: RecordSchema) -> MapSchema:
+def declarations(record: RecordSchema) -> MapSchema:
     return MapSchema(description="a mapping of names to declarations", value_schema=record, name_field="name")
 
 
@@ -176,7 +175,7 @@ DECISION: RecordSchema = RecordSchema(
         ),
         KeySchema("when", EXPRESSION, "condition", field="guard.when"),
         KeySchema("after", EXPRESSION, "minimum time in the state, in seconds or in `time_unit`", field="guard.after"),
-        _DOC,
+        DOC_KEY,
         _ID,
         KeySchema(
             "label_at",
@@ -214,11 +213,13 @@ STATE = RecordSchema(
         "require": "requires",
         "modulate": "modulates",
         "position": "at",
+        "colour": "color",
         "description": "doc",
     },
     keys=(
-        _DOC,
+        DOC_KEY,
         _POSITION,
+        KeySchema("color", ScalarSchema(scalar_type=ScalarType.NAME, choices=STATE_COLORS), "color in diagrams"),
         KeySchema("final", FLAG, "final state: the component reports that it is done", default=False),
         KeySchema(
             "capacity", COUNT, "maximum number of robots of a team in the state at the same time", keeps_empty=True
@@ -228,7 +229,7 @@ STATE = RecordSchema(
         ),
         KeySchema("disabled", FLAG, "the state has no effect but stays in the design", default=False),
         _ID,
-        _XABSL_NAME,
+        XABSL_NAME_KEY,
         KeySchema("requires", NAMES, "used components stepped before the state runs"),
         KeySchema(
             "modulates",
@@ -253,7 +254,7 @@ COMMON = RecordSchema(
     name="common",
     description="actions and transitions of all states",
     model=CommonSection,
-    keys=(_DOC, _POSITION, *_ACTIONS_KEYS, _TRANSITIONS),
+    keys=(DOC_KEY, _POSITION, *_ACTIONS_KEYS, _TRANSITIONS),
 )
 
 DESIGN = RecordSchema(
@@ -268,11 +269,11 @@ DESIGN = RecordSchema(
         "hz": "frequency",
     },
     keys=(
-        _VERSION,
+        VERSION_KEY,
         KeySchema("component", NAME, "name of the component, unique in the project", required=True),
-        _DOC,
-        _XABSL_NAME,
-        _FREQUENCY,
+        DOC_KEY,
+        XABSL_NAME_KEY,
+        FREQUENCY_KEY,
         KeySchema("resume", FLAG, "`true`: a new activation continues in the last state", default=False),
         KeySchema(
             "arithmetic",
@@ -289,9 +290,9 @@ DESIGN = RecordSchema(
             MapSchema(description="a mapping of names to components", value_schema=USE, name_field="alias"),
             "used components by their name in this design",
         ),
-        KeySchema("parameters", _declarations(PARAMETER), "inputs that other components can set"),
-        KeySchema("outputs", _declarations(OUTPUT), "values that other components can read"),
-        KeySchema("variables", _declarations(VARIABLE), "private values"),
+        KeySchema("parameters", declarations(PARAMETER), "inputs that other components can set"),
+        KeySchema("outputs", declarations(OUTPUT), "values that other components can read"),
+        KeySchema("variables", declarations(VARIABLE), "private values"),
         KeySchema("initial", NAME, "name of the initial state"),
         KeySchema("module", CODE, "code at the top of the generated file"),
         KeySchema("members", CODE, "code in the generated class"),
@@ -304,96 +305,4 @@ DESIGN = RecordSchema(
     ),
 )
 
-ENUMERATION = RecordSchema(
-    name="enumeration",
-    description="a list of elements, or a mapping of elements to descriptions",
-    model=Enumeration,
-    shorthand_key="elements",
-    flow_width=FLOW_WIDTH,
-    keys=(
-        _DOC,
-        KeySchema(
-            "elements",
-            MapSchema(description="elements", value_schema=TEXT, allows_name_list=True, flow_width=FLOW_WIDTH),
-            "elements as a list, or as a mapping to descriptions",
-            required=True,
-        ),
-        KeySchema("internal", FLAG, "XABSL: the engine, not the robot program, numbers the elements", default=False),
-        _XABSL_NAME,
-        KeySchema(
-            "xabsl_elements",
-            MapSchema(description="a mapping of elements to names", value_schema=TEXT, flow_width=FLOW_WIDTH),
-            "XABSL names of the elements, where they differ",
-        ),
-    ),
-)
-INTERFACE = RecordSchema(
-    name="component",
-    description="the declaration of a hand-written component",
-    model=Interface,
-    keys=(
-        KeySchema(
-            "implementation",
-            TEXT,
-            "class as module:Class; vicode generates the class for `world`, `internal`, or if none is given",
-        ),
-        _TITLE,
-        _FREQUENCY,
-        _DOC,
-        _XABSL_NAME,
-        KeySchema("parameters", _declarations(PARAMETER), "inputs that other components can set"),
-        KeySchema("outputs", _declarations(OUTPUT), "values that other components can read"),
-        KeySchema("variables", _declarations(VARIABLE), "values that other components can read and set"),
-    ),
-)
-AGENT = RecordSchema(
-    name="agent",
-    description="the name of a root component",
-    model=Agent,
-    shorthand_key="root",
-    flow_width=FLOW_WIDTH,
-    keys=(
-        KeySchema("root", NAME, "root component", required=True),
-        _TITLE,
-        _DOC,
-        _XABSL_NAME,
-    ),
-)
-PROJECT = RecordSchema(
-    name="project",
-    description="a project",
-    model=Project,
-    synonyms={"name": "project", "description": "doc", "output": "generated", "enums": "enumerations"},
-    keys=(
-        _VERSION,
-        KeySchema("project", NAME, "name of the project", field="name", required=True),
-        _DOC,
-        KeySchema("languages", NAMES, "languages of the generated code", default=("python",), keeps_empty=True),
-        KeySchema("world", TEXT, "class of the simulated world as module:Class"),
-        KeySchema(
-            "generated", TEXT, "folder of generated files, relative to this file", default="generated", keeps_empty=True
-        ),
-        KeySchema(
-            "enumerations",
-            MapSchema(description="a mapping of names to enumerations", value_schema=ENUMERATION, name_field="name"),
-            "types with named values, written `Side.left`",
-        ),
-        KeySchema("constants", _declarations(CONSTANT), "values for all designs"),
-        KeySchema(
-            "components",
-            MapSchema(
-                description="a mapping of names to hand-written components",
-                value_schema=INTERFACE,
-                name_field="component",
-            ),
-            "interfaces of the hand-written components",
-        ),
-        KeySchema(
-            "agents",
-            MapSchema(description="a mapping of names to root components", value_schema=AGENT, name_field="name"),
-            "entry points of the project",
-        ),
-    ),
-)
 DESIGN_RECORDS = (DESIGN, STATE, COMMON, DECISION, ACTION, USE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT)
-PROJECT_RECORDS = (PROJECT, ENUMERATION, CONSTANT, INTERFACE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT, AGENT)

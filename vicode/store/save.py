@@ -8,8 +8,9 @@ from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.store.codec import encode_design, encode_project
 from vicode.store.documents import read_record
-from vicode.store.format import DESIGN, PROJECT
+from vicode.store.format import DESIGN
 from vicode.store.patcher import CannotPatchError, Patcher
+from vicode.store.project_format import PROJECT
 from vicode.store.sanitize import sanitize_design
 from vicode.store.schema_types import FormatValue, RecordSchema
 from vicode.store.tree_diff import TargetBuilder

@@ -5,6 +5,7 @@ from functools import partial
 
 from nicegui import ui
 
+from vicode.editor.panels.color_choice import color_choice
 from vicode.editor.panels.widgets import heading, icon_button, panel_title
 from vicode.editor.panels.window_context import WindowContext
 
@@ -48,6 +49,8 @@ def multi_selection_panel(context: WindowContext) -> None:
         _row(context, _DISTRIBUTE)
     heading("Edit")
     _row(context, _EDIT)
+    if counts["states"]:
+        color_choice(context, lambda: [item.id for item in context.selected if item.kind == "states"])
 
 
 def _row(context: WindowContext, buttons: tuple[tuple[str, str, str], ...]) -> None:

@@ -13,6 +13,7 @@ from vicode.editor.panels.actions_panel import (
 )
 from vicode.editor.panels.code_field import pairs_field
 from vicode.editor.panels.collapsible import collapsible_section
+from vicode.editor.panels.color_choice import color_choice
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.fields import (
     DOC,
@@ -74,6 +75,7 @@ def state_panel(form: Form, name: str) -> None:
         _initial(form, item)
         for attribute in _FLAGS:
             attribute_field(form, item, attribute)
+    form.on_refresh(color_choice(form.context, lambda: [state.name] if (state := item.get()) else []))
 
     def build_team() -> None:
         with ui.element("div").classes("field-row"):

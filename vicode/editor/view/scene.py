@@ -71,6 +71,7 @@ def _state(design: Design, state: State, by_item: _Findings) -> dict[str, Any]:
         "name": state.name,
         "initial": state.name == design.initial,
         "final": state.final,
+        "color": state.color,
         "disabled": state.disabled,
         "enter": bool(state.enter),
         "actions": any(not isinstance(action, Call) for action in state.actions),

@@ -1,7 +1,7 @@
 // The SVG groups of nodes: states, components and the common badge. Marks differ in shape, not only in color.
 import { HEX_SLANT } from "./geometry.js";
 import { translateElement, placeGroup } from "./group_transforms.js";
-import { COMMON_TITLE, DISABLED, alias, commonName, componentName, markName, stateName } from "./strings.js";
+import { COMMON_TITLE, DISABLED, alias, colored, commonName, componentName, markName, stateName } from "./strings.js";
 import { svg } from "./svg.js";
 import { largestLines } from "./text_metrics.js";
 
@@ -21,7 +21,7 @@ const OFF = "M0 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0M1.6 3.4L8.4 -3.4";
 export function drawNode(node) {
   const draw = { states: drawState, components: drawComponent, common: drawCommon }[node.of];
   const group = svg("g", {
-    class: `item node ${kindOf(node)}${node.data.disabled ? " disabled" : ""}`,
+    class: `item node ${kindOf(node)}${node.data.color ? ` color-${node.data.color}` : ""}${node.data.disabled ? " disabled" : ""}`,
     "data-id": node.id,
     "data-kind": kindOf(node),
     "data-key": node.key,
@@ -127,7 +127,7 @@ function describe(node) {
   if (node.of === "common") return [commonName(data.transitions ?? 0), ...findingMessages(data)].join(", ");
   if (node.of === "components") return [componentName(data.id), data.name, ...findingMessages(data)].join(", ");
   const marks = marksOf(data).map(({ name, count }) => markName(name, count));
-  const facts = [data.initial && "initial", data.final && "final", data.disabled && DISABLED, ...marks, ...findingMessages(data)];
+  const facts = [data.initial && "initial", data.final && "final", data.color && colored(data.color), data.disabled && DISABLED, ...marks, ...findingMessages(data)];
   return [stateName(data.name), ...facts.filter(Boolean)].join(", ");
 }
 

@@ -101,10 +101,11 @@ export class Overview {
     const lookOf = (node) => {
       if (selected.has(node.key)) return "selected";
       if (node.data.severity) return node.data.severity;
+      if (node.data.color) return node.data.color;
       return node.of === "states" && node.data.initial ? "initial" : node.of;
     };
     for (const [look, group] of Map.groupBy(nodes, lookOf)) {
-      const [fill, stroke] = LOOKS[look].map((name) => this.colours(name));
+      const [fill, stroke] = (LOOKS[look] ?? [`color-${look}`, "box-line"]).map((name) => this.colours(name));
       pen.fillStyle = fill;
       pen.strokeStyle = stroke;
       pen.beginPath();

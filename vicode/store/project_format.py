@@ -1,0 +1,116 @@
+"""Version 1 of the format: all keys of project.yaml, with the model fields that hold them."""
+
+from vicode.model.project import Agent, Enumeration, Interface, Project
+from vicode.store.format import (
+    ARGUMENT,
+    CONSTANT,
+    DOC_KEY,
+    FLAG,
+    FLOW_WIDTH,
+    FREQUENCY_KEY,
+    NAME,
+    NAMES,
+    OUTPUT,
+    PARAMETER,
+    TEXT,
+    VARIABLE,
+    VERSION_KEY,
+    XABSL_NAME_KEY,
+    declarations,
+)
+from vicode.store.schema_types import KeySchema, MapSchema, RecordSchema
+
+TITLE_KEY = KeySchema("title", TEXT, "short heading")
+
+ENUMERATION = RecordSchema(
+    name="enumeration",
+    description="a list of elements, or a mapping of elements to descriptions",
+    model=Enumeration,
+    shorthand_key="elements",
+    flow_width=FLOW_WIDTH,
+    keys=(
+        DOC_KEY,
+        KeySchema(
+            "elements",
+            MapSchema(description="elements", value_schema=TEXT, allows_name_list=True, flow_width=FLOW_WIDTH),
+            "elements as a list, or as a mapping to descriptions",
+            required=True,
+        ),
+        KeySchema("internal", FLAG, "XABSL: the engine, not the robot program, numbers the elements", default=False),
+        XABSL_NAME_KEY,
+        KeySchema(
+            "xabsl_elements",
+            MapSchema(description="a mapping of elements to names", value_schema=TEXT, flow_width=FLOW_WIDTH),
+            "XABSL names of the elements, where they differ",
+        ),
+    ),
+)
+INTERFACE = RecordSchema(
+    name="component",
+    description="the declaration of a hand-written component",
+    model=Interface,
+    keys=(
+        KeySchema(
+            "implementation",
+            TEXT,
+            "class as module:Class; vicode generates the class for `world`, `internal`, or if none is given",
+        ),
+        TITLE_KEY,
+        FREQUENCY_KEY,
+        DOC_KEY,
+        XABSL_NAME_KEY,
+        KeySchema("parameters", declarations(PARAMETER), "inputs that other components can set"),
+        KeySchema("outputs", declarations(OUTPUT), "values that other components can read"),
+        KeySchema("variables", declarations(VARIABLE), "values that other components can read and set"),
+    ),
+)
+AGENT = RecordSchema(
+    name="agent",
+    description="the name of a root component",
+    model=Agent,
+    shorthand_key="root",
+    flow_width=FLOW_WIDTH,
+    keys=(
+        KeySchema("root", NAME, "root component", required=True),
+        TITLE_KEY,
+        DOC_KEY,
+        XABSL_NAME_KEY,
+    ),
+)
+PROJECT = RecordSchema(
+    name="project",
+    description="a project",
+    model=Project,
+    synonyms={"name": "project", "description": "doc", "output": "generated", "enums": "enumerations"},
+    keys=(
+        VERSION_KEY,
+        KeySchema("project", NAME, "name of the project", field="name", required=True),
+        DOC_KEY,
+        KeySchema("languages", NAMES, "languages of the generated code", default=("python",), keeps_empty=True),
+        KeySchema("world", TEXT, "class of the simulated world as module:Class"),
+        KeySchema(
+            "generated", TEXT, "folder of generated files, relative to this file", default="generated", keeps_empty=True
+        ),
+        KeySchema(
+            "enumerations",
+            MapSchema(description="a mapping of names to enumerations", value_schema=ENUMERATION, name_field="name"),
+            "types with named values, written `Side.left`",
+        ),
+        KeySchema("constants", declarations(CONSTANT), "values for all designs"),
+        KeySchema(
+            "components",
+            MapSchema(
+                description="a mapping of names to hand-written components",
+                value_schema=INTERFACE,
+                name_field="component",
+            ),
+            "interfaces of the hand-written components",
+        ),
+        KeySchema(
+            "agents",
+            MapSchema(description="a mapping of names to root components", value_schema=AGENT, name_field="name"),
+            "entry points of the project",
+        ),
+    ),
+)
+PROJECT_RECORDS = (PROJECT, ENUMERATION, CONSTANT, INTERFACE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT, AGENT)
