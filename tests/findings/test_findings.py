@@ -1,6 +1,7 @@
 """Findings: sorting, rendering as text and JSON, and name suggestions."""
 
 import json
+from dataclasses import replace
 
 from vicode.findings import (
     Finding,
@@ -77,3 +78,11 @@ def test_nearest_name_ignores_case_and_typos() -> None:
     assert nearest_name("kik", ["Wait", "Kick"]) == "Kick"
     assert nearest_name("", ["Wait"]) is None
     assert did_you_mean("zzz", ["Wait"], "add it") == "add it"
+
+
+def test_a_finding_has_the_name_that_its_fix_proposes() -> None:
+    finding = Finding(
+        rule=get_rule("D402"), message="unknown state", fix=did_you_mean("kik", ["Wait", "Kick"], "add it")
+    )
+    assert (finding.fix, finding.suggestion) == ("did you mean 'Kick'?", "Kick")
+    assert replace(finding, fix=did_you_mean("x", [], "did you mean 'y'?")).suggestion == ""

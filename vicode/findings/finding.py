@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from vicode.findings.catalogue import Rule, Severity
+from vicode.findings.nearest import Suggestion
 
 DesignPath = tuple[str | int, ...]
 """Keys and indices that lead to an item of a design, such as ("states", "Kick", "transitions", 0, "when")."""
@@ -58,6 +59,11 @@ class Finding:
     notes: tuple[Note, ...] = ()
     languages: tuple[str, ...] = ()
     name: str = ""
+
+    @property
+    def suggestion(self) -> str:
+        """The known name that the fix proposes, empty if there is none."""
+        return self.fix.name if isinstance(self.fix, Suggestion) else ""
 
     def applies_to(self, language: str) -> bool:
         return not self.languages or language in self.languages

@@ -1,8 +1,19 @@
 """Suggestions for misspelled names."""
 
-import re
 from collections.abc import Iterable
 from difflib import get_close_matches
+
+
+class Suggestion(str):
+    """The text of a fix that proposes a known name."""
+
+    __slots__ = ("name",)
+    name: str
+
+    def __new__(cls, name: str) -> "Suggestion":
+        text = super().__new__(cls, f"did you mean '{name}'?")
+        text.name = name
+        return text
 
 
 def nearest_name(name: str, known: Iterable[str]) -> str | None:
@@ -15,10 +26,4 @@ def nearest_name(name: str, known: Iterable[str]) -> str | None:
 def did_you_mean(name: str, known: Iterable[str], fallback: str = "") -> str:
     """Return a fix that suggests the nearest known name, or `fallback` if none is similar."""
     candidate = nearest_name(name, known)
-    return f"did you mean '{candidate}'?" if candidate else fallback
-
-
-def suggested_name(fix: str) -> str:
-    """Return the name suggested by `did_you_mean`, empty if there is none."""
-    match = re.fullmatch(r"did you mean '(.*)'\?", fix, re.DOTALL)
-    return match[1] if match else ""
+    return Suggestion(candidate) if candidate else fallback

@@ -11,7 +11,7 @@ from vicode.model.traversal import find_decision, iter_actions, iter_code
 
 def fix_unknown_language(case: FixContext) -> list[Fix]:
     """P204 in code; a project file is fixed by hand."""
-    meant, wrong = case.suggested_name, str(case.path[-1])
+    meant, wrong = case.finding.suggestion, str(case.path[-1])
     located = next((located for located in iter_code(case.design) if located.path == case.path[:-1]), None)
     if located is None or not meant or located.code.in_language(meant) is not None:
         return []

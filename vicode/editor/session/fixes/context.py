@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from vicode.findings import DesignPath, Finding, suggested_name
+from vicode.findings import DesignPath, Finding
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.model.traversal import LocatedDecision, find_decision, iter_decisions
@@ -29,11 +29,6 @@ class FixContext:
     design: Design
     finding: Finding
     path: DesignPath
-
-    @property
-    def suggested_name(self) -> str:
-        """The nearest known name, empty if none is similar."""
-        return suggested_name(self.finding.fix)
 
     def decision(self) -> LocatedDecision | None:
         """The innermost decision on the path."""

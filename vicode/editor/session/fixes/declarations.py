@@ -3,18 +3,19 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+from vicode.check import build_context
+from vicode.check.typed_expressions import literal_value
 from vicode.editor.session.fixes.context import DesignEdit, Fix, FixContext
 from vicode.findings import DesignPath
 from vicode.model.design import Declaration, Design
 from vicode.model.edits import set_declarations
-from vicode.model.expressions import build_scope
 from vicode.model.texts import rewrite_text
 
 
 def fix_unknown_type(case: FixContext) -> list[Fix]:
-    if not case.suggested_name:
+    if not case.finding.suggestion:
         return []
-    name = case.suggested_name
+    name = case.finding.suggestion
     return [
         Fix(label=f"Change the type to {name}", edit=_declaration_edit(case.path, lambda old: replace(old, type=name)))
     ]
@@ -51,15 +52,18 @@ def fix_unused_declaration(case: FixContext) -> list[Fix]:
 
 def fix_outside_range(case: FixContext) -> list[Fix]:
     """D427: set the nearer limit of the range."""
-    receiver = _target_declaration(case)
+    context = build_context(case.project, case.design)
+    expression = next((item for item in context.expressions if item.path == case.path), None)
     span = case.finding.subject.span if case.finding.subject else None
-    if receiver is None or receiver.range is None or span is None:
+    receiver = expression.receiver if expression else None
+    value = literal_value(expression.tree, context.scope) if expression else None
+    if receiver is None or receiver.range is None or span is None or value is None:
         return []
     low, high = receiver.range
-    is_low = _value_of(case) < low
+    is_low = value < low
     text = f"{low if is_low else high:g}"
 
-    if build_scope(case.project, case.design).type_of(receiver) == "int" and not float(text).is_integer():
+    if context.scope.type_of(receiver) == "int" and not float(text).is_integer():
         return []
     start, end = span
 
@@ -67,36 +71,6 @@ def fix_outside_range(case: FixContext) -> list[Fix]:
         return rewrite_text(design, case.path, lambda old: old[:start] + text + old[end:])
 
     return [Fix(label=f"Set it to {text}, the {'minimum' if is_low else 'maximum'}", edit=change)]
-
-
-def _value_of(case: FixContext) -> float:
-    """The value at the start of the message."""
-    return float(case.finding.message.split(" ", 1)[0])
-
-
-def _target_declaration(case: FixContext) -> Declaration | None:
-    """The declaration that receives the value at the path."""
-    design, path = case.design, case.path
-    own = {declaration.name: declaration for _section, declaration in design.declarations()}
-    if path[0] in ("parameters", "outputs", "variables"):
-        return own.get(str(path[1])) if "arguments" not in path else None
-    if "set" in path:
-        return own.get(str(path[-1]))
-    alias = str(path[3]) if path[2:3] == ("modulates",) else _called(design, path)
-    use = design.use(alias)
-    interface = case.project.interface(use.component) if use else None
-    return interface.parameter(str(path[-1])) if interface else None
-
-
-def _called(design: Design, path: DesignPath) -> str:
-    """The alias of the call on a path."""
-    at = next((index for index, part in enumerate(path) if isinstance(part, int)), None)
-    if at is None:
-        return ""
-    state = design.state(str(path[1]))
-    actions = design.common.actions if path[0] == "common" else getattr(state, str(path[2]), ())
-    index = int(path[at])
-    return str(getattr(actions[index], "alias", "")) if index < len(actions) else ""
 
 
 def _declaration_at(design: Design, path: DesignPath) -> Declaration | None:

@@ -37,11 +37,11 @@ def fix_unknown_name(case: FixContext) -> list[Fix]:
     text = next((located.text for located in iter_texts(case.design) if located.path == case.path), "")
     name = text[start:end]
     fixes = []
-    if case.suggested_name:
+    if case.finding.suggestion:
         # In `ball.sen` only the part after the dot is wrong.
         head, dot, _tail = name.rpartition(".")
-        fixed = f"{text[:start]}{head}{dot}{case.suggested_name}{text[end:]}"
-        label = f"Replace with {head}{dot}{case.suggested_name}"
+        fixed = f"{text[:start]}{head}{dot}{case.finding.suggestion}{text[end:]}"
+        label = f"Replace with {head}{dot}{case.finding.suggestion}"
         fixes.append(Fix(label=label, edit=lambda old: rewrite_text(old, case.path, lambda _text: fixed)))
     follows = text[end : end + 1]
     if is_valid_name(name) and follows == ".":
@@ -56,8 +56,8 @@ def _fix_set(case: FixContext) -> list[Fix]:
     if "set" not in case.path:
         return []
     old, fixes = str(case.path[-1]), []
-    if case.suggested_name:
-        new = case.suggested_name
+    if case.finding.suggestion:
+        new = case.finding.suggestion
         fixes.append(Fix(label=f"Set {new} instead", edit=lambda design: _renamed_in_set(design, case.path, new)))
     if case.finding.rule.code == "E303" and is_valid_name(old):
         text = next((located.text for located in iter_expressions(case.design) if located.path == case.path), "")

@@ -13,7 +13,7 @@ def fix_no_states(_case: FixContext) -> list[Fix]:
 
 
 def fix_no_initial_state(case: FixContext) -> list[Fix]:
-    names = list(dict.fromkeys([case.suggested_name or case.design.states[0].name, case.design.states[0].name]))
+    names = list(dict.fromkeys([case.finding.suggestion or case.design.states[0].name, case.design.states[0].name]))
     return [Fix(label=f"Make {name} the initial state", edit=_initial_state_edit(name)) for name in names]
 
 
@@ -36,9 +36,9 @@ def fix_unknown_state(case: FixContext) -> list[Fix]:
         return []
     transition, path = located.decision, located.path
     fixes = []
-    if case.suggested_name:
-        fixed = replace(transition, to=case.suggested_name)
-        label = f"Change the target to {case.suggested_name}"
+    if case.finding.suggestion:
+        fixed = replace(transition, to=case.finding.suggestion)
+        label = f"Change the target to {case.finding.suggestion}"
         fixes.append(Fix(label=label, edit=lambda old: replace_decision(old, path, fixed)))
     if is_valid_state_name(transition.to):
         label = f"Create the state {transition.to}"

@@ -12,7 +12,7 @@ from vicode.model.traversal import iter_actions
 
 def fix_unknown_component(case: FixContext) -> list[Fix]:
     """P202 for a use."""
-    alias, meant = str(case.path[1]), case.suggested_name
+    alias, meant = str(case.path[1]), case.finding.suggestion
     fixes = []
     # A component cannot use itself.
     if meant and meant != case.design.component:
@@ -23,7 +23,7 @@ def fix_unknown_component(case: FixContext) -> list[Fix]:
 
 def fix_unknown_alias(case: FixContext) -> list[Fix]:
     """D403 for a requirement, a call or a modulation."""
-    alias, meant = _alias_at(case), case.suggested_name
+    alias, meant = _alias_at(case), case.finding.suggestion
     fixes = []
     if meant:
         fixes.append(Fix(label=f"Use {meant} instead", edit=lambda old: _with_alias(old, case.path, meant)))
@@ -44,7 +44,7 @@ def add_use_fixes(case: FixContext, alias: str) -> list[Fix]:
 
 
 def fix_unknown_parameter(case: FixContext) -> list[Fix]:
-    name, meant = str(case.path[-1]), case.suggested_name
+    name, meant = str(case.path[-1]), case.finding.suggestion
     fixes = []
     if meant:
         fixes.append(
