@@ -6,7 +6,14 @@ from typing import TYPE_CHECKING
 from vicode.store.documents import DesignReadResult, ProjectReadResult, read_design, read_project_file
 from vicode.store.durable_write import FileChangedError, is_read_only, replace_text, write_text
 from vicode.store.locations import find_faulty_components, find_location, iter_owning_components, locate_findings
-from vicode.store.projects import OpenProject, find_design_files, find_project_file, find_projects, open_project
+from vicode.store.projects import (
+    OpenProject,
+    find_design_files,
+    find_project_file,
+    find_projects,
+    folder_times,
+    open_project,
+)
 from vicode.store.source_map import SourceMap
 from vicode.store.unread import UnreadContentError
 
@@ -29,6 +36,7 @@ __all__ = [
     "find_location",
     "find_project_file",
     "find_projects",
+    "folder_times",
     "is_read_only",
     "iter_owning_components",
     "locate_findings",

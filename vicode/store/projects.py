@@ -1,5 +1,6 @@
 """Opens projects: finds project.yaml and the design files of a folder, and reads them."""
 
+import contextlib
 import errno
 import os
 import re
@@ -95,6 +96,15 @@ def find_projects(folder: Path | str) -> tuple[Path, ...]:
         if not any(_is_inside(design_folder, project) for project in projects):
             projects.add(design_folder)
     return tuple(sorted(projects))
+
+
+def folder_times(folder: Path) -> frozenset[tuple[str, int]]:
+    """The folders in which projects are searched, with their modification times."""
+    found = set()
+    for path, _folders, _names in _walk_visible_folders(folder):
+        with contextlib.suppress(OSError):
+            found.add((path, Path(path).stat().st_mtime_ns))
+    return frozenset(found)
 
 
 def find_design_files(folder: Path) -> tuple[Path, ...]:

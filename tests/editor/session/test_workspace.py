@@ -30,6 +30,30 @@ def test_the_initial_design_is_the_root_of_an_agent_or_the_given_file(project: P
     assert library.workspace("elsewhere") is None
 
 
+def test_new_folders_become_projects(project: Path) -> None:
+    now_s = 0.0
+    library = Library(project, clock=lambda: now_s)
+    library.find_new_projects()
+    folder = project / "goalie"
+    folder.mkdir()
+    (folder / "keeper.yaml").write_text("")
+    now_s += 10
+    library.find_new_projects()
+    assert [workspace.key for workspace in library.workspaces] == ["forward"]
+    # The content comes later, which does not change the folder.
+    (folder / "keeper.yaml").write_text("vicode: 1\ncomponent: Keeper\n")
+    library.find_new_projects()
+    assert [workspace.key for workspace in library.workspaces] == ["forward"]
+    now_s += 10
+    library.find_new_projects()
+    assert [workspace.key for workspace in library.workspaces] == ["forward", "goalie"]
+    assert library.workspaces[1].open_document("Keeper") is not None
+    for _again in range(3):
+        now_s += 10
+        library.find_new_projects()
+    assert len(library.workspaces) == 2
+
+
 def test_an_unedited_save_writes_nothing(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     before = document.file.stat()

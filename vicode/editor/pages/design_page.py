@@ -48,6 +48,7 @@ class DesignPage:
         request: PageRequest,
         autosave: AutosaveService | None,
     ) -> None:
+        self.library = library
         user = identify_user(library.users)
         session = DocumentSession(document.shared, user.id)
         self.context = context = WindowContext(
@@ -121,6 +122,7 @@ class DesignPage:
         # The folder may be deleted while the editor is open; the open design stays.
         with contextlib.suppress(OSError):
             self.context.workspace.poll_disk()
+            self.library.find_new_projects()
         self.designs.refresh()
         new_name = self.context.workspace.removed_components.get(self.context.design.component)
         if new_name is not None:

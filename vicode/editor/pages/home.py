@@ -88,6 +88,8 @@ class HomePage:
         self._refresh()
 
     def _follow_disk(self) -> None:
+        with contextlib.suppress(OSError):
+            self.library.find_new_projects()
         for workspace in self.library.workspaces:
             # The folder may be deleted while the editor is open.
             with contextlib.suppress(OSError):

@@ -1,5 +1,7 @@
 """All projects in the folder that the editor was opened on."""
 
+import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -8,7 +10,9 @@ from vicode.editor.session.presence import UserDirectory
 from vicode.editor.session.workspace import Workspace
 from vicode.output import remove_leftovers
 from vicode.samples import DEFAULT_SAMPLE, copy_sample
-from vicode.store import find_projects
+from vicode.store import find_projects, folder_times
+
+_SEARCH_INTERVAL_S = 2.0
 
 
 @dataclass(eq=False)
@@ -18,11 +22,31 @@ class Library:
     path: Path
     users: UserDirectory = field(init=False, default_factory=UserDirectory)
     workspaces: list[Workspace] = field(init=False)
+    clock: Callable[[], float] = time.monotonic
+    _next_search_s: float = field(init=False, default=0.0)
+    _folder_times: frozenset[tuple[str, int]] = field(init=False, default=frozenset())
+    _earlier_folder_times: frozenset[tuple[str, int]] = field(init=False, default=frozenset())
     _overviews: dict[str, ProjectOverview] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
-        found = find_projects(self.path)
-        self.workspaces = [Workspace(item, _key(item, self.folder), self.users) for item in found]
+        self.workspaces = [self._open(folder) for folder in find_projects(self.path)]
+
+    def find_new_projects(self) -> None:
+        """Add the projects of folders that appeared, at most once per interval.
+
+        Raises:
+            OSError: The folder no longer exists.
+        """
+        if not self.path.is_dir() or self.clock() < self._next_search_s:
+            return
+        self._next_search_s = self.clock() + _SEARCH_INTERVAL_S
+        times = folder_times(self.path)
+        # Once more after each change: a file that appears may get its content later.
+        if times == self._folder_times == self._earlier_folder_times:
+            return
+        self._earlier_folder_times, self._folder_times = self._folder_times, times
+        known = {workspace.folder.resolve() for workspace in self.workspaces}
+        self.workspaces += [self._open(folder) for folder in find_projects(self.path) if folder.resolve() not in known]
 
     def workspace(self, key: str) -> Workspace | None:
         return next((workspace for workspace in self.workspaces if workspace.key == key), None)
@@ -34,7 +58,7 @@ class Library:
     def ensure_project(self) -> Workspace:
         """The first project, created if the folder contains none."""
         if not self.workspaces:
-            self.workspaces.append(Workspace(self.folder, _key(self.folder, self.folder), self.users))
+            self.workspaces.append(self._open(self.folder))
         return self.workspaces[0]
 
     def remove_leftovers(self) -> None:
@@ -52,9 +76,12 @@ class Library:
         """
         target = self.folder / DEFAULT_SAMPLE
         copy_sample(DEFAULT_SAMPLE, target)
-        added = Workspace(target, _key(target, self.folder), self.users)
+        added = self._open(target)
         self.workspaces.append(added)
         return added
+
+    def _open(self, folder: Path) -> Workspace:
+        return Workspace(folder, _key(folder, self.folder), self.users)
 
     @property
     def folder(self) -> Path:
