@@ -101,7 +101,7 @@ def read_summary(out: str) -> dict[str, object]:
         (("--on-error", "stop", "--path", "error"), 1, "error"),
         (("--ticks", "2", "--path", "error"), 0, "limit"),
         (("--path", "advance"), 2, "error"),
-        (("--path", "exit"), 5, "error"),
+        (("--path", "exit"), 1, "error"),
         (("--ticks", "2", "--path", "close"), 0, "limit"),
     ],
 )

@@ -43,11 +43,11 @@ def test_a_program_that_does_not_answer_is_ended(
     assert capsys.readouterr().err == AGAIN + "the program did not stop and was killed\n"
 
 
-def test_the_second_interrupt_ends_it_at_once(
+def test_the_third_interrupt_ends_it_at_once(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(trace_output, "_INTERRUPT_TIMEOUT_S", 30.0)
-    assert follow_unresponsive_program(2) == 130
+    assert follow_unresponsive_program(3) == 130
     assert "Traceback" not in capsys.readouterr().err
 
 
@@ -81,7 +81,6 @@ def test_an_endless_loop_of_the_user_ends_without_a_traceback(endless: Path) -> 
 @pytest.mark.parametrize(
     ("code", "ending"),
     [
-        ("import sys; sys.exit(5)", "unexpectedly with exit code 5"),
         ("import os; os._exit(0)", "unexpectedly with exit code 0"),
         ("import os; os._exit(2)", "unexpectedly with exit code 2"),
         ("import os; os.kill(os.getpid(), 9)", "by signal SIGKILL"),
@@ -93,6 +92,15 @@ def test_a_program_that_ends_itself_is_told(
     (lamps / "lamp.yaml").write_text(LAMP.replace("self.count = 1", code), encoding="utf-8")
     assert vicode("run", "lamps/lamp.yaml", "--ticks", "3") == 1
     assert capfd.readouterr().err.splitlines()[-1] == f"the program ended {ending}"
+
+
+@pytest.mark.parametrize("code", [0, 5])
+def test_code_that_ends_the_run_is_named(lamps: Path, code: int, capfd: pytest.CaptureFixture[str]) -> None:
+    (lamps / "lamp.yaml").write_text(LAMP.replace("self.count = 1", f"import sys; sys.exit({code})"), encoding="utf-8")
+    assert vicode("run", "lamps/lamp.yaml", "--ticks", "3") == 1
+    captured = capfd.readouterr()
+    assert "stopped: error" in captured.out
+    assert f"error: the code ended the run: lamp.yaml, Dark.enter, line 1: SystemExit: {code} [" in captured.err
 
 
 def test_a_mistake_before_the_start_is_one_line(lamps: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -71,6 +71,11 @@ def wrap_user_errors(message: str, *, only_user_code: bool = False) -> Iterator[
         raise UserCodeError(f"{message}: {_describe(error, place)}") from error
 
 
+def describe_user_error(error: BaseException) -> str:
+    """Describe an exception of user code with its location."""
+    return _describe(error, _find_user_location(error))
+
+
 def _import_attribute(name: str) -> Any:
     module, colon, attribute = name.partition(":")
     if not colon:
@@ -79,7 +84,7 @@ def _import_attribute(name: str) -> Any:
         with wrap_user_errors(f"cannot load {name}"):
             return getattr(importlib.import_module(module), attribute)
     except SystemExit as error:
-        raise UserCodeError(f"cannot load {name}: {_describe(error, _find_user_location(error))}") from error
+        raise UserCodeError(f"cannot load {name}: {describe_user_error(error)}") from error
 
 
 def _describe(error: BaseException, place: tuple[str, int] | None) -> str:

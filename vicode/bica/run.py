@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal, TextIO
 
 from .clock import PacedClock, SimulatedClock
 from .errors import ComponentError, CyclicUseError, print_error
-from .loader import UserCodeError, load_component, make_world, wrap_user_errors
+from .loader import UserCodeError, describe_user_error, load_component, make_world, wrap_user_errors
 from .observer import TRACE_HEADER, IterationRecord, Observer, to_json_value
 from .options import make_parser
 from .root import Root
@@ -180,7 +180,7 @@ def _find_tick_ns(root: Root, options: argparse.Namespace) -> int:
 def _run(root: Root, writer: _RecordWriter, signals: StopSignals) -> int:
     """Run until the end, close the components and the world, and write the summary."""
     stopped, tick_ns = "error", _find_tick_ns(root, writer.options)
-    failure: BaseException | None = None
+    failure: Exception | None = None
     try:
         with wrap_user_errors("the world failed", only_user_code=True), root:
             stopped = _loop(root, writer.options, tick_ns, signals)
@@ -189,7 +189,10 @@ def _run(root: Root, writer: _RecordWriter, signals: StopSignals) -> int:
     except ComponentError as error:
         stopped = "error"
         print_error(str(error))
-    except (Exception, SystemExit) as error:
+    except SystemExit as error:
+        stopped = "error"
+        print_error(f"the code ended the run: {describe_user_error(error)}")
+    except Exception as error:
         stopped, failure = "error", error
     world_summary = None
     try:
