@@ -65,10 +65,14 @@ def other(first_page_of_other: Page) -> Iterator[Page]:
 
 
 @contextmanager
-def started_editor(folder: Path, storage: Path, options: tuple[str, ...] = ("--no-tour",)) -> Iterator[str]:
+def started_editor(
+    folder: Path, storage: Path, options: tuple[str, ...] = ("--no-tour",), *, is_trusted: bool = True
+) -> Iterator[str]:
     """An editor on a folder of projects; its URL. The tour is left out, as it would stand in the way of other tests."""
     environment = {**_environment(), "NICEGUI_STORAGE_PATH": str(storage), "VICODE_STATE": str(storage / "state")}
-    storage.mkdir(parents=True, exist_ok=True)
+    (storage / "state").mkdir(parents=True, exist_ok=True)
+    if is_trusted:
+        (storage / "state" / "trusted").write_text(f"{folder.resolve()}\n")
     said = storage / "said.log"
     said.write_text("")
     arguments = ["edit", str(folder), "--no-open", "--port", "0", *options]

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.editor.conftest import started_editor
 from tests.editor.player_page import PLAYER, select_state, state
 from tests.editor.test_accessibility_browser import complaints
 
@@ -258,3 +259,22 @@ def test_axe_reports_nothing_during_a_simulation(editor: str, page: Page, colour
     expect(page.get_by_text("Viewing the past:")).to_be_visible()
     found += complaints(page)
     assert not found, "\n".join(found)
+
+
+def test_simulate_asks_once_before_it_runs_the_code_of_a_folder(page: Page, project: Path, tmp_path: Path) -> None:
+    storage = tmp_path / "untrusted"
+    with started_editor(project, storage, is_trusted=False) as url:
+        open_simulation(page, url)
+        page.keyboard.press("F10")
+        dialog = page.get_by_role("dialog", name="Trust this folder?")
+        dialog.get_by_role("button", name="Cancel").click()
+        expect(page.locator(".simulation-message")).to_contain_text("The folder is not trusted")
+        page.keyboard.press("F10")
+        dialog.get_by_role("button", name="Trust and simulate").click()
+        where(page, "0.00 s · iteration 1")
+        # Once: another window is not asked.
+        open_simulation(page, url)
+        page.keyboard.press("F10")
+        where(page, "0.00 s · iteration 1")
+        page.goto("about:blank")
+    assert (storage / "state" / "trusted").read_text() == f"{(project / 'forward').resolve()}\n"

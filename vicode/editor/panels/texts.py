@@ -18,6 +18,13 @@ ENTER_SEARCH_TERM = "Enter a search term"
 SELECT_ROW_FIRST = "Select a row first"
 RENDERING = "Rendering…"
 SAVED = "Saved"
+TRUST_TITLE = "Trust this folder?"
+TRUST_QUESTION = (
+    "Simulate runs the Python code of this folder. Trust it only if you know where it comes from; "
+    "the answer is remembered for this user."
+)
+TRUST_NOT_REMEMBERED = "The folder is trusted until the editor ends: the state folder cannot be written"
+NOT_TRUSTED = "The folder is not trusted, so its code does not run. Restart to be asked again."
 ALSO_OPEN_ELSEWHERE = " · Open in another editor"
 
 INTERNAL_ERROR = "Internal error; the change may not be saved. See the server log."

@@ -55,6 +55,8 @@ class Workspace:
     users: UserDirectory = field(default_factory=UserDirectory)
     autosave: bool = False
     """Whether designs are saved automatically a second after their last edit."""
+    is_trusted: bool = False
+    """Whether a user said that the code of the folder may run."""
     has_other_editor: bool = False
     """Whether another editor has the folder open."""
     project: Project = field(init=False)
@@ -117,8 +119,7 @@ class Workspace:
         return tuple(self._documents.values())
 
     def component_in_file(self, path: Path) -> str | None:
-        wanted = path.resolve()
-        return next((name for name, file in self.files.items() if name and file.resolve() == wanted), None)
+        return next((name for name, file in self.files.items() if name and file.resolve() == path.resolve()), None)
 
     @property
     def broken_file_names(self) -> tuple[str, ...]:
@@ -206,7 +207,6 @@ class Workspace:
         if disk.design is None:
             if not document.is_file_missing:
                 back_up_edited(document.file)
-            # The text read last has the comments and the order of keys.
             self._write(document, None, document.shared.disk_text)
             return
         merged = merge_designs(document.shared.saved, document.design, disk.design, theirs_at=theirs_at)

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from nicegui import run
 
 from vicode.editor.canvas import Canvas
+from vicode.editor.panels import texts
+from vicode.editor.panels.simulation.trust_dialog import ask_for_trust
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.simulation import (
     Breakpoints,
@@ -188,7 +190,7 @@ class SimulationController:
         inputs = self.simulation.inputs if self.simulation and not self.simulation.replay else {}
         self._discard_simulation()
         self.start_error, self.is_stale = "", False
-        prepared = await self._prepare()
+        prepared = await self._prepare() if await self._may_run() else None
         if prepared is not None and not self._is_closed:
             self._behavior_key = behavior_key(self.context.workspace.project, prepared.design)
             self.breakpoints = self.breakpoints.existing_in(prepared.design)
@@ -203,6 +205,11 @@ class SimulationController:
             if not simulation.replay:
                 await simulation.start()
         return self.simulation is not None and self.simulation.failure is None
+
+    async def _may_run(self) -> bool:
+        is_allowed = self.is_replay or await ask_for_trust(self.context)
+        self.start_error = "" if is_allowed else texts.NOT_TRUSTED
+        return is_allowed
 
     def _discard_simulation(self) -> None:
         if self.simulation is not None:

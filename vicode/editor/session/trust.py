@@ -1,0 +1,39 @@
+"""The folders whose Python code the user trusts, remembered in the user's state folder."""
+
+from pathlib import Path
+
+from vicode.model.project import Project
+from vicode.model.traversal import iter_code
+from vicode.output import write_atomically
+
+_FILE = "trusted"
+
+
+def is_trusted(state: Path, folder: Path) -> bool:
+    """Whether the user trusts a folder or a parent of it."""
+    own = folder.resolve()
+    return any(parent in _trusted(state) for parent in (own, *own.parents))
+
+
+def trust_folder(state: Path, folder: Path) -> None:
+    """Remember that the user trusts a folder.
+
+    Raises:
+        OSError: The state folder cannot be written.
+    """
+    state.mkdir(parents=True, exist_ok=True, mode=0o700)
+    folders = _trusted(state) | {folder.resolve()}
+    write_atomically(state / _FILE, "".join(f"{path}\n" for path in sorted(folders)))
+
+
+def contains_code(folder: Path, project: Project) -> bool:
+    """Whether a simulation may run Python code that stands in the folder."""
+    in_designs = (located for design in project.designs for located in iter_code(design))
+    return any(located.code.in_language("python") for located in in_designs) or any(folder.rglob("*.py"))
+
+
+def _trusted(state: Path) -> frozenset[Path]:
+    try:
+        return frozenset(map(Path, (state / _FILE).read_text(encoding="utf-8").splitlines()))
+    except (OSError, UnicodeDecodeError):
+        return frozenset()
