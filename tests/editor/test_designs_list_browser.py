@@ -28,6 +28,43 @@ def team(tmp_path: Path) -> Iterator[str]:
         yield url
 
 
+@pytest.fixture
+def folders(tmp_path: Path) -> Iterator[str]:
+    """The URL of an editor on a large project with folders."""
+    project = tmp_path / "designs" / "team"
+    for number in range(36):
+        name, folder = f"Design{number}", project / ("", "Roles", "Skills/Ball")[number % 3]
+        folder.mkdir(parents=True, exist_ok=True)
+        text = f"vicode: 1\ncomponent: {name}\ninitial: Up\nstates: {{Up: {{}}}}\n"
+        (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
+    with started_editor(tmp_path / "designs", tmp_path / "storage") as url:
+        yield url
+
+
+def test_designs_are_grouped_by_folder(folders: str, page: Page) -> None:
+    page.goto(folders)
+    cards, roles = page.get_by_role("article"), page.locator("summary").filter(has_text="Roles")
+    expect(cards).to_have_count(12)
+    expect(page.locator("summary")).to_have_text(
+        [re.compile("Roles.*12 designs"), re.compile("Skills/Ball.*12 designs")]
+    )
+    roles.click()
+    expect(cards).to_have_count(24)
+    # A search opens the folders of what it finds; then they are as before.
+    search = page.get_by_label("Search designs").last
+    search.fill("Design2")
+    expect(cards).to_have_count(11)
+    search.fill("")
+    expect(cards).to_have_count(24)
+    cards.get_by_role("link", name="Design1", exact=True).click()
+    rows = page.get_by_role("navigation", name="Designs").get_by_role("listitem")
+    expect(rows).to_have_count(24)
+    page.locator("summary").filter(has_text="Skills/Ball").click()
+    expect(rows).to_have_count(36)
+    page.get_by_label("Filter designs").fill("design2")
+    expect(rows).to_have_count(11)
+
+
 def test_one_of_many_designs_is_found_by_parts_of_its_name(team: str, page: Page) -> None:
     page.goto(team + "design/team/stand_0")
     page.wait_for_function("window.did_handshake")

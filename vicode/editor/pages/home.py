@@ -1,6 +1,7 @@
 """The home page of a folder: designs as cards, unreadable files, dependencies, hand-written components."""
 
 import contextlib
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -18,12 +19,13 @@ from vicode.editor.panels.code_editor import CodeEditorFactory
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.command_palette import CommandPalette
 from vicode.editor.panels.design_dialogs import DesignDialogs
+from vicode.editor.panels.folders import MANY_DESIGNS, Folder, group_by_folder
 from vicode.editor.panels.toasts import show_toast
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.panels.widgets import icon_button, primary_button
 from vicode.editor.session import Library, Workspace
 from vicode.editor.session.descriptions import error_reason
-from vicode.editor.session.overview import ProjectOverview
+from vicode.editor.session.overview import BrokenFile, DesignCard, ProjectOverview
 from vicode.editor.session.search_index import SearchIndex, SearchTarget
 from vicode.editor.view.page_urls import design_url
 
@@ -38,6 +40,7 @@ class HomePage:
         self.library = library
         self.rendered_key: object = None
         self.search_text = ""
+        self.folders_open: dict[tuple[str, str], bool] = {}
         theme = Theme(CodeEditorFactory(), apply_theme())
         ui.add_css(_SHEET.read_text(encoding="utf-8"))
         palette = CommandPalette(index, _navigate)
@@ -161,16 +164,28 @@ class HomePage:
                 primary_button("New design", lambda: self.dialogs.ask_new(workspace), icon="add")
             if project.doc:
                 ui.label(" ".join(project.doc.split())).classes("home-doc")
-            with ui.element("div").classes("home-cards"):
-                for card in cards:
-                    design_card(workspace, card, self.dialogs)
-                for each in broken:
-                    broken_card(workspace, each)
+            self._cards(workspace, group_by_folder([*cards, *broken], lambda each: each.file))
             if not cards and not broken:
                 self._nothing(bool(project.designs))
             if not self.search_text:
                 self._uses(workspace)
                 self._hand_written(overview)
+
+    def _cards(self, workspace: Workspace, folders: Mapping[str, Sequence[DesignCard | BrokenFile]]) -> None:
+        """Build the cards of the project and of its folders; those of large projects are closed until a search."""
+        is_small = sum(map(len, folders.values())) <= MANY_DESIGNS
+        for name, cards in folders.items():
+            place: contextlib.AbstractContextManager[object] = contextlib.nullcontext()
+            if name:
+                is_open = self.folders_open.get((workspace.key, name), is_small) or bool(self.search_text)
+                note = partial(self.folders_open.__setitem__, (workspace.key, name))
+                place = Folder(name, len(cards), is_open=is_open, on_toggle=note).element
+            with place, ui.element("div").classes("home-cards"):
+                for card in cards:
+                    if isinstance(card, BrokenFile):
+                        broken_card(workspace, card)
+                    else:
+                        design_card(workspace, card, self.dialogs)
 
     def _nothing(self, has_designs: bool) -> None:
         text = texts.no_matching_designs(self.search_text) if has_designs else texts.NO_DESIGNS_IN_PROJECT

@@ -1,13 +1,15 @@
 """The list of the designs of all projects of the folder."""
 
+import contextlib
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from html import escape
 
 from nicegui import ui
 
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.design_menu import add_design_menu
+from vicode.editor.panels.folders import MANY_DESIGNS, Folder, group_by_folder
 from vicode.editor.panels.texts import NO_MATCHING_DESIGNS, unreadable_file
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.session import Library, Workspace
@@ -25,6 +27,15 @@ class _Row:
     name: str
     address: str
     element: ui.element
+
+
+@dataclass(frozen=True, slots=True)
+class _OpenedFolder:
+    """A folder, whether it is open without a filter, and its rows."""
+
+    folder: Folder
+    is_open: bool
+    rows: list[_Row] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +67,7 @@ class DesignsList:
         self.rendered_key: object = None
         self._rows: list[_Row] = []
         self._marks: list[_UnsavedMark] = []
+        self._folders: list[_OpenedFolder] = []
         with ui.element("nav").classes("designs").props('aria-label="Designs"'):
             self._filter = ui.input(placeholder="Filter", on_change=self._apply_filter).classes("designs-filter")
             self._filter.props('dense borderless clearable debounce=150 aria-label="Filter designs"')
@@ -68,14 +80,15 @@ class DesignsList:
 
     def refresh(self) -> None:
         key = [
-            (each.key, sorted(each.project.interfaces()), each.broken_file_names) for each in self.library.workspaces
+            (each.key, sorted(each.project.interfaces()), each.broken_file_names, dict(each.files))
+            for each in self.library.workspaces
         ]
         if key == self.rendered_key:
             for mark in self._marks:
                 mark.refresh()
             return
         self.rendered_key = key
-        self._rows, self._marks = [], []
+        self._rows, self._marks, self._folders = [], [], []
         self.body.clear()
         with self.body:
             for workspace in self.library.workspaces:
@@ -88,6 +101,10 @@ class DesignsList:
         matching_rows = self._matching_rows(str(self._filter.value or ""))
         for row in self._rows:
             row.element.set_visibility(row in matching_rows)
+        for opened in self._folders:
+            shown = [row for row in opened.rows if row in matching_rows]
+            opened.folder.element.set_visibility(bool(shown))
+            opened.folder.set_open(is_open=opened.is_open or len(matching_rows) < len(self._rows))
         self._no_matches.set_visibility(bool(self._rows) and not matching_rows)
 
     def _matching_rows(self, text: str) -> list[_Row]:
@@ -103,14 +120,27 @@ class DesignsList:
         with ui.row().classes("project-head"):
             ui.label(workspace.project.name).classes("project-name")
             icon_button("add", f"New design in {workspace.project.name}", lambda: self.dialogs.ask_new(workspace))
-        with ui.element("div").props("role=list") as design_list:
-            design_list.props["aria-label"] = workspace.project.name
-            for design in sorted(workspace.project.designs, key=lambda each: each.component.casefold()):
-                self._design(workspace, design.component)
-            for file in workspace.broken_file_names:
-                self._rows.append(_Row(file, broken_file_url(workspace.key, file), _broken(workspace, file)))
+        sources, broken = workspace.source_paths, workspace.broken_file_names
+        names = sorted((design.component for design in workspace.project.designs), key=str.casefold)
+        files = [*((name, sources.get(name, "")) for name in names), *(("", file) for file in broken)]
+        for name, entries in group_by_folder(files, lambda entry: entry[1]).items():
+            place: contextlib.AbstractContextManager[object] = contextlib.nullcontext()
+            folder = None
+            if name:
+                is_here = self.current in ((workspace.key, component) for component, _file in entries)
+                is_open = is_here or len(files) <= MANY_DESIGNS
+                folder = _OpenedFolder(Folder(name, len(entries), is_open=is_open), is_open)
+                place = folder.folder.element
+                self._folders.append(folder)
+            with place, ui.element("div").props("role=list") as design_list:
+                design_list.props["aria-label"] = f"{workspace.project.name} {name}".strip()
+                for component, file in entries:
+                    row = self._design(workspace, component) if component else _broken(workspace, file)
+                    self._rows.append(row)
+                    if folder:
+                        folder.rows.append(row)
 
-    def _design(self, workspace: Workspace, component: str) -> None:
+    def _design(self, workspace: Workspace, component: str) -> _Row:
         address = design_url(workspace.key, component)
         is_here = self.current == (workspace.key, component)
         with ui.element("div").classes("design-row").props("role=listitem") as row:
@@ -126,7 +156,7 @@ class DesignsList:
             mark.refresh()
             self._marks.append(mark)
             add_design_menu(workspace, component, self.dialogs, row)
-        self._rows.append(_Row(component, address, row))
+        return _Row(component, address, row)
 
 
 def _name(component: str) -> None:
@@ -138,10 +168,10 @@ def _name(component: str) -> None:
         ui.html("<wbr>".join(escape(part) for part in parts), sanitize=False).classes("design-name")
 
 
-def _broken(workspace: Workspace, file: str) -> ui.element:
+def _broken(workspace: Workspace, file: str) -> _Row:
     address = broken_file_url(workspace.key, file)
     with ui.element("div").props("role=listitem") as row, ui.link(target=address).classes("design-link is-broken"):
         ui.icon("error").props('aria-hidden="true"')
         ui.label(file).classes("design-name")
         ui.tooltip(unreadable_file(file))
-    return row
+    return _Row(file, address, row)
