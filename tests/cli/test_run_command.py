@@ -116,3 +116,19 @@ def test_components_without_an_implementation_keep_their_initial_values(tmp_path
     assert "last state: Wait" in out
     assert out.splitlines()[-1] == "errors: 0"
     assert "P209 not-implemented: 'Sensors' has no implementation: its outputs keep their initial values" in err
+
+
+def test_a_class_that_differs_from_its_declaration_does_not_start(
+    lamps: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with (lamps / "project.yaml").open("a") as project:
+        project.write("components:\n  Eye: {implementation: 'eyes:Eye', outputs: {seen: bool}}\n")
+    design = LAMP.replace("Bulb}", "Bulb, eye: Eye}").replace("Dark:\n", "Dark:\n    requires: [eye]\n", 1)
+    (lamps / "lamp.yaml").write_text(design.replace("after: 0.2", "when: eye.seen"))
+    (lamps / "eyes.py").write_text("from vicode.bica import Component\n\n\nclass Eye(Component):\n    sees = True\n")
+    assert vicode("check", "lamps") == 0
+    problem = "eyes.py:4:1: warning P212 different-class: 'Eye' has no attribute 'seen'"
+    assert problem in capsys.readouterr().out
+    assert vicode("run", "lamps/lamp.yaml") == 1
+    assert problem in capsys.readouterr().err
+    assert vicode("run", "lamps/bulb.yaml", "--ticks", "1") == 0

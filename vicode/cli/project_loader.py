@@ -1,7 +1,8 @@
 """Loads the projects at paths of the command line: designs, project folders, folders of projects."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -105,7 +106,10 @@ def _load_project(folder: Path, files: set[Path] | None) -> LoadedProject:
         return LoadedProject(
             open_project=opened,
             selected_components=None,
-            findings=locate_findings([*opened.findings, *check_project(opened.project)], opened),
+            findings=(
+                *locate_findings([*opened.findings, *check_project(opened.project)], opened),
+                *_check_classes(opened),
+            ),
         )
     opened = open_project(min(files))
     found = (opened.find_component(file) for file in sorted(files))
@@ -115,4 +119,20 @@ def _load_project(folder: Path, files: set[Path] | None) -> LoadedProject:
     relevant |= {file.resolve() for file in files}
     findings = locate_findings([*opened.findings, *check_project(opened.project, components)], opened)
     kept = tuple(each for each in findings if each.location is None or Path(each.location.file).resolve() in relevant)
-    return LoadedProject(open_project=opened, selected_components=components, requested=named, findings=kept)
+    used = {use.component for each in opened.project.designs if each.component in components for use in each.uses}
+    return LoadedProject(
+        open_project=opened,
+        selected_components=components,
+        requested=named,
+        findings=(*kept, *_check_classes(opened, used)),
+    )
+
+
+def _check_classes(opened: "OpenProject", components: Collection[str] | None = None) -> tuple[Finding, ...]:
+    """Compare hand-written classes with project.yaml."""
+    from vicode.check.classes import check_classes
+    from vicode.store import read_python_module
+
+    if "python" not in opened.project.languages:
+        return ()
+    return tuple(check_classes(opened.project, partial(read_python_module, opened.folder), components))

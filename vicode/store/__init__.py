@@ -13,6 +13,7 @@ from vicode.store.projects import (
     find_projects,
     folder_times,
     open_project,
+    read_python_module,
 )
 from vicode.store.source_map import SourceMap
 from vicode.store.unread import UnreadContentError
@@ -44,6 +45,7 @@ __all__ = [
     "project_schema",
     "read_design",
     "read_project_file",
+    "read_python_module",
     "replace_text",
     "save_design",
     "save_project_file",

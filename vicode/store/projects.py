@@ -120,6 +120,22 @@ def find_project_file(folder: Path) -> Path | None:
     return next((folder / name for name in PROJECT_FILES if (folder / name).is_file()), None)
 
 
+def read_python_module(folder: Path, name: str) -> tuple[str, str] | None:
+    """Read the source of a module of a project.
+
+    Returns:
+        The path for messages and the text; None if the folder does not contain the module.
+    """
+    base = folder.joinpath(*name.split("."))
+    for file in (base.with_suffix(".py"), base / "__init__.py"):
+        if file.is_file():
+            try:
+                return display_path(file), _read_bytes(file).decode("utf-8")
+            except (OSError, UnicodeDecodeError):
+                return None
+    return None
+
+
 def display_path(path: Path) -> str:
     """The path for messages: relative if it is below the working directory."""
     relative = os.path.relpath(path)

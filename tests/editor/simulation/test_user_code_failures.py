@@ -163,7 +163,7 @@ def test_memory_is_limited(tmp_path: Path) -> None:
 
 def test_code_that_cannot_be_loaded_is_reported(tmp_path: Path) -> None:
     folder = write_lamps(tmp_path / "lamps")
-    (folder / "hands.py").write_text("import nothing_of_this_name\n")
+    (folder / "hands.py").write_text("from nothing_of_this_name import Bulb, Eye\n")
 
     async def act(simulation: Simulation) -> None:
         await simulation.start()
@@ -172,6 +172,15 @@ def test_code_that_cannot_be_loaded_is_reported(tmp_path: Path) -> None:
         assert "hands.py:1]" in failure_words(simulation)
 
     simulate(prepare_lamp(folder, stubbed=frozenset()), folder, act)
+
+
+def test_a_class_that_differs_from_its_declaration_is_not_started(tmp_path: Path) -> None:
+    folder = write_lamps(tmp_path / "lamps")
+    file = folder / "hands.py"
+    file.write_text(file.read_text().replace("self.light =", "self.bright ="))
+    with pytest.raises(NotReadyError, match=r"hands\.py, line 5: 'Eye' has no attribute 'light'. Fix it"):
+        prepare_lamp(folder, stubbed=frozenset())
+    prepare_lamp(folder)
 
 
 def test_a_design_with_errors_is_not_started(tmp_path: Path) -> None:

@@ -1,11 +1,13 @@
 """From the current design to the files and the setup of a simulation process."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 from vicode.bica.tick import choose_tick_ns
 from vicode.check import check_project
+from vicode.check.classes import check_classes
 from vicode.editor.session.simulation.inputs import SimulationInput, collect_inputs, input_types, make_stub
 from vicode.editor.view import transition_key
 from vicode.findings import DesignPath, Severity
@@ -15,6 +17,7 @@ from vicode.model.project import INTERNAL, Interface, Project
 from vicode.output import OutputFile
 from vicode.simulation import Setup
 from vicode.simulation.stubs import STUB_MODULE
+from vicode.store import read_python_module
 
 
 class NotReadyError(Exception):
@@ -98,6 +101,7 @@ def prepare_run(
     types = input_types(whole, inputs)
     class_path = python_class_path(ready, design.component)
     runs_by_hand = hand_written_components(stubbed, design) - set(stub_names)
+    _check_classes(whole, runs_by_hand, folder)
     setup = Setup(
         component=class_path,
         probes=f"{class_path.partition('.')[0]}._probes",
@@ -144,6 +148,12 @@ def _check_errors(project: Project, components: frozenset[str]) -> None:
         where = f"{first.subject.component}: " if first.subject and first.subject.component else ""
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
         raise NotReadyError(f"{where}{first.message}{more}. Fix it, then restart.")
+
+
+def _check_classes(project: Project, components: Collection[str], folder: Path) -> None:
+    for finding in check_classes(project, partial(read_python_module, folder), components):
+        where = f"{Path(finding.location.file).name}, line {finding.location.line}: " if finding.location else ""
+        raise NotReadyError(f"{where}{finding.message}. Fix it, then restart.")
 
 
 def _with_stubs(project: Project, stub_names: tuple[str, ...]) -> Project:
