@@ -137,6 +137,11 @@ def test_every_template_has_no_errors(workspace: Workspace, folder: Path, templa
     assert workspace.project.design("Fresh") is not None
 
 
+def test_a_new_design_without_a_template_has_no_description(workspace: Workspace) -> None:
+    text = templates.instantiate_template(templates.list_templates()[0], "Fresh", workspace.project)
+    assert text == "vicode: 1\ncomponent: Fresh\ninitial: Start\nstates:\n  Start: {at: [160, 120]}\n"
+
+
 def test_a_template_uses_the_sensor_of_the_project(workspace: Workspace) -> None:
     template = next(item for item in templates.list_templates() if item.name == "follow_what_is_seen")
     text = templates.instantiate_template(template, "Fresh", workspace.project)

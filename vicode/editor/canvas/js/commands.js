@@ -139,7 +139,8 @@ function navigationHandlers(canvas) {
 
 const directionOf = (chord) => ARROWS[chord.split("+").at(-1)];
 
-const freePositionNextTo = (scene, node) => findFreePosition(scene, node.x + node.w / 2 + 140, node.y);
+// Leaves room for the label of a short guard between the two states.
+const freePositionNextTo = (scene, node) => findFreePosition(scene, node.x + node.w / 2 + 180, node.y);
 
 function nudge(canvas, nodes, [dx, dy], step) {
   const { gestures, scene, selection, viewport } = canvas;

@@ -33,8 +33,11 @@ def list_templates() -> tuple[Template, ...]:
 
 
 def instantiate_template(template: Template, component: str, project: Project) -> str:
-    """The text of a new design, with the comments and the order of the template."""
-    design = replace(template.design, component=component)
+    """The text of a new design, with the comments and the order of the template.
+
+    The description of the empty template would be wrong after the first edit.
+    """
+    design = replace(template.design, component=component, doc="" if template.name == _NAMES[0] else template.doc)
     if design.use(_SENSE) is not None:
         design = _bind_sensor(design, project)
     return save_design(design, template.text)
