@@ -51,11 +51,11 @@ def test_an_input_is_set_and_the_state_follows(editor: str, page: Page) -> None:
     page.get_by_role("switch", name="Perception ball_seen").click()
     expect(guard).to_contain_text("true")
     expect(guard).to_contain_text("perception.ball_seen = true")
-    for _step in range(5):
+    for _step in range(6):
         page.get_by_role("button", name="Step (F10)").click()
     expect(active(page)).to_have_attribute("data-id", "FollowBall")
     expect(page.locator('g.edge.taken[data-id="LookForBall/0"]')).to_have_count(1)
-    where(page, "0.10 s · iteration 6 · FollowBall")
+    where(page, "0.10 s · iteration 7 · FollowBall")
     expect(page.locator("svg.plot rect.plot-state")).to_have_count(2)
 
     # Back to the past with its inputs, and forward again.
@@ -125,7 +125,7 @@ def test_the_player_plays_in_its_own_world(editor: str, page: Page) -> None:
     time = page.get_by_role("spinbutton", name="Go to this time")
     time.fill("1.00")
     time.press("Enter")
-    where(page, "1.00 s · iteration 51")
+    where(page, "1.00 s · iteration 61")
     expect(page.get_by_text("Viewing the past:")).to_be_visible()
 
 
