@@ -219,7 +219,7 @@ def test_untrusted_texts_are_escaped_in_the_simulation(editor: str, page: Page, 
     file.write_text(file.read_text().replace("\ncomponents:\n", f"\ncomponents:\n{eye}"))
     (project / "forward" / "watcher.yaml").write_text(
         "vicode: 1\ncomponent: Watcher\nuses: {eye: Eye}\ninitial: Off\nstates:\n"
-        f"  Off: {{doc: {quoted}, transitions: [{{to: On, when: eye.seen, doc: {quoted}}}]}}\n"
+        f"  Off: {{doc: {quoted}, requires: [eye], transitions: [{{to: On, when: eye.seen, doc: {quoted}}}]}}\n"
         "  On:\n    actions:\n      - code: |\n"
         f"          print({evil!r})\n          raise ValueError({evil!r})\n"
     )
