@@ -23,6 +23,7 @@ TRUST_QUESTION = (
     "Simulate runs the Python code of this folder. Trust it only if you know where it comes from; "
     "the answer is remembered for this user."
 )
+SANDBOXED = "It runs in a sandbox: it can read this folder, write nothing but temporary files, and has no network."
 TRUST_NOT_REMEMBERED = "The folder is trusted until the editor ends: the state folder cannot be written"
 NOT_TRUSTED = "The folder is not trusted, so its code does not run. Restart to be asked again."
 ALSO_OPEN_ELSEWHERE = " · Open in another editor"
@@ -210,3 +211,7 @@ def discarded(component: str) -> str:
 
 def invalid_event(reason: str) -> str:
     return f"The page sent an invalid event ({reason}). Reload the page."
+
+
+def not_sandboxed(problem: str) -> str:
+    return f"It runs without a sandbox, with all rights of your user account: {problem}."

@@ -1,6 +1,6 @@
 """Asks once for each folder before a simulation runs its Python code."""
 
-from nicegui import ui
+from nicegui import run, ui
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
@@ -8,6 +8,7 @@ from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.recovery import state_folder
 from vicode.editor.session.trust import contains_code, is_trusted, trust_folder
+from vicode.simulation.isolation import isolation_problem
 
 
 async def ask_for_trust(context: WindowContext) -> bool:
@@ -26,9 +27,11 @@ async def ask_for_trust(context: WindowContext) -> bool:
 
 
 async def _ask(context: WindowContext) -> bool:
+    problem = await run.io_bound(isolation_problem)
     with context.client, titled_dialog(texts.TRUST_TITLE) as dialog:
         ui.label(str(context.workspace.folder.resolve())).classes("mono")
         ui.label(texts.TRUST_QUESTION)
+        ui.label(texts.not_sandboxed(problem) if problem else texts.SANDBOXED)
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=lambda: dialog.submit(False)).props("flat no-caps")
             primary_button("Trust and simulate", lambda: dialog.submit(True))

@@ -7,7 +7,6 @@ import re
 import shutil
 import signal
 import sys
-import tempfile
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,6 +15,7 @@ from vicode.editor.session.simulation.client import RunClient
 from vicode.editor.session.simulation.setup import PreparedRun
 from vicode.output import apply_diffs, compare_files
 from vicode.simulation.environment import fresh_environment
+from vicode.simulation.isolation import isolation_problem, launch_command, make_temporary
 from vicode.simulation.messages import MAX_MESSAGE_BYTES
 
 _MAX_STDERR = 64_000
@@ -60,20 +60,23 @@ class ProcessTransport:
         return f"{place}: {words}" if place else f"The code {words}", tuple(tail[-20:])
 
     def close(self) -> None:
-        """Kill the process group and remove its files."""
+        """Kill the process with all its descendants and remove its files."""
         if self._is_closed:
             return
         self._is_closed = True
         if self.process.stdin is not None:
             self.process.stdin.close()
+        # The launcher kills all descendants, also those in other process groups.
         with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(self.process.pid, signal.SIGKILL)
+            os.kill(self.process.pid, signal.SIGTERM)
         shutil.rmtree(self.folder, ignore_errors=True)
 
     async def wait_closed(self) -> None:
         """Wait until a killed process is cleaned up."""
         with contextlib.suppress(TimeoutError):
             await asyncio.wait_for(asyncio.gather(self.process.wait(), self._listening, self._drain()), 10)
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(self.process.pid, signal.SIGKILL)
 
     async def _drain(self) -> None:
         assert self.process.stdout is not None
@@ -105,11 +108,18 @@ async def start_process(prepared: PreparedRun, cwd: Path) -> RunClient:
         RunFailedError: The code cannot be loaded.
         OSError: A file cannot be written, or the process cannot be started.
     """
-    folder = Path(tempfile.mkdtemp(prefix="vicode-simulation-"))
+    whole = make_temporary()
+    folder = whole / "files"
     await asyncio.to_thread(lambda: apply_diffs(compare_files(prepared.files, folder), folder))
+    is_isolated = not await asyncio.to_thread(isolation_problem)
     # -P: modules in the current folder must not shadow others. The hash seed determines the order of sets.
     process = await asyncio.create_subprocess_exec(
-        *(sys.executable, "-P", "-m", "vicode.simulation"),
+        *launch_command(
+            [sys.executable, "-P", "-m", "vicode.simulation"],
+            (*prepared.setup.path, str(cwd.resolve())),
+            whole,
+            is_isolated=is_isolated,
+        ),
         stdin=asyncio.subprocess.PIPE,
         stdout=asyncio.subprocess.PIPE,
         stderr=asyncio.subprocess.PIPE,
@@ -118,7 +128,7 @@ async def start_process(prepared: PreparedRun, cwd: Path) -> RunClient:
         env=fresh_environment(PYTHONDONTWRITEBYTECODE="1", PYTHONHASHSEED="0"),
         start_new_session=True,
     )
-    client = RunClient(ProcessTransport(process, folder), prepared.setup.limit_s)
+    client = RunClient(ProcessTransport(process, whole), prepared.setup.limit_s)
     try:
         path = (str(folder / "python"), *prepared.setup.path)
         await client.set_up(replace(prepared.setup, path=path, folder=str(folder)))

@@ -1,0 +1,246 @@
+"""Starts a program that ends with all its descendants, and where the system allows it, in a sandbox.
+
+Run as a script with the standard library only: `python launcher.py CONFIG`, where CONFIG is a `LaunchConfig` as JSON.
+
+In the sandbox, the program sees the given folders and no other files, has no network, and cannot see or signal other
+processes. It consists of namespaces of Linux: user, mount, network, process, and IPC (`man 7 namespaces`).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import json
+import os
+import resource
+import signal
+import sys
+import time
+from typing import TYPE_CHECKING, Any, TypedDict
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+_PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER, _PR_SET_NO_NEW_PRIVS = 1, 36, 38
+_CLONE_NEWNS = 0x00020000
+# Mount, IPC, user, process and network namespaces.
+_NAMESPACES = _CLONE_NEWNS | 0x08000000 | 0x10000000 | 0x20000000 | 0x40000000
+_MS_RDONLY, _MS_NOSUID, _MS_NODEV, _MS_REMOUNT, _MS_BIND, _MS_REC, _MS_PRIVATE = 1, 2, 4, 32, 4096, 16384, 1 << 18
+_MNT_DETACH = 2
+# Flags of a mount that a user namespace must keep, as `statvfs` and `mount` name them.
+_KEPT_FLAGS = {2: 2, 4: 4, 8: 8, 1024: 1024, 2048: 2048, 4096: 1 << 21}
+_PIVOT_ROOT = {"x86_64": 155, "aarch64": 41}
+_SYSTEM_PATHS = (
+    *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/opt"),
+    *("/etc/ld.so.cache", "/etc/localtime", "/etc/alternatives"),
+)
+_DEVICES = ("null", "zero", "full", "random", "urandom")
+_INNER_ID = 1000
+_MAX_PROCESSES, _MAX_FILES, _MAX_FILE_BYTES = 64, 256, 64 << 20
+
+
+class LaunchConfig(TypedDict):
+    """What to start; `readable` and `writable` are paths that the sandbox contains, `root` an empty folder for it.
+
+    The launcher removes the folder `temporary` when it is terminated, also by the end of the editor.
+    """
+
+    command: list[str]
+    is_isolated: bool
+    readable: list[str]
+    writable: list[str]
+    root: str
+    temporary: str
+
+
+def main() -> int:
+    """Start the program and return its exit code after all its descendants have ended."""
+    config: LaunchConfig = json.loads(sys.argv[1])
+    libc = _Libc()
+    editor = os.getppid()
+    libc.check(libc.prctl(_PR_SET_CHILD_SUBREAPER, 1))
+    folder = os.getcwd()
+    if config["is_isolated"]:
+        _enter_namespaces(libc)
+    child = os.fork()
+    if child == 0:
+        libc.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+        if config["is_isolated"]:
+            # The launcher keeps its own root.
+            libc.check(libc.unshare(_CLONE_NEWNS))
+            _enter_root(libc, config, folder)
+            _run_first_process(config["command"])
+        os.execv(config["command"][0], config["command"])
+    signal.signal(signal.SIGTERM, lambda *_: _end(config, 128 + signal.SIGTERM))
+    signal.signal(signal.SIGABRT, lambda *_: os.kill(child, signal.SIGABRT))
+    libc.check(libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM))
+    if os.getppid() != editor:
+        _end(config, 1)
+    for descriptor in (0, 1):
+        # Only the program may hold the pipes, so that their ends are seen.
+        os.dup2(os.open(os.devnull, os.O_RDWR), descriptor)
+    status = _wait_for(child)
+    if os.getppid() != editor:
+        _end(config, 1)
+    _kill_descendants()
+    return _exit_like(status)
+
+
+class _Libc:
+    """Calls of the C library that Python lacks."""
+
+    def __init__(self) -> None:
+        library: Any = ctypes.CDLL(None, use_errno=True)
+        self.prctl, self.unshare, self.syscall = library.prctl, library.unshare, library.syscall
+        self._mount, self._umount = library.mount, library.umount2
+        self._mount.argtypes = (ctypes.c_char_p,) * 3 + (ctypes.c_ulong, ctypes.c_char_p)
+
+    def check(self, result: int) -> None:
+        if result != 0:
+            number = ctypes.get_errno()
+            raise OSError(number, os.strerror(number))
+
+    def mount(self, source: str, target: str, kind: str = "", flags: int = 0, options: str = "") -> None:
+        self.check(self._mount(source.encode(), target.encode(), kind.encode(), flags, options.encode()))
+
+    def unmount(self, target: str) -> None:
+        self.check(self._umount(target.encode(), _MNT_DETACH))
+
+
+def _enter_namespaces(libc: _Libc) -> None:
+    user, group = os.getuid(), os.getgid()
+    libc.check(libc.unshare(_NAMESPACES))
+    for name, text in (
+        ("setgroups", "deny"),
+        # Not 0: then the program has no capabilities.
+        ("uid_map", f"{_INNER_ID} {user} 1"),
+        ("gid_map", f"{_INNER_ID} {group} 1"),
+    ):
+        with open(f"/proc/self/{name}", "w", encoding="ascii") as file:
+            file.write(text)
+
+
+def _enter_root(libc: _Libc, config: LaunchConfig, folder: str) -> None:
+    """Make the given folders the only files."""
+    root = config["root"]
+    libc.mount("none", "/", flags=_MS_REC | _MS_PRIVATE)
+    libc.mount("tmpfs", root, "tmpfs", _MS_NOSUID | _MS_NODEV, "size=64m,mode=755")
+    bound: list[str] = []
+    for path in sorted({*_SYSTEM_PATHS, *config["readable"]}, key=len):
+        if os.path.islink(path) and path in _SYSTEM_PATHS:
+            os.makedirs(os.path.dirname(root + path), exist_ok=True)
+            os.symlink(os.readlink(path), root + path)
+        elif os.path.exists(path) and not _is_below(path, bound):
+            _bind(libc, path, root + path, is_writable=False)
+            bound.append(path)
+    for name in ("/tmp", "/dev/shm", "/proc", "/old"):  # noqa: S108 - in the new root
+        os.makedirs(root + name, exist_ok=True)
+    for path in config["writable"]:
+        _bind(libc, path, root + path, is_writable=True)
+    for device in _DEVICES:
+        with open(f"{root}/dev/{device}", "w", encoding="ascii"):
+            libc.mount(f"/dev/{device}", f"{root}/dev/{device}", flags=_MS_BIND)
+    with contextlib.suppress(OSError):
+        # Some containers hide parts of /proc; the program does without.
+        libc.mount("proc", f"{root}/proc", "proc")
+    libc.check(libc.syscall(_PIVOT_ROOT[os.uname().machine], root.encode(), f"{root}/old".encode()))
+    os.chdir("/")
+    libc.unmount("/old")
+    os.rmdir("/old")
+    os.chdir(folder)
+    libc.check(libc.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0))
+
+
+def _bind(libc: _Libc, source: str, target: str, *, is_writable: bool) -> None:
+    os.makedirs(target if os.path.isdir(source) else os.path.dirname(target), exist_ok=True)
+    if not os.path.isdir(source):
+        open(target, "w", encoding="ascii").close()
+    libc.mount(source, target, flags=_MS_BIND | _MS_REC)
+    if not is_writable:
+        given = os.statvfs(source).f_flag
+        kept = sum(flag for bit, flag in _KEPT_FLAGS.items() if given & bit)
+        libc.mount("none", target, flags=_MS_REMOUNT | _MS_BIND | _MS_RDONLY | kept)
+
+
+def _is_below(path: str, folders: Iterable[str]) -> bool:
+    return any(path == folder or path.startswith(f"{folder.rstrip('/')}/") for folder in folders)
+
+
+def _run_first_process(command: list[str]) -> None:
+    """Be the first process of the namespace, which the kernel treats specially; the program is the second."""
+    child = os.fork()
+    if child == 0:
+        for limit, most in (
+            (resource.RLIMIT_NPROC, _MAX_PROCESSES),
+            (resource.RLIMIT_NOFILE, _MAX_FILES),
+            (resource.RLIMIT_FSIZE, _MAX_FILE_BYTES),
+        ):
+            resource.setrlimit(limit, (most, most))
+        os.execv(command[0], command)
+    signal.signal(signal.SIGABRT, lambda *_: os.kill(child, signal.SIGABRT))
+    for descriptor in (0, 1):
+        os.dup2(os.open(os.devnull, os.O_RDWR), descriptor)
+    status = _wait_for(child)
+    # A signal cannot end this process as it ended the program: tell the launcher its number.
+    os._exit(os.waitstatus_to_exitcode(status) if os.WIFEXITED(status) else 128 + os.WTERMSIG(status))
+
+
+def _wait_for(child: int) -> int:
+    while True:
+        ended, status = os.waitpid(-1, 0)
+        if ended == child:
+            return status
+
+
+def _end(config: LaunchConfig, code: int) -> None:
+    """End everything; the editor, which would remove the files, may be gone."""
+    import shutil
+
+    _kill_descendants()
+    shutil.rmtree(config["temporary"], ignore_errors=True)
+    os._exit(code)
+
+
+def _kill_descendants() -> None:
+    """Kill until no process is left: the children of a killed process become children of this one."""
+    while True:
+        for child in _iter_descendants(os.getpid()):
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.kill(child, signal.SIGKILL)
+        try:
+            while os.waitpid(-1, os.WNOHANG)[0]:
+                pass
+        except ChildProcessError:
+            return
+        time.sleep(0.001)
+
+
+def _iter_descendants(parent: int) -> Iterator[int]:
+    children: dict[int, list[int]] = {}
+    for name in os.listdir("/proc"):
+        if name.isdigit():
+            with contextlib.suppress(OSError), open(f"/proc/{name}/stat", encoding="utf-8", errors="replace") as file:
+                children.setdefault(int(file.read().rpartition(")")[2].split()[1]), []).append(int(name))
+    waiting = [parent]
+    while waiting:
+        found = children.get(waiting.pop(), [])
+        yield from found
+        waiting += found
+
+
+def _exit_like(status: int) -> int:
+    """The exit code of the program; if a signal ended it, the same signal ends this process."""
+    code = os.waitstatus_to_exitcode(status)
+    number = -code if code < 0 else code - 128
+    if number in {int(each) for each in signal.Signals} and (code < 0 or number in _FATAL):
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        if number not in (signal.SIGKILL, signal.SIGSTOP):
+            signal.signal(number, signal.SIG_DFL)
+        os.kill(os.getpid(), number)
+    return code
+
+
+_FATAL = (signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGKILL, signal.SIGXFSZ)
+
+if __name__ == "__main__":
+    sys.exit(main())
