@@ -69,6 +69,13 @@ def test_declarations_used_by_another_design_are_kept(tmp_path: Path) -> None:
     assert _labels(open_project(tmp_path).project, "D424") == []
 
 
+STEPPING = """uses: {eye: Perception}
+initial: S
+%s
+states:
+  S: {requires: [eye], transitions: [{to: T, after: 1}]}
+  T: {%s}
+"""
 STAY = "initial: S\nstates: {S: {final: true, transitions: [{stay: true, when: %s}]}}"
 
 
@@ -103,6 +110,16 @@ STAY = "initial: S\nstates: {S: {final: true, transitions: [{stay: true, when: %
             "Remove the shadowed transition",
         ),
         ("initial: S\nstates: {S: {transitions: [{to: S, after: 1}]}}", "D430", "Replace it with a stay"),
+        (
+            STEPPING % ("common: {transitions: [{to: S, when: eye.ball}]}", ""),
+            "D426",
+            "Require eye in all states",
+        ),
+        (
+            STEPPING % ("", "transitions: [{to: S, when: eye.ball}]"),
+            "D426",
+            "Require eye in T",
+        ),
     ],
 )
 def test_the_expected_fix_is_offered(text: str, code: str, label: str, tmp_path: Path) -> None:

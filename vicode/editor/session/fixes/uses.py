@@ -1,7 +1,9 @@
 """Fixes of used components: unknown or unused components, wrong or misplaced calls."""
 
 from dataclasses import replace
+from functools import reduce
 
+from vicode.check.graphs import iter_steps
 from vicode.editor.session.fixes.context import Fix, FixContext
 from vicode.findings import DesignPath
 from vicode.model.design import Call, Design, State, Use
@@ -71,11 +73,17 @@ def fix_misplaced_call(case: FixContext) -> list[Fix]:
 
 
 def fix_missing_requirement(case: FixContext) -> list[Fix]:
-    """D426: the state requires the component that it reads."""
+    """D426: the state requires the component that it reads; for a common guard, all states that do not step it."""
     name, alias = case.state_name(), case.finding.name
-    if not name:
-        return []
-    return [Fix(label=f"Require {alias} in {name}", edit=lambda old: add_requirement(old, name, alias))]
+    if name:
+        return [Fix(label=f"Require {alias} in {name}", edit=lambda old: add_requirement(old, name, alias))]
+    stepping = {step.state for step in iter_steps(case.design) if step.alias == alias}
+    idle = [state.name for state in case.design.states if state.name not in stepping and not state.disabled]
+
+    def require(design: Design) -> Design:
+        return reduce(lambda changed, state: add_requirement(changed, state, alias), idle, design)
+
+    return [Fix(label=f"Require {alias} in all states", edit=require)]
 
 
 def fix_unused_use(case: FixContext) -> list[Fix]:
