@@ -261,7 +261,10 @@ def test_axe_reports_nothing_during_a_simulation(editor: str, page: Page, colour
     assert not found, "\n".join(found)
 
 
-def test_simulate_asks_once_before_it_runs_the_code_of_a_folder(page: Page, project: Path, tmp_path: Path) -> None:
+def test_simulate_asks_once_before_it_runs_the_code_of_a_folder(
+    page: Page, project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("VICODE_SANDBOX", "off")
     storage = tmp_path / "untrusted"
     with started_editor(project, storage, is_trusted=False) as url:
         open_simulation(page, url)
@@ -270,8 +273,10 @@ def test_simulate_asks_once_before_it_runs_the_code_of_a_folder(page: Page, proj
         dialog.get_by_role("button", name="Cancel").click()
         expect(page.locator(".simulation-message")).to_contain_text("The folder is not trusted")
         page.keyboard.press("F10")
+        expect(dialog).to_contain_text("without a sandbox, with all rights of your user account: VICODE_SANDBOX is off")
         dialog.get_by_role("button", name="Trust and simulate").click()
         where(page, "0.00 s · iteration 1")
+        expect(page.locator(".simulation-message")).to_contain_text("without a sandbox")
         # Once: another window is not asked.
         open_simulation(page, url)
         page.keyboard.press("F10")

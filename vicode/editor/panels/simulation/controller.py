@@ -24,6 +24,7 @@ from vicode.editor.session.simulation.traces import input_script, read_iteration
 from vicode.editor.view import ItemRef
 from vicode.generators import UnsoundDesignError
 from vicode.simulation import IterationResult, StopConditions
+from vicode.simulation.isolation import isolation_problem
 from vicode.simulation.stop_reasons import COUNT_REACHED
 from vicode.simulation.trace import TraceError
 
@@ -52,6 +53,8 @@ class SimulationController:
         self.is_stale = False
         self.start_error = ""
         """Why it could not be started."""
+        self.sandbox_problem = ""
+        """Why the code runs without a sandbox, empty if it does not or has not run yet."""
         self.revision = 0
         """Incremented when the panel must be refreshed."""
         self.refresh_panel: Callable[[], None] = lambda: None
@@ -209,6 +212,7 @@ class SimulationController:
     async def _may_run(self) -> bool:
         is_allowed = self.is_replay or await ask_for_trust(self.context)
         self.start_error = "" if is_allowed else texts.NOT_TRUSTED
+        self.sandbox_problem = "" if self.is_replay else await run.io_bound(isolation_problem) or ""
         return is_allowed
 
     def _discard_simulation(self) -> None:

@@ -1,5 +1,6 @@
 """The status line of a simulation: errors, the position in the past, the reason why it stopped."""
 
+from vicode.editor.panels import texts
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.session.simulation import RunStatus, Simulation
 from vicode.editor.view.activation import code_error_view
@@ -19,8 +20,15 @@ def status_message(controller: SimulationController) -> tuple[str, str]:
     if controller.is_stale:
         return ("warning", "Restart to apply the new options.")
     if simulation is None:
-        return ("info", _HINT)
-    return _running_message(simulation, is_moving=controller.is_playing or controller.is_running)
+        return ("info", _hint(controller))
+    kind, text = _running_message(simulation, is_moving=controller.is_playing or controller.is_running)
+    return (kind, text or _hint(controller))
+
+
+def _hint(controller: SimulationController) -> str:
+    """The keys, and whether the code runs without a sandbox."""
+    problem = controller.sandbox_problem
+    return f"{_HINT} {texts.not_sandboxed(problem)}" if problem else _HINT
 
 
 def _running_message(simulation: Simulation, *, is_moving: bool) -> tuple[str, str]:
@@ -36,7 +44,7 @@ def _running_message(simulation: Simulation, *, is_moving: bool) -> tuple[str, s
         return ("error", code_error_view(simulation.prepared.design, iteration.errors[0]).text)
     if simulation.warning:
         return ("warning", simulation.warning)
-    return ("info", (not is_moving and _describe_stop(simulation)) or _HINT)
+    return ("info", "" if is_moving else _describe_stop(simulation))
 
 
 def _describe_stop(simulation: Simulation) -> str:
