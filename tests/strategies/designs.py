@@ -16,6 +16,7 @@ from vicode.model.design import (
     DecisionGroup,
     Declaration,
     Design,
+    DiagramNote,
     Guard,
     RunCode,
     State,
@@ -149,6 +150,7 @@ _fields: dict[str, st.SearchStrategy[Any]] = {
     "initial": st.just("") | names,
     "module": code,
     "members": code,
+    "notes": _unique(st.builds(DiagramNote, name=names, text=texts, at=points), "name", 2),
     "common": st.builds(
         CommonSection,
         doc=st.just("") | texts,

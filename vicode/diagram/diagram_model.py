@@ -4,8 +4,8 @@ from collections import Counter
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
-from vicode.diagram.layered_layout import NodeLayout, complete_layout
-from vicode.diagram.node_geometry import COMMON_SIZE, Size, state_size, use_size
+from vicode.diagram.layered_layout import NodeLayout, complete_layout, note_position
+from vicode.diagram.node_geometry import COMMON_SIZE, Size, note_size, state_size, use_size
 from vicode.diagram.text_metrics import NAME_FONT, SMALL_FONT, shorten
 from vicode.diagram.transition_labels import GuardKind, guard_kind, short_transition_label, transition_label
 from vicode.model.design import COMMON, Call, Design, Point, State, Transition
@@ -17,7 +17,7 @@ _MAX_NAME_WIDTH, _MAX_SUBTITLE_WIDTH = 230.0, 200.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DiagramNode:
-    """A box: a state, a component or the common transitions. `badges` are texts for the row below the name.
+    """A box: a state, a component, the common transitions or a note. `badges` are texts for the row below the name.
 
     `href` is the link target, "" for none.
     """
@@ -111,6 +111,15 @@ def _diagram_nodes(design: Design, placement: NodeLayout) -> Iterator[DiagramNod
             size=COMMON_SIZE,
             label="every state",
             title="\n".join(part for part in ("Common transitions of every state", design.common.doc) if part),
+        )
+    for index, note in enumerate(design.notes):
+        yield DiagramNode(
+            key=f"n:{note.name}",
+            node_type="note",
+            center=note_position(note, index),
+            size=note_size(note.text),
+            label=note.text,
+            title="Note",
         )
     for state in design.states:
         yield _state_node(design, state, placement.states[state.name])

@@ -1,6 +1,7 @@
 """A design as DOT with labels and styles for Graphviz; `neato -n` keeps the positions."""
 
 from collections.abc import Collection
+from dataclasses import replace
 
 import graphviz  # type: ignore[import-untyped]
 
@@ -19,7 +20,7 @@ _USE_EDGES = {"requires": {"style": "dashed", "arrowhead": "empty"}, "modulates"
 
 def write_graphviz(design: Design, *, only: Collection[str] | None = None, links: bool = True) -> str:
     """The text of the whole design, or of some states and the components they use."""
-    diagram = build_diagram(design, only=only, links=links)
+    diagram = build_diagram(replace(design, notes=()), only=only, links=links)
     ids = {node.key: f"n{index}" for index, node in enumerate(diagram.nodes)}
     graph = graphviz.Digraph(
         name=_quoted(design.component), graph_attr={"rankdir": "LR"}, node_attr={"fontname": "Helvetica"}

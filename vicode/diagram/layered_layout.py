@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import count
 
 from vicode.diagram.node_geometry import COMMON_SIZE, MIN_WIDTH, OccupancyGrid, state_size, use_size
-from vicode.model.design import Design, Point, Transition
+from vicode.model.design import Design, DiagramNote, Point, Transition
 from vicode.model.traversal import iter_decisions
 
 COLUMN, ROW = 240.0, 110.0
@@ -48,6 +48,11 @@ def complete_layout(design: Design) -> NodeLayout:
         top = min((y for _x, y in states.values() if abs(y) < _MAX_COORDINATE), default=ORIGIN[1])
         common = occupied.occupy_first_free(_upwards((left, min(ORIGIN[1], top) - ROW)), COMMON_SIZE)
     return NodeLayout(states=states, uses=uses, common=common)
+
+
+def note_position(note: DiagramNote, index: int) -> Point:
+    """The position of a note; without one, notes are below each other at the left."""
+    return note.at or (ORIGIN[0] - COLUMN, ORIGIN[1] + index * ROW)
 
 
 def _layout_states(design: Design, occupied: OccupancyGrid, given: Iterable[str]) -> dict[str, Point]:

@@ -7,11 +7,14 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from vicode.diagram.text_metrics import LABEL_FONT, shorten, text_width
 from vicode.model.design import Point
 
 GAP = 30.0
 """Minimum distance in pixels between automatically placed boxes."""
 
+NOTE_LINE_HEIGHT, NOTE_PADDING = 16.0, 12.0
+_NOTE_TEXT_WIDTH, _MAX_NOTE_LINES = 200.0, 40
 _HEIGHT = 60.0
 MIN_WIDTH, _MAX_WIDTH = 140.0, 280.0
 _CELL_SIZE = (320.0, 120.0)
@@ -37,6 +40,28 @@ def state_size(name: str) -> Size:
 def use_size(alias: str, component: str) -> Size:
     """The hexagon of a used component, with its name in a small font below the alias."""
     return Size(width=max(_box_width(alias, 64), _box_width(component, 44)), height=_HEIGHT)
+
+
+def note_lines(text: str) -> list[str]:
+    """The text of a note, wrapped."""
+    lines: list[str] = []
+    for paragraph in text.strip().splitlines()[:_MAX_NOTE_LINES] or [""]:
+        line = ""
+        for word in paragraph.split():
+            longer = f"{line} {word}".strip()
+            if line and text_width(longer, LABEL_FONT) > _NOTE_TEXT_WIDTH:
+                lines.append(line)
+                longer = word
+            line = longer
+        lines.append(shorten(line, LABEL_FONT, _NOTE_TEXT_WIDTH) if line else "")
+    return lines[:_MAX_NOTE_LINES]
+
+
+def note_size(text: str) -> Size:
+    """The box of a note around its lines."""
+    lines = note_lines(text)
+    width = max(text_width(line, LABEL_FONT) for line in lines) + 2 * NOTE_PADDING + 4
+    return Size(width=max(80, math.ceil(width / 20) * 20), height=len(lines) * NOTE_LINE_HEIGHT + 2 * NOTE_PADDING)
 
 
 def estimate_text_width(text: str) -> float:

@@ -8,6 +8,7 @@ from vicode.diagram.edge_curves import HEX_SLANT, point_on_curve
 from vicode.diagram.edge_labels import PADDING, EdgeLabel
 from vicode.diagram.edge_routing import EdgeRoute, route_edges
 from vicode.diagram.initial_marker import Corner, initial_corner, marker_rect
+from vicode.diagram.node_geometry import NOTE_LINE_HEIGHT, NOTE_PADDING, note_lines
 from vicode.diagram.palettes import LIGHT, ColorPalette
 from vicode.diagram.primitives import (
     PathShape,
@@ -29,6 +30,7 @@ _MARGIN = 24.0
 _ARROWHEAD_LENGTH = 10.0
 # Sample points of a curve, enough to find its bounds within two pixels.
 _SAMPLES = 8
+_FOLD = 10.0
 _BADGE_ROW, _NAME_OFFSET, _BADGE_GAP = 16.0, -8.0, 9.0
 _HEXAGON = (((2.5, -4.0), (7.5, -4.0), (10.0, 0.0), (7.5, 4.0), (2.5, 4.0), (0.0, 0.0), (2.5, -4.0)),)
 _BADGES: dict[str, tuple[float, tuple[tuple[Point, ...], ...]]] = {
@@ -89,7 +91,7 @@ class _DiagramRenderer:
         self.palette = palette
 
     def node(self, node: DiagramNode, initial: Corner | None) -> ShapeGroup:
-        drawers = {"state": self._state, "component": self._component, "common": self._common}
+        drawers = {"state": self._state, "component": self._component, "common": self._common, "note": self._note}
         shapes = tuple(drawers[node.node_type](node))
         if initial:
             shapes += tuple(self._initial_marker(node, initial))
@@ -206,6 +208,15 @@ class _DiagramRenderer:
         yield _name_text(node, pal.component_text, rise=_NAME_OFFSET if node.subtitle else 0)
         if node.subtitle:
             yield _subtitle_text(node, pal.muted)
+
+    def _note(self, node: DiagramNode) -> Iterable[PathShape | TextShape]:
+        pal, (x, y), w, h = self.palette, node.center, node.size.width / 2, node.size.height / 2
+        corners = ((-w, -h), (w - _FOLD, -h), (w, -h + _FOLD), (w, h), (-w, h))
+        outline = polyline_path([(x + dx, y + dy) for dx, dy in corners], closed=True)
+        yield PathShape(commands=outline, fill=pal.color_yellow, stroke=pal.plate_line, width=1)
+        for index, line in enumerate(note_lines(node.label)):
+            top = y - h + NOTE_PADDING + (index + 0.5) * NOTE_LINE_HEIGHT
+            yield TextShape(x=x - w + NOTE_PADDING, y=top, text=line, fill=pal.text, font=LABEL_FONT)
 
     def _common(self, node: DiagramNode) -> Iterable[PathShape | TextShape]:
         pal, (x, y), size = self.palette, node.center, node.size

@@ -46,6 +46,8 @@ def draw_design(design: Design, addresses: SiteUrls) -> str:
         kind, _colon, name = node.key.partition(":")
         if kind == "c":
             return replace(node, href=addresses.component(components[name]))
+        if kind == "n":
+            return node
         path = ("states", name) if kind == "s" else ("common",)
         return replace(node, href=addresses.design_path(design.component, path))
 

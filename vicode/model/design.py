@@ -184,6 +184,15 @@ class CommonSection:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class DiagramNote:
+    """A text in the diagram, without any effect."""
+
+    name: str
+    text: str = ""
+    at: Point | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Design:
     """The design of one component. Without `frequency_hz` it runs on every step."""
 
@@ -203,6 +212,7 @@ class Design:
     members: Code = field(default_factory=Code)
     common: CommonSection = field(default_factory=CommonSection)
     states: tuple[State, ...] = ()
+    notes: tuple[DiagramNote, ...] = ()
 
     def state(self, name: str) -> State | None:
         """Return the first state with this name."""

@@ -91,6 +91,15 @@ def reorder_state(design: Design, name: str, to_index: int) -> Design:
     return replace(design, states=tuple(rest))
 
 
+def move_notes(design: Design, places: Mapping[str, Point]) -> Design:
+    """Set the centers of notes."""
+    return replace(design, notes=tuple(replace(note, at=places.get(note.name, note.at)) for note in design.notes))
+
+
+def remove_notes(design: Design, names: Collection[str]) -> Design:
+    return replace(design, notes=tuple(note for note in design.notes if note.name not in names))
+
+
 def move_nodes(
     design: Design, states: Mapping[str, Point], uses: Mapping[str, Point] | None = None, common: Point | None = None
 ) -> Design:

@@ -14,6 +14,7 @@ from vicode.model.design import (
     DecisionGroup,
     Declaration,
     Design,
+    DiagramNote,
     Guard,
     RunCode,
     State,
@@ -256,6 +257,14 @@ COMMON = RecordSchema(
     model=CommonSection,
     keys=(DOC_KEY, _POSITION, *_ACTIONS_KEYS, _TRANSITIONS),
 )
+NOTE = RecordSchema(
+    name="note",
+    description="the text of a note",
+    model=DiagramNote,
+    shorthand_key="text",
+    flow_width=FLOW_WIDTH,
+    keys=(KeySchema("text", TEXT, "the text, with line breaks"), _POSITION),
+)
 
 DESIGN = RecordSchema(
     name="design",
@@ -302,7 +311,12 @@ DESIGN = RecordSchema(
             MapSchema(description="a mapping of names to states", value_schema=STATE, name_field="name"),
             "states by name, in display order",
         ),
+        KeySchema(
+            "notes",
+            MapSchema(description="a mapping of names to notes", value_schema=NOTE, name_field="name"),
+            "texts in the diagram; the names only identify them",
+        ),
     ),
 )
 
-DESIGN_RECORDS = (DESIGN, STATE, COMMON, DECISION, ACTION, USE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT)
+DESIGN_RECORDS = (DESIGN, STATE, NOTE, COMMON, DECISION, ACTION, USE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT)

@@ -39,6 +39,7 @@ class CanvasCommand:
 _ARROWS = ("ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown")
 _NODES = ("states", "components", "several")
 _STATES_AND_TRANSITIONS = ("states", "transitions", "several")
+_DELETABLE = (*_STATES_AND_TRANSITIONS, "components", "links", "notes")
 
 
 def _with_arrows(*held: str) -> tuple[str, ...]:
@@ -50,11 +51,13 @@ _CREATE, _MODIFY, _EDIT, _ARRANGE, _VIEW, _RUN, _NAVIGATE = CommandGroup
 CANVAS_COMMANDS = (
     CanvasCommand("new-state", "New state", _CREATE, ("S",), menus=("nothing",)),
     CanvasCommand("use", "Add component…", _CREATE, ("U",), menus=("nothing",)),
+    CanvasCommand("new-note", "Add note", _CREATE, ("M",), menus=("nothing",)),
     CanvasCommand("new-target", "Add transition to new state", _CREATE, ("N",), menus=("states", "common")),
     CanvasCommand("connect", "Connect to…", _CREATE, ("T",), menus=("states", "components", "common")),
     CanvasCommand("finish-connection", "Finish connection", _CREATE, ("Enter",)),
     CanvasCommand("open-guard", "Edit guard", _MODIFY, ("Enter",), menus=("transitions",)),
     CanvasCommand("open-design", "Open design", _MODIFY, ("Enter",), menus=("components",)),
+    CanvasCommand("open-note", "Edit note", _MODIFY, ("Enter",), menus=("notes",)),
     CanvasCommand("open-common", "Edit common transitions and actions", _MODIFY, ("Enter",), menus=("common",)),
     CanvasCommand("rename", "Rename", _MODIFY, ("F2", "Enter"), menus=("states", "components")),
     CanvasCommand("initial", "Set as initial state", _MODIFY, ("I",), menus=("states",)),
@@ -72,7 +75,7 @@ CANVAS_COMMANDS = (
     CanvasCommand("paste", "Paste", _EDIT, ("Ctrl+V",), menus=(*_STATES_AND_TRANSITIONS, "common", "nothing")),
     CanvasCommand("duplicate", "Duplicate", _EDIT, ("Ctrl+D",), menus=_STATES_AND_TRANSITIONS),
     CanvasCommand(
-        "delete", "Delete", _EDIT, ("Delete", "Backspace"), menus=(*_STATES_AND_TRANSITIONS, "components", "links")
+        "delete", "Delete", _EDIT, ("Delete", "Backspace"), menus=_DELETABLE
     ),
     CanvasCommand("select-all", "Select all", _EDIT, ("Ctrl+A",), menus=("nothing",)),
     CanvasCommand("align-left", "Align left edges", _ARRANGE, ("Alt+A",), menus=("several",)),

@@ -27,6 +27,7 @@ from vicode.editor.panels.use_dialog import ask_for_component
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import EditResult, apply_edit, clipboard, rebase_gesture, rebase_selection
 from vicode.editor.session.edits import RequestedEdit, canvas_point
+from vicode.editor.session.gestures import NoteGesture
 from vicode.editor.view import ItemRef, Scene, tooltip_sections
 from vicode.editor.view.page_urls import design_url
 from vicode.model.design import Point
@@ -34,6 +35,13 @@ from vicode.model.edits import add_use
 from vicode.model.merge import find_renamed_states
 
 # The field appears when its code editor has loaded, a large script.
+_FOCUS_NOTE = """
+(function focus(left) {
+  const field = document.querySelector(".inspector .note-text textarea");
+  if (field) { field.focus(); field.select(); }
+  else if (left > 0) setTimeout(() => focus(left - 1), 50);
+})(40);
+"""
 _FOCUS_GUARD = """
 (function focus(left) {
   const field = document.querySelector(".inspector .expression-field .cm-content");
@@ -149,6 +157,8 @@ class CanvasController:
         rebased = self._rebase(gesture, rev)
         missing = EditResult(error=texts.ITEM_MISSING)
         self._show_result(apply_edit(self.context.document, rebased) if rebased else missing)
+        if isinstance(gesture, NoteGesture):
+            ui.run_javascript(_FOCUS_NOTE)
 
     def _paste(self, gesture: PasteGesture) -> None:
         known, at = self.context.workspace.project.interfaces(), canvas_point(gesture.x, gesture.y)
@@ -203,6 +213,10 @@ class CanvasController:
         if item.kind in ("transitions", "common"):
             self.context.select(item)
             ui.run_javascript(_FOCUS_GUARD)
+            return
+        if item.kind == "notes":
+            self.context.select(item)
+            ui.run_javascript(_FOCUS_NOTE)
             return
         use = self.context.design.use(item.id) if item.kind == "components" else None
         if use is not None:

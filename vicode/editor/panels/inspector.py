@@ -6,6 +6,7 @@ from vicode.editor.panels.decision_panel import decision_panel
 from vicode.editor.panels.design_panel import common_panel, design_panel
 from vicode.editor.panels.form import Form, RemovedTexts, Rows
 from vicode.editor.panels.multi_selection_panel import multi_selection_panel
+from vicode.editor.panels.note_panel import note_panel
 from vicode.editor.panels.state_panel import state_panel
 from vicode.editor.panels.use_panel import link_panel, use_panel
 from vicode.editor.panels.window_context import WindowContext
@@ -64,6 +65,8 @@ class Inspector:
                 interface = project.interface(use.component) if use else None
                 is_designed = use is not None and project.design(use.component) is not None
                 return use and (use.component, interface if is_designed else interface is not None)
+            case ItemRef(kind="notes", id=name):
+                return ("note", name) if any(note.name == name for note in context.design.notes) else None
             case _:
                 return context.selected or "design"
 
@@ -85,5 +88,7 @@ class Inspector:
                 link_panel(context, key)
             case ItemRef(kind="common"):
                 common_panel(form)
+            case ItemRef(kind="notes", id=name):
+                note_panel(form, name)
             case _:
                 design_panel(form)

@@ -15,6 +15,7 @@ _NOUNS = {
     "components": ("component", "components"),
     "links": ("link", "links"),
     "common": ("common part", "common parts"),
+    "notes": ("note", "notes"),
 }
 _ALIGN = (
     ("align-left", "align_horizontal_left", "Align left edges (Alt+A)"),
@@ -40,7 +41,7 @@ def multi_selection_panel(context: WindowContext) -> None:
     counts: Counter[str] = Counter(item.kind for item in context.selected)
     parts = [f"{counts[kind]} {nouns[counts[kind] > 1]}" for kind, nouns in _NOUNS.items() if counts[kind]]
     panel_title(", ".join(parts) + " selected")
-    node_count = sum(counts[kind] for kind in ("states", "components", "common"))
+    node_count = sum(counts[kind] for kind in ("states", "components", "common", "notes"))
     if node_count > 1:
         heading("Align")
         _row(context, _ALIGN)

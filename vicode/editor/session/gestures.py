@@ -22,18 +22,21 @@ from vicode.editor.session.edits import (
 )
 from vicode.editor.session.transition_gestures import ConnectGesture, LabelGesture, ReconnectGesture, ReorderGesture
 from vicode.editor.view import ItemKind, ItemRef, parse_transition_key
-from vicode.model.design import Design, Point
+from vicode.model.design import Design, DiagramNote, Point
 from vicode.model.edits import (
     add_modulation,
     add_requirement,
     move_nodes,
+    move_notes,
     remove_decisions,
     remove_link,
+    remove_notes,
     remove_states,
     remove_uses,
     rename_state,
     rename_use,
     set_disabled,
+    unique_name,
     update_state,
 )
 from vicode.model.names import is_valid_name
@@ -60,7 +63,7 @@ class MoveGesture:
     """Command that moved them: "drag", "nudge", "align-left", …"""
 
     def apply(self, document: DocumentSession) -> EditResult:
-        moved: dict[str, dict[str, Point]] = {"states": {}, "components": {}, "common": {}}
+        moved: dict[str, dict[str, Point]] = {"states": {}, "components": {}, "common": {}, "notes": {}}
         for item in self.items:
             moved.setdefault(item.kind, {})[item.id] = canvas_point(item.x, item.y)
         common = next(iter(moved["common"].values()), None)
@@ -69,7 +72,7 @@ class MoveGesture:
         items = sorted((item.kind, item.id) for item in self.items)
         document.edit(
             texts.ALIGNMENTS.get(self.how, label),
-            lambda design: move_nodes(design, moved["states"], moved["components"], common),
+            lambda design: move_notes(move_nodes(design, moved["states"], moved["components"], common), moved["notes"]),
             coalesce_key=f"nudge {items}" if self.how == "nudge" else "",
         )
         return EditResult()
@@ -87,6 +90,21 @@ class CreateGesture:
 
     def apply(self, document: DocumentSession) -> EditResult:
         return create_state(document, canvas_point(self.x, self.y), self.name, select=self.select)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoteGesture:
+    """Add a note with its center at (x, y), and select it."""
+
+    kind: ClassVar = "note"
+    x: float
+    y: float
+
+    def apply(self, document: DocumentSession) -> EditResult:
+        name = unique_name("note", {note.name for note in document.design.notes})
+        note = DiagramNote(name=name, text="Note", at=canvas_point(self.x, self.y))
+        document.edit("add note", lambda design: replace(design, notes=(*design.notes, note)))
+        return EditResult(new_selection=(ItemRef(kind="notes", id=name),))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,7 +152,8 @@ class DeleteGesture:
             smaller = remove_decisions(design, paths)
             for kind, state, alias in links:
                 smaller = remove_link(smaller, state, alias, modulates=kind == "modulates")
-            return remove_states(remove_uses(smaller, _ids(self.items, "components")), _ids(self.items, "states"))
+            smaller = remove_uses(remove_notes(smaller, _ids(self.items, "notes")), _ids(self.items, "components"))
+            return remove_states(smaller, _ids(self.items, "states"))
 
         document.edit(texts.delete_items(len(self.items)), change)
         return EditResult(new_selection=())
@@ -208,6 +227,7 @@ class StateFlagGesture:
 EDIT_GESTURES: tuple[type[RequestedEdit], ...] = (
     MoveGesture,
     CreateGesture,
+    NoteGesture,
     RenameGesture,
     DeleteGesture,
     DisableGesture,

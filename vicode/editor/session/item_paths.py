@@ -94,6 +94,8 @@ def rebase_path(path: DesignPath, old: Any, new: Any) -> DesignPath | None:
     """The path of the same item in another version of a design or project; None if it no longer exists."""
 
     def rename(section: str, name: str) -> str:
+        if section == "notes":
+            return name if any(note.name == name for note in new.notes) else ""
         return (renamed_state if section == "states" else renamed_use)(name, old, new)
 
     return _rebase(path, old, new, rename)

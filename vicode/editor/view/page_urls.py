@@ -8,7 +8,7 @@ from vicode.editor.view.selection import ItemKind, ItemRef
 
 # Names cannot contain these characters.
 _KIND_SEPARATOR, _TRAIL_SEPARATOR = ":", ","
-_KINDS = ("components", "links")
+_KINDS = ("components", "links", "notes")
 _MAX_TRAIL = 6
 _SAFE = "/:,@"
 

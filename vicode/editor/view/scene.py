@@ -4,11 +4,12 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable
 from typing import Any
 
-from vicode.diagram.layered_layout import complete_layout
+from vicode.diagram.layered_layout import complete_layout, note_position
+from vicode.diagram.node_geometry import note_lines, note_size
 from vicode.diagram.transition_labels import guard_kind, short_transition_label, transition_label
 from vicode.editor.view.selection import ItemRef, item_at_path, transition_key
 from vicode.findings import Finding, Severity, worst_severity
-from vicode.model.design import COMMON, Call, Design, State, Transition
+from vicode.model.design import COMMON, Call, Design, DiagramNote, State, Transition
 from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.project import Project
 from vicode.model.traversal import LocatedDecision, iter_transitions
@@ -18,7 +19,7 @@ _Findings = dict[ItemRef, list[Finding]]
 
 
 def make_scene(project: Project, design: Design, findings: Iterable[Finding], rev: int) -> Scene:
-    """The scene as {"rev", "component", "doc", "states", "transitions", "components", "links", "common"}."""
+    """The scene as {"rev", "component", "doc", "states", "transitions", "components", "links", "notes", "common"}."""
     by_item: _Findings = defaultdict(list)
     for finding in findings:
         if finding.subject is not None and finding.subject.component == design.component:
@@ -43,8 +44,15 @@ def make_scene(project: Project, design: Design, findings: Iterable[Finding], re
             for use in design.uses
         ],
         "links": list(_links(design)),
+        "notes": [_note(note, index) for index, note in enumerate(design.notes)],
         "common": _common(design, by_item, layout.common),
     }
+
+
+def _note(note: DiagramNote, index: int) -> dict[str, Any]:
+    size, lines = note_size(note.text), note_lines(note.text)
+    at = _at(note_position(note, index))
+    return {"id": note.name, "name": note.text, "lines": lines, "w": size.width, "h": size.height, **at}
 
 
 def _parameters(project: Project, component: str) -> int | None:

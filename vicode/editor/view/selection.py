@@ -5,7 +5,7 @@ from typing import Literal
 
 from vicode.findings import DesignPath
 
-ItemKind = Literal["states", "transitions", "components", "links", "common", "design"]
+ItemKind = Literal["states", "transitions", "components", "links", "common", "notes", "design"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,6 +27,8 @@ def item_at_path(path: DesignPath) -> ItemRef:
             return ItemRef(kind="common", id="@common")
         case ("uses", str(alias), *_):
             return ItemRef(kind="components", id=alias)
+        case ("notes", str(name), *_):
+            return ItemRef(kind="notes", id=name)
         case _:
             return ItemRef(kind="design")
 

@@ -7,7 +7,7 @@ from difflib import SequenceMatcher
 from typing import Any
 
 from vicode.model.decisions import retarget
-from vicode.model.design import Call, Declaration, Design, State, Transition, Use
+from vicode.model.design import Call, Declaration, Design, DiagramNote, State, Transition, Use
 
 Matches = dict[int, int]
 """Maps indices of the old list to indices of the new list."""
@@ -26,7 +26,7 @@ def match_items(old: Sequence[Any], new: Sequence[Any], *, is_keyed: bool) -> Ma
 def item_key(item: Any) -> Hashable:
     """Return the name that identifies an item in a keyed list."""
     match item:
-        case State(name=name) | Declaration(name=name):
+        case State(name=name) | Declaration(name=name) | DiagramNote(name=name):
             return name
         case Use(alias=alias) | Call(alias=alias):
             return alias

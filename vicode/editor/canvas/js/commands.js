@@ -41,12 +41,18 @@ export class Commands {
 function createHandlers(canvas) {
   const { selection, scene, gestures } = canvas;
   const node = () => scene.nodes.get(selection.single());
+  const addNote = () => {
+    const { x, y } = gestures.freePosition();
+    canvas.revealPlace({ x, y, w: 120, h: 60 });
+    canvas.report("note", { x, y });
+  };
   const hasTransitions = () => ["states", "common"].includes(node()?.of);
   return {
     "new-state": { run: () => canvas.rename.startNew(gestures.freePosition()) },
     use: { run: () => canvas.report("use", { address: null, ...gestures.freePosition() }) },
+    "new-note": { run: addNote },
     "new-target": { can: hasTransitions, run: () => canvas.rename.startNew({ source: node().key, ...freePositionNextTo(scene, node()) }) },
-    connect: { can: () => Boolean(node()), run: () => gestures.connectFrom(selection.single()) },
+    connect: { can: () => Boolean(node()) && node().of !== "notes", run: () => gestures.connectFrom(selection.single()) },
     "finish-connection": { can: () => Boolean(gestures.connectMode), run: () => gestures.finishConnect() },
   };
 }
@@ -61,6 +67,7 @@ function modifyHandlers(canvas) {
   return {
     "open-guard": { can: is("transitions"), run: open },
     "open-design": { can: is("components"), run: open },
+    "open-note": { can: is("notes"), run: open },
     "open-common": { can: is("common"), run: open },
     rename: { can: is("states", "components"), run: () => canvas.rename.start(selection.single()) },
     initial: { can: () => is("states")() && !single().data.initial, run: () => mark("initial") },

@@ -20,7 +20,7 @@ export class Handles {
     this.group.replaceChildren();
     if (gestures.isDragging()) return;
     const node = scene.nodes.get(selection.hovered) ?? scene.nodes.get(selection.single());
-    if (node) this.#aroundNode(node);
+    if (node && node.of !== "notes") this.#aroundNode(node);
     const edge = scene.edges.get(selection.single());
     if (edge?.of === "transitions" && scene.isDrawable(edge)) this.#atEnds(edge);
   }

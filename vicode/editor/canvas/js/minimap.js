@@ -32,7 +32,7 @@ export class Minimap {
     this.map = { scale, x: (WIDTH - area.w * scale) / 2 - area.x * scale, y: (HEIGHT - area.h * scale) / 2 - area.y * scale };
     pen.setTransform(2 * scale, 0, 0, 2 * scale, 2 * this.map.x, 2 * this.map.y);
     this.#drawEdges(pen, scale);
-    const colourOf = (node) => node.data.severity ?? { states: "box-line", components: "component-line", common: "common" }[node.of];
+    const colourOf = (node) => node.data.severity ?? { states: "box-line", components: "component-line", common: "common", notes: "plate-line" }[node.of];
     for (const [colour, nodes] of Map.groupBy([...this.scene.nodes.values()], colourOf)) {
       pen.fillStyle = this.colours(colour);
       pen.beginPath();

@@ -1,13 +1,16 @@
 // The SVG groups of nodes: states, components and the common badge. Marks differ in shape, not only in color.
 import { HEX_SLANT } from "./geometry.js";
 import { translateElement, placeGroup } from "./group_transforms.js";
-import { COMMON_TITLE, DISABLED, alias, colored, commonName, componentName, markName, stateName } from "./strings.js";
+import { COMMON_TITLE, DISABLED, alias, colored, commonName, componentName, markName, noteName, stateName } from "./strings.js";
 import { svg } from "./svg.js";
 import { largestLines } from "./text_metrics.js";
 
 const MARK_ROW = 16;
 const NAME_RISE = -8;
 const MARK_GAP = 9;
+const NOTE_LINE = 16;
+const NOTE_PADDING = 12;
+const FOLD = 10;
 const MARKS = {
   enter: { w: 11, d: "M0 0H7M4.5 -2.8L7.3 0L4.5 2.8M10.3 -4V4" },
   actions: { w: 10, d: "M0 -3.5H10M0 0H10M0 3.5H6" },
@@ -19,7 +22,7 @@ const MARKS = {
 const OFF = "M0 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0M1.6 3.4L8.4 -3.4";
 
 export function drawNode(node) {
-  const draw = { states: drawState, components: drawComponent, common: drawCommon }[node.of];
+  const draw = { states: drawState, components: drawComponent, common: drawCommon, notes: drawNote }[node.of];
   const group = svg("g", {
     class: `item node ${kindOf(node)}${node.data.color ? ` color-${node.data.color}` : ""}${node.data.disabled ? " disabled" : ""}`,
     "data-id": node.id,
@@ -37,7 +40,7 @@ export function drawNode(node) {
 export const placeNode = (group, node) => placeGroup(group, node.x, node.y);
 
 export const kindOf = (thing) =>
-  ({ states: "state", components: "component", transitions: "transition", links: "link", common: "common" })[thing.of];
+  ({ states: "state", components: "component", transitions: "transition", links: "link", common: "common", notes: "note" })[thing.of];
 
 function drawState(node) {
   const { w, h, data } = node;
@@ -61,6 +64,13 @@ function drawComponent(node) {
   if (data.design) parts.push(translateElement(svg("path", { class: "mark open", d: "M-5 -3.5H3.5V5M3.5 -3.5L-4.5 4.5" }), w / 2 - 25, 0));
   if (data.severity) parts.push(badge(data, w / 2 - s, -h / 2 + 2));
   return parts;
+}
+
+function drawNote({ w, h, data }) {
+  const [x, y] = [-w / 2, -h / 2];
+  const outline = `M${x} ${y}H${-x - FOLD}L${-x} ${y + FOLD}V${-y}H${x}Z`;
+  const lines = data.lines.map((text, index) => svg("text", { x: x + NOTE_PADDING, y: y + NOTE_PADDING + (index + 0.5) * NOTE_LINE, text }));
+  return [svg("path", { class: "box bg", d: outline }), ...lines];
 }
 
 function drawCommon(node) {
@@ -117,6 +127,7 @@ export function badge(data, x, y) {
 /** The tooltip of a node. */
 export function nodeTooltip(node) {
   const { data } = node;
+  if (node.of === "notes") return "";
   const title = node.of === "common" ? COMMON_TITLE : data.name;
   const second = node.of === "components" && data.name !== data.id ? alias(data.id) : "";
   return [title, second, data.disabled && DISABLED, data.doc, ...findingMessages(data)].filter(Boolean).join("\n");
@@ -124,6 +135,7 @@ export function nodeTooltip(node) {
 
 function describe(node) {
   const { data } = node;
+  if (node.of === "notes") return noteName(data.name);
   if (node.of === "common") return [commonName(data.transitions ?? 0), ...findingMessages(data)].join(", ");
   if (node.of === "components") return [componentName(data.id), data.name, ...findingMessages(data)].join(", ");
   const marks = marksOf(data).map(({ name, count }) => markName(name, count));

@@ -129,6 +129,7 @@ const LOOKS = {
   initial: ["box-line", "text"],
   components: ["component", "component-line"],
   common: ["common-fill", "common"],
+  notes: ["color-yellow", "plate-line"],
   selected: ["accent-soft", "accent"],
   error: ["error", "error"],
   warning: ["warning", "warning"],

@@ -6,7 +6,7 @@ import { truncate, textWidth } from "./text_metrics.js";
 
 /** Prefix of the keys of links. */
 export const LINKS = "l:";
-const KINDS = { states: "s:", components: "c:", transitions: "t:", links: LINKS, common: "common" };
+const KINDS = { states: "s:", components: "c:", transitions: "t:", links: LINKS, common: "common", notes: "n:" };
 const NODE_HEIGHT = 60;
 const COMMON_ID = "@common";
 
@@ -109,7 +109,7 @@ export class Scene {
 
   #upsert(lists) {
     const touched = [];
-    for (const of of ["states", "components"]) {
+    for (const of of ["states", "components", "notes"]) {
       for (const data of lists[of] ?? []) touched.push(this.#putNode(of, data.id, data));
     }
     for (const data of lists.transitions ?? []) touched.push(this.#putEdge(transitionOf(data)));
@@ -122,7 +122,7 @@ export class Scene {
     for (const of of ["transitions", "links"]) {
       for (const id of lists[of] ?? []) gone.push(this.#dropEdge(keyOf(of, id)));
     }
-    for (const of of ["states", "components"]) {
+    for (const of of ["states", "components", "notes"]) {
       for (const id of lists[of] ?? []) gone.push(this.#dropNode(keyOf(of, id)));
     }
     return gone;
@@ -195,6 +195,7 @@ export class Scene {
 
 /** Returns the texts of a node and its size; widths are multiples of 20, so that both sides are on the grid. */
 export function sizeOf(of, data) {
+  if (of === "notes") return { w: data.w, h: data.h, label: data.lines[0], second: "" };
   if (of === "common") return { w: 140, h: 40, label: EVERY_STATE, second: "" };
   const name = String(of === "states" ? data.name : data.id);
   const label = truncate(name, "name", 230);

@@ -46,6 +46,7 @@ export const componentName = (alias) => `Component ${alias}`;
 export const stateName = (name) => `State ${name}`;
 export const alias = (name) => `as ${name}`;
 export const colored = (color) => `colored ${color}`;
+export const noteName = (text) => `Note: ${text}`;
 export const markName = (name, count) => (count ? `${name} ${count}` : `${name} code`);
 export const linkName = ({ kind, state, component }) => `${state} ${kind} ${component}`;
 export const transitionName = ({ order, of }, source, target) => `Transition ${order} of ${of} from ${source} to ${target}`;
