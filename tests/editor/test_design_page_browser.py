@@ -178,6 +178,36 @@ def test_a_name_is_typed_at_once_over_a_slow_line(editor: str, page: Page, line:
     expect(page.get_by_text("Saved", exact=True)).to_be_visible()
 
 
+def test_keys_after_a_gesture_belong_to_the_field_that_it_opens(editor: str, page: Page, line: SlowConnection) -> None:
+    open_player(page, editor)
+    line.hold()
+    page.keyboard.press("u")
+    page.keyboard.type("searx")
+    page.keyboard.press("Backspace")
+    page.keyboard.type("chn")
+    line.release()
+    field = page.get_by_label("Component", exact=True)
+    expect(field).to_have_value("searchn")
+    page.keyboard.type("et")
+    expect(field).to_have_value("searchnet")
+
+    expect(page.locator(".use-dialog .choice")).to_have_count(1)
+    page.keyboard.press("Escape")
+    expect(field).to_have_count(0)
+    label(page, "LookForBall/0").click()
+    page.keyboard.press("Enter")
+    guard = page.get_by_label("When", exact=True)
+    expect(guard).to_be_focused()
+    page.keyboard.press("Escape")
+    expect(guard).not_to_be_focused()
+    line.hold()
+    page.keyboard.press("Enter")
+    page.keyboard.type("not ")
+    line.release()
+    expect(guard).to_contain_text("not ")
+    expect(page.locator("input.rename")).to_be_hidden()
+
+
 def test_two_windows_stay_in_step(editor: str, page: Page, second_window: Page) -> None:
     open_player(page, editor)
     open_player(second_window, editor)

@@ -77,6 +77,13 @@ def test_a_state_with_an_impossible_name_gets_a_free_one(document: DocumentSessi
     assert names(document) == ["A", "B", "State"]
 
 
+def test_a_refused_state_is_an_error(document: DocumentSession, monkeypatch: pytest.MonkeyPatch) -> None:
+    # The canvas draws the state already, until an error makes it load the design again.
+    monkeypatch.setattr(type(document.shared), "find_lost_content", lambda _shared, _design: "it would be lost")
+    assert apply_gesture(document, {"kind": "create", "x": 0, "y": 0, "name": "Sound"}).error
+    assert names(document) == ["A", "B"]
+
+
 def test_naming_a_new_state_is_part_of_its_creation(document: DocumentSession) -> None:
     for name in ("First", "Second"):
         apply_gesture(document, {"kind": "create", "x": 0, "y": 0})

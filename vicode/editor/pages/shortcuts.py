@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Sequence
+from pathlib import Path
 
 from nicegui import ui
 
@@ -10,6 +11,8 @@ from vicode.editor.panels.command import Command
 
 ESCAPE_ATTRIBUTE = "data-escape-clicks"
 """Attribute of a button that Escape clicks while the button is visible, independent of the focus."""
+
+_TYPE_AHEAD = Path(__file__).with_name("type_ahead.js")
 
 # Part of the page, so that it handles keys from the start. Text fields and the canvas have their own undo.
 _SHORTCUT_SCRIPT = """
@@ -78,4 +81,5 @@ def register_shortcuts(commands: Sequence[Command]) -> None:
         if command.keys:
             ui.on(f"command-{command.name}", command.handler)
     preserve_form_input()
+    ui.add_body_html(f"<script>\n{_TYPE_AHEAD.read_text(encoding='utf-8')}</script>")
     ui.add_body_html(_SHORTCUT_SCRIPT.replace("COMMANDS", json.dumps(shortcuts)).replace("ESCAPE", ESCAPE_ATTRIBUTE))

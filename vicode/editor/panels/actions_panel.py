@@ -33,7 +33,8 @@ def actions_panel(form: Form, owner: TrackedItem, section: str, *, calls: bool =
         return (type(action), component_parameters(context, action.alias) if isinstance(action, Call) else ())
 
     def add(label: str, icon: str, make: Callable[[], Action]) -> None:
-        add_button(label, f"Add to {section}: {label}", _adder(rows, owner.child(section), label, make), icon=icon)
+        adder = _adder(rows, owner.child(section), label, make)
+        add_button(label, f"Add to {section}: {label}", adder, icon=icon).props("data-opens-field")
 
     def list_calls() -> list[str]:
         return ["Call"] if calls and context.design.uses else []

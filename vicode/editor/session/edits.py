@@ -67,6 +67,8 @@ def create_state(
         return add_transition(grown, source, name) if source else grown
 
     document.edit(texts.add_state(name), change, coalesce_key=creation_key(document, name))
+    if document.design.state(name) is None:
+        return EditResult(error=texts.STATE_NOT_ADDED)
     return EditResult(new_selection=(ItemRef(kind="states", id=name),) if select else None, error=error)
 
 

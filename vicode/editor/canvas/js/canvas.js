@@ -167,6 +167,8 @@ class Canvas {
   /** Sends one gesture to Python. */
   report(kind, payload) {
     if (kind !== "move") this.nudge.reset();
+    // Python opens a field for these; keys pressed before that belong to it. A page without such fields has no hook.
+    if ((kind === "use" && !payload.address) || (kind === "open" && payload.item.of !== "components")) window.awaitField?.();
     this.emit("gesture", { kind, ...payload, rev: this.scene.rev });
   }
 
@@ -245,10 +247,10 @@ class Canvas {
     else this.viewport.reveal(nodeRect(place));
   }
 
-  /** Draws a state whose creation was just reported, until Python's answer replaces it. */
+  /** Draws a state whose creation was just reported; Python sends its data, or the whole scene if there is no such state. */
   showCreated(state, select) {
     if (this.scene.nodes.has(keyOf("states", state.id))) return;
-    this.apply(this.scene.expect(state));
+    this.apply({ rev: this.scene.rev, upsert: { states: [state] } });
     if (select) this.selection.set([keyOf("states", state.id)], { quiet: true });
   }
 

@@ -27,23 +27,16 @@ export class Scene {
     this.affectedNodes = new Set();
     this.changedRects = [];
     this.linksShown = true;
-    this.expected = null;
   }
 
   load(view) {
     for (const store of [this.nodes, this.edges, this.initialNodes, this.pairs, this.edgesAt, this.nodeGrid, this.edgeGrid]) store.clear();
-    this.expected = null;
     this.rev = view.rev;
     this.component = view.component;
     this.doc = view.doc ?? "";
     this.#upsert(view);
     if (view.common) this.#putNode("common", COMMON_ID, view.common);
     this.#index(this.nodes.keys(), this.edges.keys());
-  }
-
-  /** Returns the difference that adds a state before Python does; the next difference confirms or removes it. */
-  expect(state) {
-    return { rev: this.rev, upsert: { states: [state] }, expected: state.id };
   }
 
   /**
@@ -55,8 +48,6 @@ export class Scene {
     this.affectedNodes = new Set();
     this.changedRects = [];
     const gone = this.#remove(changes.remove ?? {});
-    if (this.expected && !changes.upsert?.states?.some(({ id }) => id === this.expected)) gone.push(this.#dropNode(keyOf("states", this.expected)));
-    this.expected = changes.expected ?? null;
     const touched = this.#upsert(changes.upsert ?? {});
     if ("common" in changes) {
       if (changes.common) touched.push(this.#putNode("common", COMMON_ID, changes.common));
