@@ -30,7 +30,7 @@ from vicode.store import (
 from vicode.store.documents import PROJECT_FILES
 
 _POLL_INTERVAL_S = 0.8
-_MAX_SAVE_ATTEMPTS = 20
+_MAX_SAVE_ATTEMPTS = 50
 
 
 class DiskConflictError(Exception):
