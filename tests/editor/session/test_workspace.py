@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from vicode.editor.session import DISK_USER, DiskConflictError, DocumentSession, Library, Workspace, apply_edit
-from vicode.editor.session.gestures import RenameGesture
+from vicode.editor.session.gestures import DeleteGesture, RenameGesture
 from vicode.editor.view import ItemRef
 from vicode.model.design import Declaration, Guard, Transition
 from vicode.model.edits import replace_decision
@@ -346,5 +346,8 @@ def test_an_edit_that_would_lose_unknown_keys_is_refused(folder: Path) -> None:
     document.edit("delete", lambda design: replace(design, states=design.states[:-1]))
     assert document.design == before
     assert "'transitons: [{to: Kick}]', was not understood" in document.shared.notice.text
+    # The canvas, which shows the edit already, is told.
+    result = apply_edit(document, DeleteGesture(items=(ItemRef(kind="states", id="Spare"),)))
+    assert "was not understood" in result.error
     document.edit("doc", lambda design: replace(design, doc="changed"))
     assert document.design.doc == "changed"

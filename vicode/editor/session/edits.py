@@ -47,11 +47,14 @@ class RequestedEdit(Protocol):
 
 
 def apply_edit(document: DocumentSession, edit: RequestedEdit) -> EditResult:
-    """Apply an edit; an invalid one changes nothing."""
+    """Apply an edit; an invalid one, or one that would lose content of the file, changes nothing."""
+    shared, notice, rev = document.shared, document.shared.notice, document.rev
     try:
-        return edit.apply(document)
+        result = edit.apply(document)
     except EditError as error:
         return EditResult(error=str(error))
+    is_refused = shared.notice is not notice and document.rev == rev
+    return EditResult(error=shared.notice.text) if is_refused else result
 
 
 def create_state(
