@@ -16,13 +16,16 @@ from vicode.simulation.isolation import isolation_problem, launch_command, make_
 # A descendant in a session of its own, whose parent has ended.
 DAEMON = """
 import os, sys, time
+reader, writer = os.pipe()
 if os.fork() == 0:
     os.setsid()
     if os.fork() == 0:
         print(sys.argv[1], flush=True)
+        os.write(writer, b"x")
         time.sleep(600)
     os._exit(0)
 os.wait()
+os.read(reader, 1)
 """
 LOOK = """
 import json, os, resource, socket, sys
