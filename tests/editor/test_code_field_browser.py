@@ -194,7 +194,7 @@ def test_html_in_names_is_shown_as_text_in_completion_and_marks(editor: str, pag
     evil = "<img src=x onerror=\"document.title='owned'\">"
     file.write_text(file.read_text().replace("components:", f"components:\n  Zebra: {{doc: '{evil.replace(chr(39), chr(39) * 2)}', implementation: 'a:B', outputs: {{stripes: {{type: bool, doc: '<b>{evil.replace(chr(39), chr(39) * 2)}'}}}}}}", 1))  # fmt: skip  # noqa: E501
     player = project / "forward" / "player.yaml"
-    player.write_text(player.read_text().replace("uses:", "uses:\n  zebra: Zebra", 1))
+    player.write_text(player.read_text().replace("uses:", "uses:\n  zebra: {component: Zebra, at: [300, 300]}", 1))
     open_player(page, editor)
     select_transition(page, LOOK)
     retype(page, guard(page), "zebra.str")
