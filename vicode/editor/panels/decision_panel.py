@@ -25,7 +25,7 @@ from vicode.editor.view import ItemRef, parse_transition_key
 from vicode.model.design import COMMON, DecisionGroup, Design, Transition
 from vicode.model.edits import assign_id, remove_decisions
 
-_CODE_HINT = "return self.perception.ball_seen\n"
+_INITIAL_CODE = "return self.state_time > 2\n"
 _TO = Attribute(label="To", name="to", format=str)
 _WHEN = Attribute(label="When", name="when", hint="always")
 _DISABLED = Attribute(label="Disabled (never tested)", name="disabled", kind=FieldKind.CHECKBOX)
@@ -82,7 +82,7 @@ def _code(form: Form, item: TrackedItem, has_code: bool) -> None:
         button = ui.button("Remove code", on_click=lambda: context.edit("remove code", lambda old: set_code(old, "")))
     else:
         button = ui.button("Code predicate", icon="add")
-        button.on_click(lambda: context.edit("add code", lambda old: set_code(old, _CODE_HINT)))
+        button.on_click(lambda: context.edit("add code", lambda old: set_code(old, _INITIAL_CODE)))
     button.props("flat dense no-caps size=sm")
 
 
