@@ -1,6 +1,6 @@
 """Matches the members of a new collection to those of the old one."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from difflib import SequenceMatcher
 from typing import cast
 
@@ -35,18 +35,6 @@ def match_items(old: Sequence[FormatValue], new: Sequence[FormatValue]) -> list[
     _match_gaps(len(old), matches)
     _match_similar(old, new, matches)
     return matches
-
-
-def longest_increasing_subsequence(numbers: Iterable[int]) -> set[int]:
-    """The members of a longest increasing subsequence of distinct numbers."""
-    best: list[list[int]] = []
-    for number in numbers:
-        chain = next((chain for chain in reversed(best) if chain[-1] < number), [])
-        if len(chain) == len(best):
-            best.append([*chain, number])
-        elif number < best[len(chain)][-1]:
-            best[len(chain)] = [*chain, number]
-    return set(best[-1]) if best else set()
 
 
 def similarity(old: FormatValue, new: FormatValue) -> float:

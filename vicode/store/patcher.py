@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TypeGuard
 
-from vicode.store.matching import longest_increasing_subsequence
+from vicode.model.sequences import longest_increasing_subsequence
 from vicode.store.member_spans import (
     MemberSpan,
     blank_lines_start,

@@ -7,7 +7,7 @@ import re
 import stat
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from vicode.findings import Finding, Note, get_rule, sort_findings
 from vicode.model.names import name_from_text
@@ -25,6 +25,7 @@ from vicode.store.yaml_tree import MAX_BYTES
 
 DESIGN_SUFFIXES = (".yaml", ".yml")
 _LOOKS_LIKE_DESIGN = re.compile(rb"^(vicode|component|states)[ \t]*:", re.MULTILINE)
+_LOOKS_LIKE_PROJECT = re.compile(rb"^project[ \t]*:", re.MULTILINE)
 _COMPONENT = re.compile(rb"^component[ \t]*:[ \t]*[\"']?([A-Za-z]\w*)", re.MULTILINE)
 _SKIPPED_FOLDERS = {"node_modules", "__pycache__", "site-packages"}
 _MAX_PARENT_FOLDERS = 8
@@ -120,6 +121,19 @@ def find_project_file(folder: Path) -> Path | None:
     return next((folder / name for name in PROJECT_FILES if (folder / name).is_file()), None)
 
 
+def looks_like_design(content: bytes) -> bool:
+    """Whether a file has a key of designs or of project.yaml at its top level."""
+    # Zero bytes are removed so that a UTF-16 file is recognized and reported.
+    return bool(_LOOKS_LIKE_DESIGN.search(content.replace(b"\0", b"")))
+
+
+def is_project_text(name: str, content: bytes) -> bool:
+    """Whether a text is that of a project.yaml, by its name or, for a copy with another name, by its keys."""
+    return PurePath(name).name in PROJECT_FILES or bool(
+        _LOOKS_LIKE_PROJECT.search(content) and not _COMPONENT.search(content)
+    )
+
+
 def read_python_module(folder: Path, name: str) -> tuple[str, str] | None:
     """Read the source of a module of a project.
 
@@ -172,7 +186,7 @@ class _ProjectLoader:
         except OSError as error:
             self._add_unreadable(file, error)
             return
-        if not is_explicit and not _looks_like_design(content):
+        if not is_explicit and not looks_like_design(content):
             return
         read = _read_cached(file, content)
         self.findings += read.findings
@@ -253,7 +267,7 @@ def _find_project_folder(file: Path) -> Path:
     for _level in range(_MAX_PARENT_FOLDERS):
         project_file = find_project_file(folder)
         if project_file is not None and (
-            folder == own_folder.resolve() or _looks_like_design(_read_bytes(project_file))
+            folder == own_folder.resolve() or looks_like_design(_read_bytes(project_file))
         ):
             return own_folder if folder == own_folder.resolve() else folder
         if folder.parent == folder or (folder / ".git").exists():
@@ -292,9 +306,4 @@ def _is_candidate(file: Path, folder: Path) -> bool:
 
 
 def _is_design(file: Path, folder: Path) -> bool:
-    return _is_candidate(file, folder) and _looks_like_design(_read_bytes(file))
-
-
-def _looks_like_design(content: bytes) -> bool:
-    # Zero bytes are removed so that a UTF-16 file is recognized and reported.
-    return bool(_LOOKS_LIKE_DESIGN.search(content.replace(b"\0", b"")))
+    return _is_candidate(file, folder) and looks_like_design(_read_bytes(file))

@@ -8,6 +8,7 @@ from typing import Any
 
 from vicode.model.decisions import retarget
 from vicode.model.design import Call, Declaration, Design, DiagramNote, State, Transition, Use
+from vicode.model.project import Agent, Enumeration, Interface
 
 Matches = dict[int, int]
 """Maps indices of the old list to indices of the new list."""
@@ -30,6 +31,10 @@ def item_key(item: Any) -> Hashable:
             return name
         case Use(alias=alias) | Call(alias=alias):
             return alias
+        case Enumeration(name=name) | Agent(name=name):
+            return name
+        case Interface(component=component):
+            return component
         case (name, _text):
             return str(name)
         case _:

@@ -1,0 +1,171 @@
+"""The differences of designs in words: one line per change, moved and renamed items recognized."""
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+
+from tests.strategies.designs import designs, projects
+from vicode.model.design import (
+    Assign,
+    Call,
+    Code,
+    DecisionGroup,
+    Declaration,
+    Design,
+    Guard,
+    State,
+    Stay,
+    Transition,
+    Use,
+)
+from vicode.model.diff import ChangeKind, describe_change, diff_designs, diff_projects
+from vicode.model.edits import add_state, remove_states, rename_state, rename_use, update_state
+from vicode.model.project import Enumeration, Interface, Project
+
+BASE = Design(
+    component="Player",
+    initial="Search",
+    frequency_hz=10.0,
+    uses=(Use(alias="ball", component="BallFinder", at=(0, 0)),),
+    variables=(Declaration(name="tries", type="int", initial="0"),),
+    states=(
+        State(
+            name="Search",
+            at=(0, 0),
+            doc="turns",
+            transitions=(
+                Transition(to="Follow", guard=Guard(when="ball.seen")),
+                Transition(to="Wait", guard=Guard(after="5")),
+                Stay(guard=Guard(when="tries > 3")),
+            ),
+        ),
+        State(name="Follow", at=(100, 0), requires=("ball",), actions=(Assign(values=(("tries", "1"),)),)),
+        State(name="Wait", at=(0, 100), transitions=(Transition(to="Search"),)),
+    ),
+)
+
+
+def words(new: Design, old: Design = BASE) -> list[str]:
+    return [describe_change(change) for change in diff_designs(old, new)]
+
+
+def with_search(**changes: object) -> Design:
+    return update_state(BASE, "Search", lambda state: replace(state, **changes))  # type: ignore[arg-type]
+
+
+def transitions(*items: object) -> Design:
+    return with_search(transitions=items)
+
+
+FIRST, SECOND, THIRD = BASE.states[0].transitions
+assert isinstance(FIRST, Transition)
+
+
+@pytest.mark.parametrize(
+    ("new", "expected"),
+    [
+        (BASE, []),
+        (add_state(BASE, State(name="Kick")), ["+ state Kick"]),
+        (replace(BASE, states=BASE.states[:2]), ["- state Wait: 1 transition"]),
+        (with_search(at=(5, 5.5)), ["> moved state Search: 0, 0 → 5, 5.5"]),
+        (with_search(at=None), ["> moved state Search: 0, 0 → (automatic)"]),
+        (with_search(doc="looks"), ["~ description of state Search: turns → looks"]),
+        (with_search(doc="a\nb"), ["~ description of state Search: 1 line → 2 lines"]),
+        (with_search(final=True), ["~ final of state Search: (none) → yes"]),
+        (replace(BASE, frequency_hz=20.0), ["~ frequency: 10 → 20"]),
+        (replace(BASE, initial="Wait"), ["~ initial state: Search → Wait"]),
+        (replace(BASE, component="Goalie"), ["= renamed component Player → Goalie"]),
+        (transitions(FIRST, THIRD), ["- transition Search → Wait: after 5"]),
+        (
+            transitions(FIRST, SECOND, THIRD, Transition(to="Follow", guard=Guard(when="x", after="1"))),
+            ["+ transition Search → Follow: when x, after 1"],
+        ),
+        (
+            transitions(replace(FIRST, guard=Guard(when="ball.near")), SECOND, THIRD),
+            ["~ guard Search → Follow: ball.seen → ball.near"],
+        ),
+        (transitions(replace(FIRST, to="Wait"), SECOND, THIRD), ["~ target Search → Wait: Follow → Wait"]),
+        (transitions(THIRD, FIRST, SECOND), ["> moved stay in Search: place 3 of 3 → place 1 of 3"]),
+        (
+            transitions(FIRST, SECOND, replace(THIRD, guard=Guard(code=Code(texts=(("python", "return x\n"),))))),
+            ["~ guard of stay in Search: tries > 3 → (none)", "~ guard code of stay in Search: (none) → return x"],
+        ),
+        (
+            transitions(
+                FIRST, SECOND, THIRD, DecisionGroup(guard=Guard(when="x"), then=(SECOND,), otherwise=(Stay(),))
+            ),
+            ["+ decision of Search: when x: → Wait, stay"],
+        ),
+        (
+            update_state(BASE, "Follow", lambda state: replace(state, requires=(), actions=(Call(alias="ball"),))),
+            [
+                "- requirement ball of state Follow",
+                "- action of state Follow: set tries: 1",
+                "+ action of state Follow: call ball",
+            ],
+        ),
+        (
+            update_state(BASE, "Follow", lambda state: replace(state, actions=(Assign(values=(("tries", "2"),)),))),
+            ["~ action of state Follow: set tries: 1 → set tries: 2"],
+        ),
+        (
+            replace(BASE, variables=(replace(BASE.variables[0], initial="7", unit="s"),)),
+            ["~ value of variable tries: 0 → 7", "~ unit of variable tries: (none) → s"],
+        ),
+        (replace(BASE, variables=(replace(BASE.variables[0], name="n"),)), ["= renamed variable tries → n"]),
+    ],
+)
+def test_a_change_is_one_line(new: Design, expected: list[str]) -> None:
+    assert words(new) == expected
+
+
+def test_references_to_renamed_states_and_uses_are_no_changes() -> None:
+    assert words(rename_state(BASE, "Search", "Look")) == ["= renamed state Search → Look"]
+    assert words(rename_use(BASE, "ball", "finder")) == ["= renamed use ball → finder"]
+
+
+def test_a_renamed_state_is_compared_with_its_old_version() -> None:
+    renamed = update_state(rename_state(BASE, "Search", "Look"), "Look", lambda state: replace(state, doc="looks"))
+    assert words(renamed) == ["= renamed state Search → Look", "~ description of state Look: turns → looks"]
+
+
+def test_other_states_are_removed_and_added() -> None:
+    other = State(name="Kick", doc="kicks", at=(7, 7), final=True)
+    new = add_state(remove_states(BASE, ["Wait"]), other)
+    assert "+ state Kick" in words(new)
+    assert any(line.startswith("- state Wait") for line in words(new))
+
+
+def test_paths_lead_to_the_item() -> None:
+    (change,) = diff_designs(BASE, transitions(FIRST, replace(SECOND, doc="!"), THIRD))
+    assert (change.kind, change.path) == (ChangeKind.CHANGED, ("states", "Search", "transitions", 1, "doc"))
+
+
+def test_declarations_of_a_project() -> None:
+    side = Enumeration(name="Side", elements=(("left", ""), ("right", "")))
+    head = Interface(component="Head", implementation="field:Head", outputs=(Declaration(name="angle"),))
+    old = Project(name="P", enumerations=(side,), components=(head,))
+    new = replace(
+        old,
+        enumerations=(replace(side, elements=(("left", "the left"), ("none", ""), ("right", ""))),),
+        constants=(Declaration(name="speed", initial="3", unit="m/s"),),
+        components=(replace(head, outputs=(Declaration(name="angle", unit="rad"),)),),
+    )
+    assert [describe_change(change) for change in diff_projects(old, new)] == [
+        "+ element Side.none",
+        "~ description of element Side.left: (none) → the left",
+        "+ constant speed: 3 m/s",
+        "~ unit of output angle of Head: (none) → rad",
+    ]
+
+
+@given(designs, designs)
+def test_only_equal_designs_have_no_differences(old: Design, new: Design) -> None:
+    assert bool(diff_designs(old, new)) == (old != new)
+    assert all("\n" not in describe_change(change) for change in diff_designs(old, new))
+
+
+@given(projects, projects)
+def test_only_equal_projects_have_no_differences(old: Project, new: Project) -> None:
+    assert bool(diff_projects(old, new)) == (old != new)

@@ -1,0 +1,80 @@
+"""Compare two versions of designs in words: files, folders, or git revisions."""
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.cli.console import print_findings
+
+if TYPE_CHECKING:
+    from vicode.cli.diff_inputs import FileVersion, VersionPair
+
+_EXTERNAL_ARGUMENTS = 7
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "items",
+        metavar="A B | [REVISION [REVISION]] [PATH]",
+        nargs="*",
+        help="two files or folders; or git revisions (default: HEAD and the work tree) and paths",
+    )
+    parser.add_argument("--json", action="store_true", help="print the changes as JSON")
+    # git calls a diff driver with: path, old file, old hash, old mode, new file, new hash, new mode.
+    parser.add_argument("--external", action="store_true", help=argparse.SUPPRESS)
+    parser.epilog = "Exit codes: 0 no differences, 1 differences, 2 the command could not run."
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the differences; return 1 if there are any."""
+    from vicode.cli.diff_inputs import find_pairs
+    from vicode.cli.file_differences import compare_pair
+
+    if args.external:
+        return _run_external(args.items)
+    differences = [compare_pair(pair) for pair in find_pairs(args.items) if _is_relevant(pair)]
+    if args.json:
+        print(json.dumps({"files": [difference.to_json() for difference in differences]}, ensure_ascii=False, indent=2))
+    else:
+        print("".join(line + "\n" for difference in differences for line in difference.lines()), end="")
+    findings = [finding for difference in differences for finding in difference.errors]
+    print_findings(findings, to_stderr=True)
+    return 2 if findings else int(any(difference.is_different for difference in differences))
+
+
+def _run_external(items: list[str]) -> int:
+    """Compare as a diff driver of git, which expects exit code 0."""
+    from vicode.cli.diff_inputs import FileVersion, VersionPair
+    from vicode.cli.file_differences import compare_pair
+
+    if len(items) < _EXTERNAL_ARGUMENTS:
+        print("".join(f"{item}: not merged\n" for item in items[:1]), end="")
+        return 0
+    path, old, _hash, _mode, new = items[:5]
+    versions = [
+        None if file == "/dev/null" else FileVersion(name=path, content=Path(file).read_bytes()) for file in (old, new)
+    ]
+    difference = compare_pair(VersionPair(old=versions[0], new=versions[1]))
+    if difference.errors:
+        print(_plain_diff(path, versions[0], versions[1]), end="")
+        return 0
+    print("".join(f"{line}\n" for line in difference.lines()), end="")
+    return 0
+
+
+def _plain_diff(path: str, old: "FileVersion | None", new: "FileVersion | None") -> str:
+    """The lines that differ, for a file that is no design."""
+    from difflib import unified_diff
+
+    texts = [(b"" if version is None else version.content).decode(errors="replace") for version in (old, new)]
+    lines = unified_diff(texts[0].splitlines(), texts[1].splitlines(), f"a/{path}", f"b/{path}", lineterm="")
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _is_relevant(pair: "VersionPair") -> bool:
+    """Whether a file is a design or project file, or was named."""
+    from vicode.store import looks_like_design
+
+    versions = [version for version in (pair.old, pair.new) if version is not None]
+    return pair.is_explicit or any(looks_like_design(version.content) for version in versions)

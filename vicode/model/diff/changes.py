@@ -1,0 +1,163 @@
+"""A change of one item of a design, and its description in words."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from vicode.findings import DesignPath
+from vicode.model.design import Action, Assign, Call, Code, Decision, Declaration, Guard, RunCode, Stay, Transition
+
+_MAX_LENGTH = 100
+
+
+class ChangeKind(StrEnum):
+    """What happened to an item. MOVED is a change of its position in the diagram or of its place in a list."""
+
+    ADDED = "added"
+    REMOVED = "removed"
+    CHANGED = "changed"
+    MOVED = "moved"
+    RENAMED = "renamed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change:
+    """One change.
+
+    Attributes:
+        kind: What happened to the item.
+        subject: The item in words, such as "state Kick"; after a rename, with its new name.
+        path: The path of the item in the new version; of a removed item, its path in the old version.
+        attribute: The changed attribute in words; empty if the item as a whole was added, removed, moved or renamed.
+        old: The old value as text; empty if there was none.
+        new: The new value as text.
+    """
+
+    kind: ChangeKind
+    subject: str
+    path: DesignPath
+    attribute: str = ""
+    old: str = ""
+    new: str = ""
+
+
+_SIGNS = {
+    ChangeKind.ADDED: "+",
+    ChangeKind.REMOVED: "-",
+    ChangeKind.CHANGED: "~",
+    ChangeKind.MOVED: ">",
+    ChangeKind.RENAMED: "=",
+}
+
+
+def describe_change(change: Change) -> str:
+    """One line, such as "~ guard LookForBall → FollowBall: near → near and seen"."""
+    sign = _SIGNS[change.kind]
+    match change.kind:
+        case ChangeKind.ADDED | ChangeKind.REMOVED:
+            value = _shorten(change.new or change.old)
+            return f"{sign} {change.subject}{': ' if value else ''}{value}"
+        case ChangeKind.RENAMED:
+            kind = change.subject.removesuffix(change.new)
+            return f"{sign} renamed {kind}{change.old} → {change.new}"
+        case ChangeKind.MOVED:
+            return f"{sign} moved {change.subject}: {change.old or '(automatic)'} → {change.new or '(automatic)'}"
+    if change.old.count("\n") + change.new.count("\n"):
+        return f"{sign} {_attribute_of(change)}: {_count_lines(change.old)} → {_count_lines(change.new)}"
+    return f"{sign} {_attribute_of(change)}: {_shorten(change.old) or '(none)'} → {_shorten(change.new) or '(none)'}"
+
+
+def describe_decision(source: str, decision: Decision) -> str:
+    """The subject of a decision, such as "transition Wait → Kick"."""
+    match decision:
+        case Transition(to=to):
+            return f"transition {source} → {to}"
+        case Stay():
+            return f"stay in {source}"
+        case _:
+            return f"decision of {source}"
+
+
+def describe_guard(guard: Guard) -> str:
+    """The parts of a guard, as in the file; empty if it always holds."""
+    parts = (("when ", guard.when), ("after ", guard.after), ("", "code" if guard.code is not None else ""))
+    return ", ".join(f"{word}{text}" for word, text in parts if text)
+
+
+def describe_action(action: Action) -> str:
+    match action:
+        case Assign(values=values):
+            return f"set {_describe_pairs(values)}"
+        case Call(alias=alias, arguments=arguments):
+            return f"call {alias}{f' with {_describe_pairs(arguments)}' if arguments else ''}"
+        case RunCode(code=code):
+            return describe_code(code)
+
+
+def describe_code(code: Code | None) -> str:
+    """The text of code; with several languages or another one than Python, each with its name."""
+    texts = code.texts if code is not None else ()
+    if [language for language, _text in texts] == ["python"]:
+        return texts[0][1].rstrip("\n")
+    return "\n".join(f"{language}: {text}".rstrip("\n") for language, text in texts)
+
+
+def describe_declaration(declaration: Declaration) -> str:
+    """Type, value, unit and range of a declaration."""
+    arguments = declaration.arguments
+    listed = "" if arguments is None else f"({', '.join(_describe_argument(each) for each in arguments)})"
+    low_high = f"{declaration.range[0]:g} to {declaration.range[1]:g}" if declaration.range else ""
+    return " ".join(
+        part for part in (listed, declaration.type, declaration.initial, declaration.unit, low_high) if part
+    )
+
+
+def describe_value(value: object) -> str:
+    """A plain value as text; empty for a missing one."""
+    match value:
+        case None | "" | () | False:
+            return ""
+        case True:
+            return "yes"
+        case float():
+            return f"{value:g}"
+        case Code():
+            return describe_code(value)
+        case tuple():
+            return ", ".join(
+                ": ".join(map(describe_value, each)) if _is_pair(each) else describe_value(each) for each in value
+            )
+        case Declaration():
+            return f"{value.name} {describe_declaration(value)}".rstrip()
+        case _:
+            return str(value)
+
+
+def _is_pair(value: object) -> bool:
+    return isinstance(value, tuple) and len(value) == 2
+
+
+def _describe_argument(argument: Declaration) -> str:
+    return f"{argument.name} {describe_declaration(argument)}".rstrip()
+
+
+def _describe_pairs(pairs: tuple[tuple[str, str], ...]) -> str:
+    return ", ".join(f"{name}: {text}" for name, text in pairs)
+
+
+def _attribute_of(change: Change) -> str:
+    """The changed attribute with its item; the name of a transition is clear without its kind."""
+    if not change.attribute or not change.subject:
+        return change.attribute or change.subject
+    if change.subject.startswith("transition "):
+        return f"{change.attribute} {change.subject.removeprefix('transition ')}"
+    return f"{change.attribute} of {change.subject}"
+
+
+def _count_lines(text: str) -> str:
+    count = text.count("\n") + 1
+    return f"{count} line{'s' * (count != 1)}" if text else "(none)"
+
+
+def _shorten(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= _MAX_LENGTH else f"{line[: _MAX_LENGTH - 1]}…"

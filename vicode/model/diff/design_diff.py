@@ -1,0 +1,237 @@
+"""Compares two versions of a design by state and transition."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from vicode.findings import DesignPath
+from vicode.model.design import (
+    Action,
+    Call,
+    CommonSection,
+    Decision,
+    DecisionGroup,
+    Design,
+    DiagramNote,
+    Guard,
+    State,
+    Stay,
+    Transition,
+    Use,
+)
+from vicode.model.diff.changes import (
+    Change,
+    ChangeKind,
+    describe_action,
+    describe_code,
+    describe_decision,
+    describe_guard,
+)
+from vicode.model.diff.item_diff import diff_attributes, diff_declarations, diff_keyed, diff_ordered, diff_positions
+from vicode.model.edits import rename_state, rename_use
+from vicode.model.merge.matching import find_renamed_states, find_renamed_uses
+
+_DESIGN_ATTRIBUTES = {
+    "xabsl_name": "XABSL name",
+    "doc": "description",
+    "frequency_hz": "frequency",
+    "resume": "resume",
+    "arithmetic": "arithmetic",
+    "time_unit": "time unit",
+    "initial": "initial state",
+    "module": "module code",
+    "members": "class code",
+}
+_STATE_ATTRIBUTES = {
+    "id": "id",
+    "xabsl_name": "XABSL name",
+    "doc": "description",
+    "color": "color",
+    "final": "final",
+    "capacity": "capacity",
+    "synchronized": "synchronized",
+    "disabled": "disabled",
+}
+_DECISION_ATTRIBUTES = {"doc": "description", "id": "id", "disabled": "disabled"}
+_PHASES = {"enter": "enter action", "actions": "action", "leave": "leave action"}
+
+
+def diff_designs(old: Design, new: Design) -> tuple[Change, ...]:
+    """Compare two versions of a design.
+
+    A removed and an added state are one renamed state if they have the same id or mostly the same content. References
+    to renamed states and uses are no changes of their own.
+    """
+    if old == new:
+        return ()
+    changes: list[Change] = []
+    if old.component != new.component:
+        subject = f"component {new.component}"
+        changes.append(
+            Change(kind=ChangeKind.RENAMED, subject=subject, path=("component",), old=old.component, new=new.component)
+        )
+    old, renames = _apply_renames(old, new)
+    return (*changes, *renames, *_diff_content(old, new))
+
+
+def _apply_renames(old: Design, new: Design) -> tuple[Design, list[Change]]:
+    renames: list[Change] = []
+    for section, kind, find, rename in (
+        ("states", "state", find_renamed_states, rename_state),
+        ("uses", "use", find_renamed_uses, rename_use),
+    ):
+        for before, after in find(old, new).items():
+            old = rename(old, before, after)
+            subject = f"{kind} {after}"
+            renames.append(
+                Change(kind=ChangeKind.RENAMED, subject=subject, path=(section, after), old=before, new=after)
+            )
+    return old, renames
+
+
+def _diff_content(old: Design, new: Design) -> Iterator[Change]:
+    yield from diff_attributes((), "", old, new, _DESIGN_ATTRIBUTES)
+    yield from diff_keyed(
+        ("uses",),
+        old.uses,
+        new.uses,
+        subject=lambda use: f"use {use.alias}",
+        content=lambda use: str(use.component),
+        compare=_diff_use,
+    )
+    for section in ("parameters", "outputs", "variables"):
+        before, after = getattr(old, section), getattr(new, section)
+        yield from diff_declarations((section,), before, after, section.removesuffix("s"))
+    yield from _diff_common(old.common, new.common)
+    yield from diff_keyed(
+        ("states",),
+        old.states,
+        new.states,
+        subject=lambda state: f"state {state.name}",
+        content=_describe_state,
+        compare=_diff_state,
+    )
+    yield from diff_keyed(
+        ("notes",),
+        old.notes,
+        new.notes,
+        subject=lambda note: f"note {note.name}",
+        content=lambda note: str(note.text),
+        compare=_diff_note,
+    )
+
+
+def _diff_use(path: DesignPath, old: Use, new: Use) -> Iterator[Change]:
+    yield from diff_attributes(path, f"use {new.alias}", old, new, {"component": "component"})
+    yield from diff_positions(path, f"use {new.alias}", old.at, new.at)
+
+
+def _diff_note(path: DesignPath, old: DiagramNote, new: DiagramNote) -> Iterator[Change]:
+    yield from diff_attributes(path, f"note {new.name}", old, new, {"text": "text"})
+    yield from diff_positions(path, f"note {new.name}", old.at, new.at)
+
+
+def _diff_common(old: CommonSection, new: CommonSection) -> Iterator[Change]:
+    yield from diff_attributes(("common",), "common section", old, new, {"doc": "description"})
+    yield from diff_positions(("common",), "common section", old.at, new.at)
+    yield from _diff_actions(("common", "actions"), "action", "common section", old.actions, new.actions)
+    yield from _diff_decisions(("common", "transitions"), "common", old.transitions, new.transitions)
+
+
+def _describe_state(state: State) -> str:
+    """The content of an added or removed state, as counts."""
+    count = len(state.transitions)
+    return f"{count} transition{'s' * (count != 1)}" if count else ""
+
+
+def _diff_state(path: DesignPath, old: State, new: State) -> Iterator[Change]:
+    owner = f"state {new.name}"
+    yield from diff_attributes(path, owner, old, new, _STATE_ATTRIBUTES)
+    yield from diff_positions(path, owner, old.at, new.at)
+    yield from diff_keyed(
+        (*path, "requires"),
+        old.requires,
+        new.requires,
+        subject=lambda alias: f"requirement {alias} of {owner}",
+        content=lambda _alias: "",
+        compare=lambda _path, _old, _new: iter(()),
+    )
+    yield from diff_keyed(
+        (*path, "modulates"),
+        old.modulates,
+        new.modulates,
+        subject=lambda call: f"modulation of {call.alias} in {owner}",
+        content=_arguments,
+        compare=lambda here, before, after: _diff_text(
+            here, f"modulation of {after.alias} in {owner}", _arguments(before), _arguments(after)
+        ),
+    )
+    for phase, kind in _PHASES.items():
+        yield from _diff_actions((*path, phase), kind, owner, getattr(old, phase), getattr(new, phase))
+    yield from _diff_decisions((*path, "transitions"), new.name, old.transitions, new.transitions)
+
+
+def _diff_actions(
+    path: DesignPath, kind: str, owner: str, old: tuple[Action, ...], new: tuple[Action, ...]
+) -> Iterator[Change]:
+    subject = f"{kind} of {owner}"
+    return diff_ordered(
+        path,
+        old,
+        new,
+        subject=lambda _action: subject,
+        content=describe_action,
+        compare=lambda here, before, after: _diff_text(here, subject, describe_action(before), describe_action(after)),
+    )
+
+
+def _diff_decisions(
+    path: DesignPath, source: str, old: tuple[Decision, ...], new: tuple[Decision, ...]
+) -> Iterator[Change]:
+    def subject(decision: Decision) -> str:
+        return describe_decision(source, decision)
+
+    def compare(here: DesignPath, before: Any, after: Any) -> Iterator[Change]:
+        name = subject(after)
+        if isinstance(after, Transition):
+            yield from diff_attributes(here, name, before, after, {"to": "target"})
+            yield from diff_positions((*here, "label_at"), f"label of {name}", before.label_at, after.label_at)
+        yield from _diff_guard(here, name, before.guard, after.guard)
+        yield from diff_attributes(here, name, before, after, _DECISION_ATTRIBUTES)
+        if isinstance(after, DecisionGroup):
+            yield from _diff_decisions((*here, "then"), source, before.then, after.then)
+            yield from _diff_decisions((*here, "else"), source, before.otherwise, after.otherwise)
+
+    return diff_ordered(path, old, new, subject=subject, content=_describe_decision_content, compare=compare)
+
+
+def _describe_decision_content(decision: Decision) -> str:
+    guard = describe_guard(decision.guard)
+    if not isinstance(decision, DecisionGroup):
+        return guard
+    inner = (*decision.then, *decision.otherwise)
+    targets = [
+        f"→ {each.to}" if isinstance(each, Transition) else "stay" if isinstance(each, Stay) else "…" for each in inner
+    ]
+    return f"{guard}{': ' if guard else ''}{', '.join(targets)}"
+
+
+def _diff_guard(path: DesignPath, subject: str, old: Guard, new: Guard) -> Iterator[Change]:
+    yield from diff_attributes(path, subject, old, new, {"when": "guard", "after": "time"})
+    if old.code != new.code:
+        yield Change(
+            kind=ChangeKind.CHANGED,
+            subject=subject,
+            path=(*path, "code"),
+            attribute="guard code",
+            old=describe_code(old.code),
+            new=describe_code(new.code),
+        )
+
+
+def _arguments(call: Call) -> str:
+    return ", ".join(f"{name}: {text}" for name, text in call.arguments)
+
+
+def _diff_text(path: DesignPath, subject: str, old: str, new: str) -> Iterator[Change]:
+    if old != new:
+        yield Change(kind=ChangeKind.CHANGED, subject=subject, path=path, old=old, new=new)
