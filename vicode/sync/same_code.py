@@ -1,0 +1,51 @@
+"""Whether two versions of a generated file differ in layout only."""
+
+import re
+from collections.abc import Iterator
+from itertools import groupby
+
+from vicode.regions import has_header, strip_bodies
+from vicode.sync.code_items import HEADER, IMPORT, CodeItem, imported_names, split_items
+
+_XABSL_TOKEN = re.compile(r'"[^"\n]*"|/\*.*?\*/|//[^\n]*|\w+|[^\w\s]', re.DOTALL)
+
+
+def is_same_code(a: str, b: str, comment: str = "#") -> bool:
+    """Whether two texts are the same code with the same comments outside of the bodies of their regions.
+
+    Line breaks, indentation, quotes, brackets without a meaning, the order of imports and the header do not count.
+
+    Args:
+        a: One version of the file.
+        b: The other.
+        comment: The start of a comment, "#" (Python) or "//" (XABSL).
+    """
+    if comment != "#":
+        return _xabsl_tokens(a, comment) == _xabsl_tokens(b, comment)
+    try:
+        return list(_python_keys(a)) == list(_python_keys(b))
+    except SyntaxError:
+        return strip_bodies(_without_header(a)).split() == strip_bodies(_without_header(b)).split()
+
+
+def _python_keys(text: str) -> Iterator[object]:
+    items = (item for item in split_items(text) if item.kind != HEADER)
+    for is_import, group in groupby(items, key=lambda item: item.kind == IMPORT):
+        if is_import:
+            yield _import_key(list(group))
+        else:
+            yield from (item.key for item in group)
+
+
+def _import_key(items: list[CodeItem]) -> object:
+    comments = sorted(comment for item in items for comment in item.comments)
+    return (items[0].scope, items[0].depth, imported_names(items), comments)
+
+
+def _xabsl_tokens(text: str, comment: str) -> list[str]:
+    return [" ".join(token.split()) for token in _XABSL_TOKEN.findall(strip_bodies(_without_header(text), comment))]
+
+
+def _without_header(text: str) -> str:
+    text = text.replace("\r\n", "\n")
+    return text.partition("\n")[2] if has_header(text) else text
