@@ -18,10 +18,11 @@ _TEMPORARY = re.compile(r"\..+\.[0-9a-f]{8}\.tmp")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OutputFile:
-    """A file to write; `path` is relative and separated by slashes."""
+    """A file to write; `path` is relative and separated by slashes; `component` is "" for shared files."""
 
     path: str
     text: str
+    component: str = ""
 
 
 class FileStatus(StrEnum):

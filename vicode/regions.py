@@ -98,12 +98,12 @@ def strip_bodies(text: str, comment: str = "#") -> str:
 
 
 def add_header(text: str, source: str, comment: str = "#") -> str:
-    """The text after a header line with its source and a checksum that detects edits."""
+    """The text after a header line with its source. It is the same in all versions, so that versions merge."""
     # Some characters of file names have a meaning in the first line of a Python file.
     source_name = re.sub(r"[^\w./ -]", "_", source)
     has_regions = bool(find_regions(text, comment).regions)
     hint = "Edit the design, or the code between marks." if has_regions else "Edit the design."
-    return f"{comment} {SIGNATURE} from {source_name} (seal {_compute_header_checksum(text, comment)}). {hint}\n{text}"
+    return f"{comment} {SIGNATURE} from {source_name}. {hint}\n{text}"
 
 
 def get_comment_prefix(path: str) -> str:
@@ -115,20 +115,9 @@ def has_header(text: str) -> bool:
     return SIGNATURE in text.split("\n", 1)[0]
 
 
-def is_edited_outside_regions(text: str, comment: str = "#") -> bool:
-    """Whether a generated text was edited outside its regions; whitespace is ignored."""
-    header, _break, rest = text.replace("\r\n", "\n").partition("\n")
-    match = re.search(r"\(seal ([0-9a-f]{8})\)", header)
-    return match is None or match[1] != _compute_header_checksum(rest, comment)
-
-
 def escape_marks(text: str) -> str:
     """The text of a user, changed so that it contains no marks."""
     return text.replace("<vicode", "< vicode").replace("</vicode", "< /vicode")
-
-
-def _compute_header_checksum(text: str, comment: str) -> str:
-    return hashlib.sha256("".join(strip_bodies(text, comment).split()).encode()).hexdigest()[:8]
 
 
 def _parse_region(lines: list[str], begin_index: int, comment: str, begin: re.Match[str]) -> Region | None:

@@ -59,7 +59,7 @@ def test_edited_code_is_refused_then_kept(lamps: Path, capsys: pytest.CaptureFix
     file.write_text(edited)
     capsys.readouterr()
     assert vicode("gen", "lamps") == 1
-    assert "error G501 edited-outside: the code of region 'Dark.enter' was edited" in capsys.readouterr().err
+    assert "error G501 edited-generated: the code of region 'Dark.enter' was edited" in capsys.readouterr().err
     assert file.read_text() == edited
     assert vicode("gen", "lamps", "--force") == 0
     assert "self.count = 1" in file.read_text()
@@ -134,9 +134,9 @@ def test_a_check_tells_of_an_edit_what_to_do_about_it(lamps: Path, capsys: pytes
     capsys.readouterr()
     assert vicode("gen", "--check", "lamps") == 1
     out = capsys.readouterr().out
-    assert "error G501 edited-outside" in out
+    assert "error G501 edited-generated" in out
     assert "region 'Dark.enter' was edited here" in out
-    assert "--force" in out
+    assert "'vicode sync'" in out
     assert "run 'vicode gen'" not in out
 
 
@@ -163,7 +163,7 @@ def test_two_languages_are_written_and_kept_apart(
     assert vicode("xabsl", "check", "both/generated/xabsl/both/agents.xabsl") == 0
     option.write_text(option.read_text().replace("1000", "2000"))
     assert vicode("gen", "both", "--check") == 1
-    assert "One.xabsl:1:1: error G501 edited-outside" in capsys.readouterr().out
+    assert "One.xabsl:1:1: error G501 edited-generated" in capsys.readouterr().out
     assert vicode("gen", "both", "--language", "python") == 0
     assert vicode("gen", "both", "--force") == 0
     assert "state_time >= 1000" in option.read_text()

@@ -77,12 +77,11 @@ def test_sound_designs_compile(project: Project) -> None:
 
 
 @given(portable_projects())
-def test_files_are_formatted_and_have_a_checksum(project: Project) -> None:
+def test_files_are_formatted_and_have_a_header(project: Project) -> None:
     files = generate(project, languages=["xabsl"])
     assert [file.path for file in files] == sorted(list_outputs(project, languages=["xabsl"]))
     for file in files:
         assert regions.has_header(file.text)
-        assert not regions.is_edited_outside_regions(file.text, "//")
         assert print_file(parse(file.text).file) == file.text
     assert files == generate(project, languages=["xabsl"])
 

@@ -110,13 +110,10 @@ def test_defused_text_is_no_mark() -> None:
     assert regions.find_regions(regions.escape_marks(text)) == regions.ParsedRegions()
 
 
-def test_a_seal_is_broken_by_any_edit_outside_regions() -> None:
-    sealed = regions.add_header(f"a = 1\n{regions.wrap_region('r', 'x = 1')}", "player.yaml")
-    assert regions.has_header(sealed)
-    assert not regions.is_edited_outside_regions(sealed)
-    assert not regions.is_edited_outside_regions(sealed.replace("x = 1", "x = 2"))
-    assert regions.is_edited_outside_regions(sealed.replace("a = 1", "a = 2"))
-    assert regions.is_edited_outside_regions(sealed.replace("(seal ", "("))
+def test_the_header_does_not_depend_on_the_code() -> None:
+    one, other = (regions.add_header(f"a = {value}\n", "player.yaml") for value in (1, 2))
+    assert regions.has_header(one)
+    assert one.split("\n")[0] == other.split("\n")[0]
 
 
 def test_no_file_name_can_choose_an_encoding() -> None:

@@ -103,13 +103,18 @@ class SiteWatcher:
         print("The site was not updated.", file=sys.stderr, flush=True)
 
 
-def iter_changes(folders: Sequence[Path]) -> Iterator[None]:
-    """Yield after each change of a design or behavior in these folders; stop when a folder is replaced."""
+def iter_changes(folders: Sequence[Path], suffixes: Sequence[str] = _SUFFIXES) -> Iterator[None]:
+    """Yield after each change of a file with one of the suffixes in these folders; stop when a folder is replaced."""
+
+    def is_watched(_change: Change, path: str) -> bool:
+        file = Path(path)
+        return file.suffix in suffixes and not file.name.startswith(".")
+
     with ExitStack() as stack, suppress(FileNotFoundError):
         held = {folder: number for folder in folders if (number := _open_folder(folder, stack)) is not None}
         wanted = watch(
             *held,
-            watch_filter=_is_watched,
+            watch_filter=is_watched,
             step=_DEBOUNCE_STEP_MS,
             debounce=_MAX_DEBOUNCE_MS,
             rust_timeout=_POLL_MS,
@@ -124,11 +129,6 @@ def iter_changes(folders: Sequence[Path]) -> Iterator[None]:
             # A deleted folder reports no events, nor does its replacement.
             if held != {folder: number for folder in folders if (number := _folder_id(folder)) is not None}:
                 return
-
-
-def _is_watched(_change: Change, path: str) -> bool:
-    file = Path(path)
-    return file.suffix in _SUFFIXES and not file.name.startswith(".")
 
 
 def _open_folder(folder: Path, stack: ExitStack) -> tuple[int, int] | None:

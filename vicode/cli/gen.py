@@ -1,21 +1,22 @@
 """Generate code from designs."""
 
 import argparse
-import errno
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from difflib import unified_diff
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.console import describe_os_error, print_findings
 from vicode.cli.project_loader import LoadedProject, load_projects
 from vicode.findings import Finding, Severity, SourceLocation, get_rule
-from vicode.output import FileDiff, FileStatus, apply_diffs, back_up_edited, compare_files, format_diff
-from vicode.regions import has_header
+from vicode.output import FileDiff, FileStatus, format_diff
 
 if TYPE_CHECKING:
+    from vicode.model.project import Project
     from vicode.output import OutputFile
+    from vicode.sync import GenerationInput, GenerationPlan
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,30 +24,50 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--check", action="store_true", help="write nothing; report missing, changed, and stale files")
     parser.add_argument("--diff", action="store_true", help="write nothing; print a diff")
     parser.add_argument(
+        "--adopt", action="store_true", help="take edits of generated files over into the designs first"
+    )
+    add_output_arguments(parser)
+    parser.add_argument("--force", action="store_true", help="overwrite edited files, keeping a copy as NAME.edited")
+
+
+def add_output_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say what is generated, and where."""
+    parser.add_argument(
+        "--take",
+        choices=("file", "design"),
+        help="where an edit and the design changed the same lines, take the text of this side (with --adopt)",
+    )
+    parser.add_argument(
         "--out", metavar="DIR", help="output folder (default: as set in project.yaml, else generated/ next to it)"
     )
     parser.add_argument("--language", metavar="L", action="append", help="generate only this language; can be repeated")
     parser.add_argument(
         "--standalone", action="store_true", help="include a copy of the runtime, so that the code runs without vicode"
     )
-    parser.add_argument("--force", action="store_true", help="overwrite edited files, keeping a copy as NAME.edited")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Generate every project; return 1 if files were refused or, with --check or --diff, outdated."""
+    """Generate every project; return 1 if edits prevent it or, with --check or --diff, if files are outdated."""
+    return for_each_project(args, _generate)
+
+
+def for_each_project(args: argparse.Namespace, generate: Callable[[LoadedProject, argparse.Namespace], int]) -> int:
+    """Run `generate` for every project and return the worst exit code."""
     from vicode.generators import GENERATORS
 
     unknown = sorted(set(args.language or ()) - set(GENERATORS))
     if unknown:
         print(f"vicode: unknown language {unknown[0]}; choose from {', '.join(GENERATORS)}", file=sys.stderr)
         return 2
-    return max(_generate_or_report(opened, args) for opened in load_projects(args.paths))
+    return max(_run_or_report(opened, args, generate) for opened in load_projects(args.paths))
 
 
-def _generate_or_report(opened: LoadedProject, args: argparse.Namespace) -> int:
-    """Generate one project; an OSError is reported so that the other projects are still generated."""
+def _run_or_report(
+    opened: LoadedProject, args: argparse.Namespace, generate: Callable[[LoadedProject, argparse.Namespace], int]
+) -> int:
+    """Handle one project; an OSError is reported so that the other projects are still handled."""
     try:
-        return _generate(opened, args)
+        return generate(opened, args)
     except BrokenPipeError:
         raise
     except OSError as error:
@@ -56,42 +77,54 @@ def _generate_or_report(opened: LoadedProject, args: argparse.Namespace) -> int:
 
 
 def _generate(opened: LoadedProject, args: argparse.Namespace) -> int:
+    from vicode.sync import plan_generation
+
+    has_errors = print_errors(opened)
+    plan = plan_generation(generation_input(opened, args), adopt=args.adopt, take=args.take)
+    if args.diff:
+        print("".join(format_diff(difference) for difference in plan.differences), end="")
+    if args.check:
+        print_findings(_outdated_findings(plan))
+    if args.diff or args.check:
+        return int(bool(plan.differences) or has_errors)
+    return int(not write_plan(opened, plan, is_forced=args.force) or has_errors)
+
+
+def print_errors(opened: LoadedProject) -> bool:
+    """Print the errors of a project; return whether there are any."""
     errors = [finding for finding in opened.findings if finding.severity is Severity.ERROR]
     print_findings(errors, to_stderr=True)
-    folder = _folder(opened, args.out)
-    differences = _differences(opened, folder, args)
-    if args.diff:
-        print("".join(format_diff(difference) for difference in differences), end="")
-    if args.check:
-        print_findings(_outdated_findings(differences, folder))
-    if args.diff or args.check:
-        return int(bool(differences or errors))
-    refused = _write(differences, folder, is_forced=args.force)
-    return int(bool(refused or errors))
+    return bool(errors)
 
 
-def _folder(opened: LoadedProject, out: str | None) -> Path:
+def generation_input(opened: LoadedProject, args: argparse.Namespace) -> "GenerationInput":
+    """What the options ask to generate."""
+    from vicode.generators import list_outputs
+    from vicode.sync import GeneratedHistory, GenerationInput
+
+    folder = output_folder(opened, args.out)
+    project = opened.open_project.project
+    return GenerationInput(
+        project=project,
+        folder=folder,
+        generate=lambda changed: _files(opened, changed, args),
+        kept_paths=list_outputs(project, languages=args.language, standalone=args.standalone),
+        # The component name of an unreadable design is unknown, so no file is certainly stale.
+        may_delete=not opened.open_project.broken_files,
+        history=GeneratedHistory(folder=folder, project_folder=opened.open_project.folder, standalone=args.standalone),
+    )
+
+
+def output_folder(opened: LoadedProject, out: str | None = None) -> Path:
     folder = Path(out) if out else opened.open_project.folder / opened.open_project.project.generated
     # Shorten paths such as `designs/forward/../../generated`.
     return Path(os.path.relpath(folder)) if not folder.is_absolute() else folder
 
 
-def _differences(opened: LoadedProject, folder: Path, args: argparse.Namespace) -> tuple[FileDiff, ...]:
-    from vicode.generators import list_outputs
-
-    files = _files(opened, args)
-    keep = list_outputs(opened.open_project.project, languages=args.language, standalone=args.standalone)
-    compared = compare_files(files, folder, kept_paths=keep, is_generated=has_header)
-    # The component name of an unreadable design is unknown, so no file is certainly stale.
-    spared = {FileStatus.UNCHANGED, FileStatus.STALE} if opened.open_project.broken_files else {FileStatus.UNCHANGED}
-    return tuple(difference for difference in compared if difference.status not in spared)
-
-
-def _files(opened: LoadedProject, args: argparse.Namespace) -> "list[OutputFile]":
+def _files(opened: LoadedProject, project: "Project", args: argparse.Namespace) -> "list[OutputFile]":
     """The files of all designs without errors, for each language."""
     from vicode.generators import GENERATORS, generate
 
-    project = opened.open_project.project
     files: list[OutputFile] = []
     for language in GENERATORS:
         faulty = opened.components_with_errors(language)
@@ -108,39 +141,57 @@ def _files(opened: LoadedProject, args: argparse.Namespace) -> "list[OutputFile]
     return files
 
 
-def _write(differences: tuple[FileDiff, ...], folder: Path, *, is_forced: bool) -> int:
-    """Write all files except those edited by hand, or all if forced; return the number of refused files."""
-    from vicode.sync import find_hand_edits_by_file
+def write_plan(opened: LoadedProject, plan: "GenerationPlan", *, is_forced: bool = False) -> bool:
+    """Save the designs of a plan and write its files, all or none; return whether they were written."""
+    from vicode.sync import back_up, write_generated
 
-    edits = find_hand_edits_by_file(differences, display_folder=folder.as_posix())
     if is_forced:
-        for path in edits:
-            print(f"backed up {back_up_edited(folder / path).as_posix()}")
-        edits = {}
-    print_findings((finding for findings in edits.values() for finding in findings), to_stderr=True)
-    allowed = [difference for difference in differences if difference.path not in edits]
-    for difference in allowed:
-        _require_no_file_in_path(folder / difference.path)
-        apply_diffs([difference], folder)
+        for copy in back_up(plan):
+            print(f"backed up {copy.as_posix()}")
+    elif plan.findings:
+        from vicode.store import locate_findings
+
+        print_findings(locate_findings(plan.findings, opened.open_project), to_stderr=True)
+        print("".join(_conflict_diffs(plan)), end="", file=sys.stderr)
+        return False
+    _save_designs(opened, plan)
+    write_generated(plan)
+    for difference in plan.differences:
         verb = "deleted" if difference.status is FileStatus.STALE else "wrote"
-        print(f"{verb} {(folder / difference.path).as_posix()}")
-    return len(edits)
+        print(f"{verb} {(plan.folder / difference.path).as_posix()}")
+    return True
 
 
-def _require_no_file_in_path(path: Path) -> None:
-    """Raise an error that names the file in place of a folder; the error of the system names another path."""
-    for parent in path.parents:
-        if parent.exists() and not parent.is_dir():
-            raise NotADirectoryError(errno.ENOTDIR, "expected a folder, found a file", parent.as_posix())
+def _conflict_diffs(plan: "GenerationPlan") -> Iterator[str]:
+    """Both sides of each conflict, as differences of the file from the design."""
+    for file in plan.edits:
+        for region in file.regions:
+            if region.is_conflict:
+                design, found = (f"{text}\n".splitlines(True) for text in (region.design_text, region.file_text))
+                yield from unified_diff(design, found, f"design: {region.id}", f"file: {region.id}")
 
 
-def _outdated_findings(differences: tuple[FileDiff, ...], folder: Path) -> Iterator[Finding]:
+def _save_designs(opened: LoadedProject, plan: "GenerationPlan") -> None:
+    from vicode.store import replace_text, save_design
+
+    project = opened.open_project
+    texts = {name: save_design(design, project.texts[name]) for name, design in plan.designs.items()}
+    for name, text in texts.items():
+        replace_text(project.files[name], project.texts[name], text)
+        for edit in plan.adopted:
+            if edit.file.component == name:
+                place = f"{(plan.folder / edit.file.path).as_posix()}:{edit.region.line}"
+                verb = "merged" if edit.region.is_merged else "adopted"
+                print(f"{verb} {edit.region.id} from {place} into {project.files[name].as_posix()}")
+
+
+def _outdated_findings(plan: "GenerationPlan") -> Iterator[Finding]:
     """Findings for outdated files; edited files yield their edits, because generating refuses them."""
-    from vicode.sync import find_hand_edits_by_file
-
-    edits = find_hand_edits_by_file(differences, display_folder=folder.as_posix())
-    for difference in differences:
-        yield from edits.get(difference.path) or (_outdated_finding(difference, folder),)
+    edited = {file.path for file in plan.edits}
+    yield from plan.findings
+    for difference in plan.differences:
+        if difference.path not in edited:
+            yield _outdated_finding(difference, plan.folder)
 
 
 def _outdated_finding(difference: FileDiff, folder: Path) -> Finding:

@@ -7,12 +7,14 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
 from vicode.cli.console import print_findings
 from vicode.cli.project_loader import LoadedProject, load_projects
+from vicode.findings import Finding
 
 if TYPE_CHECKING:
     from vicode.cli.trace_output import TracePrinter
@@ -69,6 +71,10 @@ def run(args: argparse.Namespace) -> int:
         print(f"vicode: {args.path} has several components; specify the design to run", file=sys.stderr)
         return 2
     print_findings((each for each in opened.findings if each.rule.code in _UNPROVIDED), to_stderr=True)
+    edits = _find_edits(opened, component)
+    if edits:
+        print_findings(edits, to_stderr=True)
+        return 1
     with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
         class_path = _generate(opened, component, Path(folder))
         if args.trace != "-":
@@ -105,6 +111,29 @@ def _generate(opened: LoadedProject, component: str, folder: Path) -> str:
     files = generate(project, components=[component], languages=["python"], sources=opened.design_paths)
     apply_diffs(compare_files(files, folder), folder)
     return python_class_path(project, component)
+
+
+def _find_edits(opened: LoadedProject, component: str) -> tuple[Finding, ...]:
+    """Edits of generated code that the designs lack: the run would not contain them."""
+    from vicode.cli.gen import output_folder
+    from vicode.generators import generate
+    from vicode.sync import GeneratedHistory, GenerationInput, describe_edits, plan_generation
+
+    folder = output_folder(opened)
+    if not folder.is_dir():
+        return ()
+    job = GenerationInput(
+        project=opened.open_project.project,
+        folder=folder,
+        generate=lambda project: generate(
+            project, components=[component], languages=["python"], sources=opened.design_paths
+        ),
+        may_delete=False,
+        history=GeneratedHistory(folder=folder, project_folder=opened.open_project.folder),
+    )
+    edits = plan_generation(job).edits
+    certain = (replace(file, is_edited_outside=file.is_edited_outside and file.is_origin_known) for file in edits)
+    return tuple(describe_edits(certain, folder.as_posix()))
 
 
 def _command(opened: LoadedProject, class_path: str, folder: str, args: argparse.Namespace) -> list[str]:

@@ -103,9 +103,10 @@ _RECORDS = (
     ("L703", "bad-xabsl-name", Severity.ERROR, "name invalid or not unique in XABSL"),
     ("L704", "code-is-not-xabsl", Severity.ERROR, "invalid XABSL code"),
     # Generated files
-    ("G501", "edited-outside", Severity.ERROR, "generated code that was edited by hand"),
+    ("G501", "edited-generated", Severity.ERROR, "an edit in a generated file that the design lacks"),
     ("G502", "stale-output", Severity.ERROR, "generated file that is out of date"),
     ("G503", "broken-marks", Severity.ERROR, "region marks that do not match"),
+    ("G504", "region-conflict", Severity.ERROR, "code that was edited in a generated file and in the design"),
     # XABSL syntax and files
     ("X601", "illegal-character", Severity.ERROR, "illegal character or unterminated text"),
     ("X602", "open-comment", Severity.ERROR, "unterminated comment"),

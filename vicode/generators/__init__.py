@@ -1,11 +1,13 @@
 """Code generation: a pure function from a project to output files."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 
-from vicode.generators.origins import ComponentCode, Origin, map_to_full_design
+from vicode.findings import DesignPath
+from vicode.generators.origins import ComponentCode, Origin, map_paths_to_full_design, map_to_full_design
 from vicode.generators.plan import (
+    CodePlan,
     ComponentPlan,
     ProjectPlan,
     UnsoundDesignError,
@@ -23,6 +25,7 @@ from vicode.generators.python import (
     generate_python,
     list_paths,
 )
+from vicode.generators.python import list_regions as list_python_regions
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import OutputFile
@@ -37,6 +40,7 @@ __all__ = [
     "generate",
     "list_origins",
     "list_outputs",
+    "list_regions",
     "python_class_path",
     "python_probes",
 ]
@@ -52,6 +56,7 @@ class Generator:
         reserved_modules: Names that no generated module may have.
         component_writer: Returns a function that writes the file of one component.
         find_origins: Maps lines of a component's text to elements of its design.
+        list_regions: Returns the code that a component's text contains as regions.
     """
 
     write: Callable[..., tuple[OutputFile, ...]]
@@ -59,6 +64,7 @@ class Generator:
     reserved_modules: frozenset[str]
     component_writer: Callable[[ProjectPlan], Callable[[ComponentPlan], ComponentCode]]
     find_origins: Callable[[ComponentPlan, str], tuple[Origin, ...]]
+    list_regions: Callable[[ComponentPlan], Iterable[CodePlan]]
 
 
 def _python_generator() -> Generator:
@@ -68,6 +74,7 @@ def _python_generator() -> Generator:
         reserved_modules=RESERVED_MODULES,
         component_writer=component_writer,
         find_origins=find_origins,
+        list_regions=list_python_regions,
     )
 
 
@@ -81,6 +88,8 @@ def _xabsl_generator() -> Generator:
         reserved_modules=xabsl.RESERVED_MODULES,
         component_writer=xabsl.component_writer,
         find_origins=xabsl.find_origins,
+        # The code is printed as statements of the option.
+        list_regions=lambda _component: (),
     )
 
 
@@ -152,6 +161,21 @@ def list_origins(project: Project, component: str, language: str, text: str) -> 
         return ()
     (plan,) = plan_project(project, {component}, {}, generator.reserved_modules).components
     return map_to_full_design(design, generator.find_origins(plan, text))
+
+
+def list_regions(project: Project, component: str, language: str) -> dict[str, DesignPath]:
+    """List the regions of a component's generated text with the paths of their code in its design.
+
+    Raises:
+        UnsoundDesignError: The design has errors.
+    """
+    design, generator = project.design(component), GENERATORS[language]()
+    if design is None:
+        return {}
+    (plan,) = plan_project(project, {component}, {}, generator.reserved_modules).components
+    regions = tuple(generator.list_regions(plan))
+    paths = map_paths_to_full_design(design, (code.path for code in regions))
+    return dict(zip((code.region_id for code in regions), paths, strict=True))
 
 
 def list_outputs(

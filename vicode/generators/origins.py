@@ -29,11 +29,18 @@ class ComponentCode:
 
 def map_to_full_design(design: Design, origins: Iterable[Origin]) -> tuple[Origin, ...]:
     """Convert origins from paths in the design without disabled elements to paths in the full design."""
+    origins = tuple(origins)
+    paths = map_paths_to_full_design(design, (origin.path for origin in origins))
+    return tuple(replace(origin, path=path) for origin, path in zip(origins, paths, strict=True))
+
+
+def map_paths_to_full_design(design: Design, paths: Iterable[DesignPath]) -> tuple[DesignPath, ...]:
+    """Convert paths in the design without disabled elements to paths in the full design."""
     off = disabled_states(design)
     full = (located.path for located in iter_decisions(design) if is_enabled(located, off))
     enabled = (located.path for located in iter_decisions(strip_disabled(design)))
-    paths = dict(zip(enabled, full, strict=True))
-    return tuple(replace(origin, path=_full_path(paths, origin.path)) for origin in origins)
+    by_path = dict(zip(enabled, full, strict=True))
+    return tuple(_full_path(by_path, path) for path in paths)
 
 
 def _full_path(paths: dict[DesignPath, DesignPath], path: DesignPath) -> DesignPath:

@@ -37,9 +37,8 @@ def confirm_writing(prepared: PendingOutput, component: str, write: Callable[[bo
     changes = tuple(
         sorted(prepared.changes, key=lambda each: _normalize_name(Path(each.path).stem) != _normalize_name(component))
     )
-    unchanged = len(prepared.differences) - len(changes)
     with titled_dialog("Write the generated code?", "generate-dialog") as dialog:
-        ui.label(files_to_write(len(changes), prepared.folder.name, unchanged)).classes("small")
+        ui.label(files_to_write(len(changes), prepared.folder.name, prepared.unchanged)).classes("small")
         with ui.element("div").classes("generate-files"):
             _files(prepared, changes)
         if prepared.skipped:

@@ -8,9 +8,16 @@ from vicode.check import check_project
 from vicode.editor.session import texts
 from vicode.findings import Finding, Severity
 from vicode.model.project import Project
-from vicode.output import FileDiff, FileStatus, apply_diffs, back_up_edited, compare_files
-from vicode.regions import has_header
-from vicode.sync import find_hand_edits_by_file
+from vicode.output import FileDiff
+from vicode.sync import (
+    GeneratedHistory,
+    GenerationInput,
+    GenerationPlan,
+    back_up,
+    describe_edits,
+    plan_generation,
+    write_generated,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,7 +30,7 @@ class GenerationResult:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GenerationInput:
+class GenerationRequest:
     """A project with its source files and parse findings, both by component."""
 
     project: Project
@@ -35,23 +42,33 @@ class GenerationInput:
 class PendingOutput:
     """The files that Generate would write to a folder.
 
-    `error` is why nothing can be generated; `skipped` why some languages are left out; `manual_edits` the hand edits in
+    `error` is why nothing can be generated; `skipped` why some languages are left out; `manual_edits` are the edits in
     the files on disk, by path.
     """
 
     folder: Path
     error: str = ""
     skipped: str = ""
-    differences: tuple[FileDiff, ...] = ()
-    manual_edits: Mapping[str, tuple[Finding, ...]]
+    plan: GenerationPlan | None = None
 
     @property
     def changes(self) -> tuple[FileDiff, ...]:
         """The files that differ from those on disk."""
-        return tuple(diff for diff in self.differences if diff.status is not FileStatus.UNCHANGED)
+        return self.plan.differences if self.plan else ()
+
+    @property
+    def unchanged(self) -> int:
+        """The number of files that are up to date."""
+        changed = {diff.path for diff in self.changes}
+        return sum(file.path not in changed for file in self.plan.files) if self.plan else 0
+
+    @property
+    def manual_edits(self) -> Mapping[str, tuple[Finding, ...]]:
+        edits = self.plan.edits if self.plan else ()
+        return {file.path: tuple(describe_edits([file])) for file in edits}
 
 
-def prepare_output(folder: Path, job: GenerationInput, component: str) -> PendingOutput:
+def prepare_output(folder: Path, job: GenerationRequest, component: str) -> PendingOutput:
     """Generate a component and all it uses without writing.
 
     Raises:
@@ -68,16 +85,21 @@ def prepare_output(folder: Path, job: GenerationInput, component: str) -> Pendin
     sound = [language for language in languages if not any(error.applies_to(language) for error in errors)]
     reason = _reason(errors, component) if errors else ""
     if errors and not sound:
-        return PendingOutput(folder=folder, error=texts.nothing_generated(reason), manual_edits={})
-    files = generate(project, components=(component,), languages=sound, sources=job.source_paths)
-    differences = compare_files(files, folder, kept_paths=list_outputs(project), is_generated=has_header)
-    skipped = [language for language in languages if language not in sound]
-    return PendingOutput(
-        folder=folder,
-        skipped=texts.nothing_generated(reason, skipped) if skipped else "",
-        differences=differences,
-        manual_edits=find_hand_edits_by_file(differences),
+        return PendingOutput(folder=folder, error=texts.nothing_generated(reason))
+    plan = plan_generation(
+        GenerationInput(
+            project=project,
+            folder=folder,
+            generate=lambda project: generate(
+                project, components=(component,), languages=sound, sources=job.source_paths
+            ),
+            kept_paths=list_outputs(project),
+            history=GeneratedHistory(folder=folder),
+        )
     )
+    skipped = [language for language in languages if language not in sound]
+    reason = texts.nothing_generated(reason, skipped) if skipped else ""
+    return PendingOutput(folder=folder, skipped=reason, plan=plan)
 
 
 def _reason(errors: Sequence[Finding], component: str) -> str:
@@ -93,15 +115,15 @@ def write_output(prepared: PendingOutput, *, is_forced: bool = False) -> Generat
     Raises:
         OSError: A file cannot be written.
     """
-    if prepared.error:
+    if prepared.error or prepared.plan is None:
         return GenerationResult(message=prepared.error, is_complete=False)
     if prepared.manual_edits and not is_forced:
         first = next(iter(prepared.manual_edits.values()))[0]
         message = texts.nothing_generated(f"{first.message}: {first.fix}")
         return GenerationResult(message=message, is_complete=False)
-    for path in prepared.manual_edits:
-        back_up_edited(prepared.folder / path)
-    files = apply_diffs(prepared.differences, prepared.folder)
+    back_up(prepared.plan)
+    write_generated(prepared.plan)
+    files = tuple(prepared.folder / change.path for change in prepared.changes)
     message = texts.up_to_date(prepared.folder.name)
     if files:
         message = texts.generated([path.name for path in files], files[0].parent)

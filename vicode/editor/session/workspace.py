@@ -8,7 +8,7 @@ from pathlib import Path
 
 from vicode.check import check_design, check_project
 from vicode.editor.session import code_generation, texts
-from vicode.editor.session.code_generation import GenerationInput, GenerationResult, PendingOutput
+from vicode.editor.session.code_generation import GenerationRequest, GenerationResult, PendingOutput
 from vicode.editor.session.document import DiskVersion, DocumentSession, FileTransaction, SharedDocument
 from vicode.editor.session.presence import DISK_USER, UserDirectory
 from vicode.findings import DesignPath, Finding
@@ -276,7 +276,7 @@ class Workspace:
             **self._parse_findings,
             **{name: document.shared.parse_findings for name, document in self._documents.items()},
         }
-        job = GenerationInput(
+        job = GenerationRequest(
             project=replace(self.project, designs=designs), source_paths=self.source_paths, parse_findings=findings
         )
         return code_generation.prepare_output(self.output_folder, job, document.design.component)

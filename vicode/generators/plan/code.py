@@ -1,5 +1,6 @@
 """Assign region ids and function names to hand-written code; elements with an id keep both when they are renamed."""
 
+from vicode.findings import DesignPath
 from vicode.generators.plan.names import NameAllocator, identifier_stem
 from vicode.generators.plan.plan_types import CodePlan
 from vicode.model.design import COMMON, Code, Design, State
@@ -15,9 +16,11 @@ class CodePlanner:
 
     def plan_section(self, role: str, code: Code) -> CodePlan | None:
         """Plan the code of the module or the class body; None if it is empty."""
-        return CodePlan(region_id=self._regions.allocate(role, "."), stem=role, code=code) if code.texts else None
+        if not code.texts:
+            return None
+        return CodePlan(path=(role,), region_id=self._regions.allocate(role, "."), stem=role, code=code)
 
-    def plan_action(self, source: str, phase: str, code: Code, given_id: str) -> CodePlan:
+    def plan_action(self, path: DesignPath, source: str, phase: str, code: Code, *, given_id: str) -> CodePlan:
         region = given_id or f"{self._owner(source)}.{phase}"
         default = (
             identifier_stem(_source_name(source))
@@ -25,9 +28,16 @@ class CodePlanner:
             else f"{identifier_stem(_source_name(source))}_{phase}"
         )
         stem = identifier_stem(given_id) if given_id else default
-        return CodePlan(region_id=self._regions.allocate(region, "."), stem=self._actions.allocate(stem), code=code)
+        return CodePlan(
+            path=(*path, "code"),
+            region_id=self._regions.allocate(region, "."),
+            stem=self._actions.allocate(stem),
+            code=code,
+        )
 
-    def plan_guard(self, source: str, outcome: str, code: Code, *, given_id: str, doc: str) -> CodePlan:
+    def plan_guard(
+        self, path: DesignPath, source: str, outcome: str, code: Code, *, given_id: str, doc: str
+    ) -> CodePlan:
         """Plan the code of a guard; `outcome` is a state name, "stay" or "group"."""
         region = given_id or f"{self._owner(source)}.to.{self._owner(outcome)}"
         stem = (
@@ -36,7 +46,11 @@ class CodePlanner:
             else f"{identifier_stem(_source_name(source))}_to_{identifier_stem(outcome)}"
         )
         return CodePlan(
-            region_id=self._regions.allocate(region, "."), stem=self._predicates.allocate(stem), code=code, doc=doc
+            path=(*path, "code"),
+            region_id=self._regions.allocate(region, "."),
+            stem=self._predicates.allocate(stem),
+            code=code,
+            doc=doc,
         )
 
     def _owner(self, name: str) -> str:

@@ -190,9 +190,14 @@ class _ComponentPlanner:
         return tuple(dict.fromkeys(alias for alias in called if components.get(alias) in designs))
 
     def plan_steps(self, actions: tuple[Action, ...], source: str, phase: str) -> tuple[ActionStep, ...]:
-        return tuple(step for action in actions for step in self._plan_action(action, source, phase))
+        owner: DesignPath = ("common",) if source == COMMON else ("states", source)
+        return tuple(
+            step
+            for index, action in enumerate(actions)
+            for step in self._plan_action(action, (*owner, phase, index), source, phase)
+        )
 
-    def _plan_action(self, action: Action, source: str, phase: str) -> tuple[ActionStep, ...]:
+    def _plan_action(self, action: Action, path: DesignPath, source: str, phase: str) -> tuple[ActionStep, ...]:
         match action:
             case Assign(values=values):
                 return tuple(self._plan_set(name, text) for name, text in values)
@@ -200,7 +205,7 @@ class _ComponentPlanner:
                 pairs = tuple((name, self._argument(alias, name, text)) for name, text in arguments)
                 return (CallStep(alias=alias, arguments=pairs, defaults=self._defaults(alias, dict(pairs))),)
             case RunCode(code=code, id=given_id):
-                return (CodeStep(code=self.code.plan_action(source, phase, code, given_id)),)
+                return (CodeStep(code=self.code.plan_action(path, source, phase, code, given_id=given_id)),)
 
     def _plan_set(self, name: str, text: str) -> AssignStep:
         declaration = self.scope.find_assignable(name)
@@ -241,7 +246,7 @@ class _ComponentPlanner:
         return tuple(planned)
 
     def _plan_decision(self, decision: Decision, source: str, path: DesignPath) -> DecisionPlan:
-        conditions = self._plan_conditions(decision, source)
+        conditions = self._plan_conditions(decision, source, path)
         match decision:
             case DecisionGroup(then=then, otherwise=otherwise):
                 outcome: StateChange | NoChange | Branch = Branch(
@@ -255,7 +260,7 @@ class _ComponentPlanner:
                 outcome = NoChange()
         return DecisionPlan(conditions=conditions, outcome=outcome, doc=decision.doc, id=decision.id, path=path)
 
-    def _plan_conditions(self, decision: Decision, source: str) -> tuple[Condition, ...]:
+    def _plan_conditions(self, decision: Decision, source: str, path: DesignPath) -> tuple[Condition, ...]:
         guard = decision.guard
         conditions: list[Condition] = []
         if guard.after:
@@ -265,7 +270,7 @@ class _ComponentPlanner:
             conditions.append(ExpressionCondition(expression=typed_tree(guard.when, self.scope, BOOL)))
         if guard.code is not None:
             outcome = _outcome_name(decision)
-            body = self.code.plan_guard(source, outcome, guard.code, given_id=decision.id, doc=decision.doc)
+            body = self.code.plan_guard(path, source, outcome, guard.code, given_id=decision.id, doc=decision.doc)
             conditions.append(CodeCondition(code=body))
         return tuple(conditions)
 

@@ -74,8 +74,9 @@ class InterfacePlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodePlan:
-    """Hand-written code with its region id, the stem of its function name and its description."""
+    """Hand-written code with its path, its region id, the stem of its function name and its description."""
 
+    path: DesignPath
     region_id: str
     stem: str
     code: Code

@@ -1,14 +1,15 @@
 """Python generator: one module per component and one method per state, on the BICA runtime."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import vicode.bica
 from vicode.generators.origins import ComponentCode
-from vicode.generators.plan import INTERFACES_MODULE, ComponentPlan, PackagePlan, ProjectPlan
+from vicode.generators.plan import INTERFACES_MODULE, CodePlan, ComponentPlan, PackagePlan, ProjectPlan
 from vicode.generators.python.component import ComponentWriter
 from vicode.generators.python.declarations import build_declarations_view
 from vicode.generators.python.interfaces import build_interfaces_view
+from vicode.generators.python.methods import method_code
 from vicode.generators.python.names import RESERVED_MODULES, assign_global_names, component_class_name
 from vicode.generators.python.origins import find_origins
 from vicode.generators.python.probes import PROBES_MODULE, generate_probes
@@ -26,6 +27,7 @@ __all__ = [
     "generate_probes",
     "generate_python",
     "list_paths",
+    "list_regions",
 ]
 
 LANGUAGE = "python"
@@ -65,6 +67,13 @@ def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCo
     return write
 
 
+def list_regions(component: ComponentPlan) -> Iterator[CodePlan]:
+    """Yield the code that is generated as regions."""
+    sections = (component.module_code, component.members)
+    yield from (code for code in sections if code is not None)
+    yield from method_code(component)
+
+
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:
     """List every path that `generate_python` may return."""
     folder = f"{LANGUAGE}/{package.name}"
@@ -85,7 +94,8 @@ def _module(writer: ComponentWriter) -> OutputFile:
     component = writer.component
     text = render("python/component.py.jinja", view=writer.build_view())
     path = f"{LANGUAGE}/{writer.project.package.name}/{component.module}.py"
-    return OutputFile(path=path, text=add_header(text, component.source or f"the design of {component.component}"))
+    text = add_header(text, component.source or f"the design of {component.component}")
+    return OutputFile(path=path, text=text, component=component.component)
 
 
 def _copy_runtime(folder: str) -> tuple[OutputFile, ...]:

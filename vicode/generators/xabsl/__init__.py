@@ -111,8 +111,8 @@ class _OutputPaths:
 
 
 def _option_file(component: ComponentPlan, option: GeneratedOption, paths: _OutputPaths) -> OutputFile:
-    text = print_option(option.option, option.comments)
-    return OutputFile(path=paths.options[component.component], text=add_header(text, _source_of(component), "//"))
+    text = add_header(print_option(option.option, option.comments), _source_of(component), "//")
+    return OutputFile(path=paths.options[component.component], text=text, component=component.component)
 
 
 def _source_of(component: ComponentPlan) -> str:

@@ -1,5 +1,6 @@
 """Three-way merges of texts: by lines for versions of a file, by characters for concurrent typing."""
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
@@ -12,6 +13,11 @@ class _Chunk:
     base: Sequence[str]
     ours: Sequence[str]
     theirs: Sequence[str]
+
+    @property
+    def contains_ours(self) -> bool:
+        base, ours, theirs = Counter(self.base), Counter(self.ours), Counter(self.theirs)
+        return ours - base <= theirs and not (base - ours) & (theirs - ours)
 
     def resolve(self) -> Sequence[str] | None:
         """Return the merged part, None if both sides changed it differently."""
@@ -29,6 +35,11 @@ def merge_lines(base: str, ours: str, theirs: str) -> str | None:
             return None
         merged += lines
     return "\n".join(merged)
+
+
+def contains_edits(base: str, ours: str, theirs: str) -> bool:
+    """Whether `theirs` contains all edits of `ours`, and perhaps more."""
+    return all(chunk.contains_ours for chunk in _diff3_chunks(base.split("\n"), ours.split("\n"), theirs.split("\n")))
 
 
 def merge_characters(base: str, ours: str, theirs: str) -> str:

@@ -1,0 +1,143 @@
+"""vicode sync: edits of generated code reach the design, and nothing is lost on the way."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.cli.command_runner import LAMP, lamps, vicode
+
+__all__ = ["lamps"]
+
+FILE = Path("lamps/generated/python/lamps/lamp.py")
+DESIGN = Path("lamps/lamp.yaml")
+
+
+def edit(file: Path, old: str, new: str) -> None:
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new))
+
+
+@pytest.fixture
+def generated(lamps: Path, capsys: pytest.CaptureFixture[str]) -> Path:
+    assert vicode("gen", "lamps") == 0
+    capsys.readouterr()
+    return lamps
+
+
+@pytest.mark.parametrize("command", [["sync"], ["gen", "--adopt"]])
+def test_an_edited_region_goes_into_the_design(
+    generated: Path, capsys: pytest.CaptureFixture[str], command: list[str]
+) -> None:
+    edit(FILE, "self.count = 1", "self.count = 2  # two\n        self.total = 0")
+    assert vicode(*command, "lamps") == 0
+    assert capsys.readouterr().out.startswith(f"adopted Dark.enter from {FILE}:")
+    assert DESIGN.read_text() == LAMP.replace("self.count = 1", "self.count = 2  # two\n      self.total = 0")
+    assert "self.total = 0" in FILE.read_text()
+    assert vicode("gen", "--check", "lamps") == 0
+    assert vicode(*command, "lamps") == 0
+    assert capsys.readouterr().out == ""
+
+
+def test_check_reports_edits_and_writes_nothing(generated: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert vicode("sync", "--check", "lamps") == 0
+    edit(FILE, "self.count = 1", "self.count = 2")
+    assert vicode("sync", "--check", "lamps") == 1
+    assert "region 'Dark.enter' was edited here" in capsys.readouterr().out
+    assert DESIGN.read_text() == LAMP
+
+
+def test_edits_of_different_lines_are_merged(generated: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    edit(DESIGN, "self.count = 1", "self.count = 1\n      pass\n      self.b = 1")
+    vicode("gen", "lamps")
+    edit(FILE, "self.count = 1", "self.count = 2")
+    edit(DESIGN, "self.b = 1", "self.b = 3")
+    capsys.readouterr()
+    assert vicode("sync", "lamps") == 0
+    assert "merged Dark.enter" in capsys.readouterr().out
+    assert "self.count = 2\n      pass\n      self.b = 3\n" in DESIGN.read_text()
+
+
+@pytest.mark.parametrize(("side", "kept", "lost"), [("file", 2, 3), ("design", 3, 2)])
+def test_a_conflict_waits_for_a_choice(
+    generated: Path, capsys: pytest.CaptureFixture[str], side: str, kept: int, lost: int
+) -> None:
+    edit(FILE, "self.count = 1", "self.count = 2")
+    edit(DESIGN, "self.count = 1", "self.count = 3")
+    before = (FILE.read_text(), DESIGN.read_text())
+    assert vicode("sync", "lamps") == 1
+    err = capsys.readouterr().err
+    assert f"{FILE}:" in err
+    assert "error G504" in err
+    assert "lamps/lamp.yaml:7:12: note: the design" in err
+    assert "-self.count = 3\n+self.count = 2\n" in err
+    assert (FILE.read_text(), DESIGN.read_text()) == before
+    assert vicode("sync", "lamps", "--take", side) == 0
+    for file in (FILE, DESIGN):
+        assert f"self.count = {kept}" in file.read_text()
+        assert f"self.count = {lost}" not in file.read_text()
+
+
+def test_an_edit_with_an_error_stays_in_the_file(generated: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    edit(FILE, "self.count = 1", "self.count = 1\n        self.b = = 2")
+    text = FILE.read_text()
+    line = text[: text.index("= = 2")].count("\n") + 1
+    assert vicode("sync", "lamps") == 1
+    assert f"{FILE}:{line}:18: error D412" in capsys.readouterr().err
+    assert (FILE.read_text(), DESIGN.read_text()) == (text, LAMP)
+
+
+def test_nothing_is_written_while_one_file_has_an_edit(generated: Path) -> None:
+    edit(FILE, "self.count = 1", "self.count = 2")
+    edit(Path("lamps/bulb.yaml"), "On", "Shining")
+    before = {path: path.read_text() for path in FILE.parent.iterdir()}
+    assert vicode("gen", "lamps") == 1
+    assert {path: path.read_text() for path in FILE.parent.iterdir()} == before
+
+
+def test_a_run_needs_the_edits_in_the_design(generated: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    edit(FILE, "self.count = 1", "self.count = 2")
+    assert vicode("run", "lamps/lamp.yaml", "--ticks", "2", "--plain") == 1
+    assert "'vicode sync'" in capsys.readouterr().err
+    assert vicode("sync", "lamps") == 0
+    assert vicode("run", "lamps/lamp.yaml", "--ticks", "2", "--plain") == 0
+
+
+def git(*arguments: str) -> None:
+    identity = ["-c", "user.name=a", "-c", "user.email=a@example.org"]
+    subprocess.run(["git", *identity, *arguments], check=True, capture_output=True)
+
+
+def test_a_fresh_clone_finds_what_was_generated_in_git(generated: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    git("init", "-q")
+    git("add", ".")
+    git("commit", "-qm", "first")
+    shutil.rmtree("lamps/generated/.vicode")
+    edit(DESIGN, "after: 0.2", "after: 0.3")
+    assert vicode("gen", "lamps") == 0
+    shutil.rmtree("lamps/generated/.vicode")
+    edit(FILE, "300_000_000", "400_000_000")
+    edit(DESIGN, "after: 0.3", "after: 0.1")
+    capsys.readouterr()
+    assert vicode("gen", "lamps") == 1
+    assert "edited outside its regions" in capsys.readouterr().err
+
+
+def test_generated_code_of_two_branches_merges(generated: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    git("init", "-q", "-b", "main")
+    git("add", ".")
+    git("commit", "-qm", "first")
+    git("checkout", "-qb", "other")
+    edit(DESIGN, "after: 0.2", "after: 0.3")
+    vicode("gen", "lamps")
+    git("commit", "-qam", "timer")
+    git("checkout", "-q", "main")
+    edit(DESIGN, "self.count = 1", "self.count = 5")
+    vicode("gen", "lamps")
+    git("commit", "-qam", "count")
+    git("merge", "-q", "other")
+    assert vicode("gen", "--check", "lamps") == 0
+    edit(DESIGN, "after: 0.3", "after: 0.4")
+    assert vicode("gen", "lamps") == 0

@@ -1,0 +1,125 @@
+"""Several files are replaced together, whatever interrupts it."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from vicode import transactions
+from vicode.transactions import complete_interrupted, replace_files
+
+
+def read(folder: Path) -> dict[str, str]:
+    files = (path for path in folder.rglob("*") if path.is_file() and ".vicode" not in path.parts)
+    return {path.relative_to(folder).as_posix(): path.read_text() for path in files}
+
+
+def test_files_are_written_and_deleted(tmp_path: Path) -> None:
+    (tmp_path / "old.py").write_text("old")
+    replace_files(tmp_path, {"a/new.py": "1", "old.py": None, "never.py": None})
+    assert read(tmp_path) == {"a/new.py": "1"}
+    replace_files(tmp_path, {"a/new.py": "2"})
+    assert read(tmp_path) == {"a/new.py": "2"}
+    assert [path.name for path in (tmp_path / ".vicode").iterdir()] == [".gitignore"]
+
+
+def test_a_file_keeps_its_mode_and_its_link(tmp_path: Path) -> None:
+    target = tmp_path / "target.py"
+    target.write_text("old")
+    target.chmod(0o640)
+    (tmp_path / "link.py").symlink_to(target)
+    replace_files(tmp_path, {"link.py": "new"})
+    assert (tmp_path / "link.py").is_symlink()
+    assert (target.read_text(), target.stat().st_mode & 0o777) == ("new", 0o640)
+
+
+def test_one_obstacle_keeps_all_files(tmp_path: Path) -> None:
+    (tmp_path / "a.py").write_text("old")
+    (tmp_path / "b").write_text("a file in the way")
+    with pytest.raises(NotADirectoryError, match="found a file"):
+        replace_files(tmp_path, {"a.py": "new", "b/c.py": "new"})
+    assert read(tmp_path) == {"a.py": "old", "b": "a file in the way"}
+    replace_files(tmp_path, {"a.py": "newer"})
+    assert read(tmp_path)["a.py"] == "newer"
+
+
+def test_what_was_only_prepared_is_dropped(tmp_path: Path) -> None:
+    pending = tmp_path / ".vicode/pending"
+    pending.mkdir(parents=True)
+    (pending / "0").write_text("half a text")
+    complete_interrupted(tmp_path)
+    assert read(tmp_path) == {}
+    assert not pending.exists()
+
+
+@pytest.mark.parametrize("path", ["../outside.py", "/tmp/outside.py", "a/../../outside.py"])
+def test_a_journal_cannot_write_elsewhere(tmp_path: Path, path: str) -> None:
+    root = tmp_path / "root"
+    pending = root / ".vicode/pending"
+    pending.mkdir(parents=True)
+    (pending / "0").write_text("evil")
+    (pending / "journal.json").write_text(json.dumps({path: "0"}))
+    with pytest.raises(PermissionError, match="outside"):
+        complete_interrupted(root)
+    assert not (tmp_path / "outside.py").exists()
+
+
+@pytest.mark.parametrize("moves", range(4))
+def test_a_replacement_interrupted_after_the_journal_is_completed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, moves: int
+) -> None:
+    replace_files(tmp_path, {"a.py": "old", "b.py": "old", "c.py": "old"})
+    left = moves
+
+    def move(source: Path | None, target: Path) -> None:
+        nonlocal left
+        if not left:
+            raise KeyboardInterrupt
+        left -= 1
+        original(source, target)
+
+    original = transactions._move
+    monkeypatch.setattr(transactions, "_move", move)
+    texts = {"a.py": "new", "b.py": None, "c.py": "new"}
+    if moves < len(texts):
+        with pytest.raises(KeyboardInterrupt):
+            replace_files(tmp_path, texts)
+    else:
+        replace_files(tmp_path, texts)
+    monkeypatch.undo()
+    complete_interrupted(tmp_path)
+    assert read(tmp_path) == {"a.py": "new", "c.py": "new"}
+
+
+WRITER = """
+import sys
+from pathlib import Path
+from vicode.transactions import replace_files
+root = Path(sys.argv[1])
+print("ready", flush=True)
+number = 0
+while True:
+    number += 1
+    replace_files(root, {f"{name}.py": f"{number}" * 500 for name in "abcdefgh"})
+"""
+
+
+@pytest.mark.nightly
+def test_files_belong_together_after_kill_9(tmp_path: Path) -> None:
+    for attempt in range(200):
+        writer = subprocess.Popen(
+            [sys.executable, "-c", WRITER, str(tmp_path)], stdout=subprocess.PIPE, cwd=Path.cwd(), text=True
+        )
+        assert writer.stdout is not None
+        writer.stdout.readline()
+        time.sleep(0.002 * (attempt % 50))
+        writer.send_signal(signal.SIGKILL)
+        writer.wait()
+        writer.stdout.close()
+        complete_interrupted(tmp_path)
+        assert len(set(read(tmp_path).values())) <= 1
+        assert not (tmp_path / ".vicode/pending").exists()

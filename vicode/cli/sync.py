@@ -1,0 +1,34 @@
+"""Take edits of generated code over into the designs, then generate."""
+
+import argparse
+
+from vicode.cli.console import print_findings
+from vicode.cli.gen import add_output_arguments, for_each_project, generation_input, print_errors, write_plan
+from vicode.cli.project_loader import LoadedProject
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("paths", metavar="PATH", nargs="+", help="design file, project folder, or folder of projects")
+    parser.add_argument("--check", action="store_true", help="write nothing; report edits that the designs lack")
+    parser.add_argument("--watch", action="store_true", help="sync again after each change, until interrupted")
+    add_output_arguments(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Sync every project; return 1 on conflicts or, with --check, if designs lack edits."""
+    if args.watch:
+        from vicode.cli.sync_watch import watch_projects
+
+        return watch_projects(args, _sync)
+    return for_each_project(args, _sync)
+
+
+def _sync(opened: LoadedProject, args: argparse.Namespace) -> int:
+    from vicode.sync import plan_generation
+
+    has_errors = print_errors(opened)
+    plan = plan_generation(generation_input(opened, args), adopt=not args.check, take=args.take)
+    if args.check:
+        print_findings(plan.findings)
+        return int(bool(plan.findings) or has_errors)
+    return int(not write_plan(opened, plan) or has_errors)

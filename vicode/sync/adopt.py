@@ -1,0 +1,108 @@
+"""Takes edits of regions over into designs."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from vicode.findings import DesignPath
+from vicode.generators import list_regions
+from vicode.model.design import Code, Design, RunCode
+from vicode.model.edits import replace_decision, update_actions
+from vicode.model.project import Project
+from vicode.model.traversal import find_decision
+from vicode.sync.file_edits import FileEdits
+from vicode.sync.region_merge import RegionEdit
+
+Side = Literal["file", "design"]
+"""The side that wins a conflict."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AdoptedEdit:
+    """An edit of a region that a design now contains."""
+
+    file: FileEdits
+    region: RegionEdit
+    path: DesignPath
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Adoption:
+    """The designs with the edits, by component, and the edits that they could not take over."""
+
+    designs: Mapping[str, Design]
+    adopted: tuple[AdoptedEdit, ...]
+    conflicts: tuple[tuple[FileEdits, RegionEdit, DesignPath], ...]
+
+
+def adopt_regions(project: Project, files: Iterable[FileEdits], take: Side | None = None) -> Adoption:
+    """Take all edits of regions over into the designs of a project.
+
+    Args:
+        project: The project, of which the generated texts of `files` were made.
+        files: The edited files.
+        take: The side that wins conflicts; None leaves them.
+    """
+    designs = {design.component: design for design in project.designs}
+    changed: dict[str, Design] = {}
+    adopted: list[AdoptedEdit] = []
+    conflicts: list[tuple[FileEdits, RegionEdit, DesignPath]] = []
+    for file in files:
+        # A file that no design generates any more has no component.
+        paths = list_regions(project, file.component, file.language) if file.component and file.regions else {}
+        for region in file.regions:
+            text = _choose(region, take)
+            if region.target not in paths:
+                conflicts += [] if take == "design" else [(file, region, ())]
+            elif text is None:
+                conflicts.append((file, region, paths[region.target]))
+            elif text != region.design_text:
+                path = paths[region.target]
+                design = changed.get(file.component, designs[file.component])
+                changed[file.component] = set_code(design, path, file.language, text.strip("\n") or "pass")
+                adopted.append(AdoptedEdit(file=file, region=region, path=path))
+    return Adoption(designs=changed, adopted=tuple(adopted), conflicts=tuple(conflicts))
+
+
+def _choose(region: RegionEdit, take: Side | None) -> str | None:
+    if region.merged is not None or take is None:
+        return region.merged
+    return region.file_text if take == "file" else region.design_text
+
+
+def set_code(design: Design, path: DesignPath, language: str, text: str) -> Design:
+    """Replace the code at a path, as in `CodePlan`, in one language; a final line break stays."""
+
+    def change(code: Code | None) -> Code:
+        texts = dict(code.texts if code else ())
+        texts[language] = text + "\n" * texts.get(language, "").endswith("\n")
+        return Code(texts=tuple(texts.items()))
+
+    match path:
+        case ("module",):
+            return replace(design, module=change(design.module))
+        case ("members",):
+            return replace(design, members=change(design.members))
+        case (*phase, int(index), "code") if phase[-1] in ("enter", "actions", "leave"):
+            return _set_action_code(design, tuple(phase), index, change)
+        case _:
+            return _set_guard_code(design, path[:-1], change)
+
+
+def _set_action_code(design: Design, phase: DesignPath, index: int, change: Callable[[Code | None], Code]) -> Design:
+    return update_actions(
+        design,
+        phase,
+        lambda actions: tuple(
+            replace(action, code=change(action.code)) if at == index and isinstance(action, RunCode) else action
+            for at, action in enumerate(actions)
+        ),
+    )
+
+
+def _set_guard_code(design: Design, path: DesignPath, change: Callable[[Code | None], Code]) -> Design:
+    located = find_decision(design, path)
+    if located is None:
+        raise ValueError(f"no decision at {path}")
+    guard = replace(located.decision.guard, code=change(located.decision.guard.code))
+    return replace_decision(design, path, replace(located.decision, guard=guard))

@@ -1,0 +1,161 @@
+"""Finds the edits in generated files: in regions, which the design can take over, and outside of them."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from vicode.findings import Finding, SourceLocation, get_rule
+from vicode.model.merge import contains_edits
+from vicode.output import FileDiff, FileStatus, OutputFile
+from vicode.regions import ParsedRegions, Region, find_regions, get_comment_prefix, has_header, is_edited, strip_bodies
+from vicode.sync.git_conflicts import split_sides
+from vicode.sync.region_merge import RegionEdit, merge_region_edits
+from vicode.sync.same_code import is_same_code
+
+History = Callable[[str], Iterable[str]]
+"""Returns the texts that were generated for a path before, the last one first."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FileEdits:
+    """The edits in one generated file.
+
+    Attributes:
+        path: The file, relative to the folder of generated files.
+        component: The component that the file is generated from, "" for a shared file.
+        old: The text of the file.
+        new: The text generated now, None if no design generates the file any more.
+        regions: The edited regions.
+        is_edited_outside: Whether generated statements were edited, or may have been.
+        is_origin_known: Whether an earlier generated text of the file is known.
+        problems: Errors in the file, such as broken marks.
+    """
+
+    path: str
+    component: str
+    old: str
+    new: str | None
+    regions: tuple[RegionEdit, ...] = ()
+    is_edited_outside: bool = False
+    is_origin_known: bool = True
+    problems: tuple[Finding, ...] = ()
+
+    @property
+    def language(self) -> str:
+        return self.path.partition("/")[0]
+
+    @property
+    def is_empty(self) -> bool:
+        return not (self.regions or self.is_edited_outside or self.problems)
+
+
+def find_file_edits(
+    differences: Iterable[FileDiff],
+    files: Iterable[OutputFile],
+    history: History = lambda _path: (),
+    *,
+    display_folder: str = "",
+) -> tuple[FileEdits, ...]:
+    """Find the edits that generation would overwrite, by file; files without edits are left out.
+
+    Args:
+        differences: The files on disk and their new texts.
+        files: The files that are generated now.
+        history: Returns earlier generated texts.
+        display_folder: The folder of the files as findings show it.
+    """
+    differences = tuple(differences)
+    added = (difference for difference in differences if difference.status is FileStatus.NEW)
+    finder = _EditFinder(
+        components={file.path: file.component for file in files},
+        added_regions=tuple(region for each in added for region in _regions(each.new or "", each.path)),
+        history=history,
+        display_folder=display_folder,
+    )
+    edits = (finder.find(each) for each in differences if each.old is not None and each.old != each.new)
+    return tuple(each for each in edits if not each.is_empty)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _EditFinder:
+    components: Mapping[str, str]
+    added_regions: Sequence[Region]
+    """The regions of new files, which may be those of a component that was renamed."""
+    history: History
+    display_folder: str
+
+    def find(self, difference: FileDiff) -> FileEdits:
+        path, old, new = difference.path, difference.old or "", difference.new
+        file = f"{self.display_folder}/{path}" if self.display_folder else path
+        edits = FileEdits(path=path, component=self.components.get(path, ""), old=old, new=new)
+        # After a merge in git that left conflicts, both sides may contain edits.
+        sides = split_sides(old) or (old,)
+        if not all(map(has_header, sides)):
+            message = "this file was not generated; generation would replace it"
+            fix = f"move it away, or generate with --force, which keeps it as {file.rpartition('/')[2]}.edited"
+            location = SourceLocation(file=file, line=1, column=1)
+            return replace(
+                edits, problems=(Finding(rule=get_rule("G501"), message=message, fix=fix, location=location),)
+            )
+        parsed = [find_regions(side, get_comment_prefix(path), file=file) for side in sides]
+        problems = tuple(finding for each in parsed for finding in each.findings)
+        if problems:
+            return replace(edits, problems=problems)
+        targets = _regions(new, path) if new is not None else self._renamed_regions(parsed)
+        base_texts = _BaseTexts(path, sides, self.history)
+        regions = tuple(edit for each in parsed for edit in merge_region_edits(each.regions, targets, base_texts.find))
+        # The statements of a merge conflict were generated in two branches.
+        is_outside = len(sides) == 1 and self._is_edited_outside(path, old, new)
+        return replace(
+            edits,
+            regions=tuple(dict.fromkeys(regions)),
+            is_edited_outside=is_outside,
+            is_origin_known=not is_outside or any(True for _text in self.history(path)),
+        )
+
+    def _renamed_regions(self, parsed: Iterable[ParsedRegions]) -> tuple[Region, ...]:
+        """The regions of new files with the same code as those of a file that no design generates any more."""
+        checksums = {region.checksum for each in parsed for region in each.regions}
+        return tuple(region for region in self.added_regions if region.checksum in checksums)
+
+    def _is_edited_outside(self, path: str, old: str, new: str | None) -> bool:
+        """Whether generated statements were edited in the file, and not only in the design."""
+        comment = get_comment_prefix(path)
+        if new is not None and is_same_code(old, new, comment):
+            return False
+        return not any(
+            is_same_code(old, base, comment) or (new is not None and _has_all_edits(path, base, old, new))
+            for base in self.history(path)
+        )
+
+
+class _BaseTexts:
+    """Finds generated texts of regions by their checksum; the history is read when it is needed."""
+
+    def __init__(self, path: str, sides: Iterable[str], history: History) -> None:
+        self._path = path
+        self._found: dict[str, str] = {}
+        self._unread = (text for texts in (sides, _later(history, path)) for text in texts)
+
+    def find(self, checksum: str) -> str | None:
+        while checksum not in self._found:
+            text = next(self._unread, None)
+            if text is None:
+                return None
+            regions = (region for region in _regions(text, self._path) if not is_edited(region))
+            self._found |= {region.checksum: region.body for region in regions}
+        return self._found[checksum]
+
+
+def _later(history: History, path: str) -> Iterator[str]:
+    yield from history(path)
+
+
+def _has_all_edits(path: str, base: str, old: str, new: str) -> bool:
+    """Whether the new text contains all that was changed in the old one outside of regions, as after a merge in git."""
+    comment = get_comment_prefix(path)
+    stripped = [strip_bodies(text, comment) for text in (base, old, new)]
+    return contains_edits(*stripped)
+
+
+def _regions(text: str, path: str) -> tuple[Region, ...]:
+    return find_regions(text, get_comment_prefix(path)).regions

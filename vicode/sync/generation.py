@@ -1,0 +1,171 @@
+"""Plans what generation writes, with the edits of generated files taken over into the designs, and writes it."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from vicode.check import check_project
+from vicode.findings import Finding, Severity, SourceLocation
+from vicode.model.design import Design
+from vicode.model.project import Project
+from vicode.output import FileDiff, FileStatus, OutputFile, back_up_edited, compare_files
+from vicode.regions import has_header
+from vicode.sync.adopt import AdoptedEdit, Side, adopt_regions
+from vicode.sync.file_edits import FileEdits, find_file_edits
+from vicode.sync.findings import describe_conflict, describe_edits
+from vicode.sync.history import GeneratedHistory
+from vicode.transactions import STATE_FOLDER, complete_interrupted, replace_files
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GenerationInput:
+    """A project and where its code is generated.
+
+    Attributes:
+        project: The project.
+        folder: The folder of generated files.
+        generate: Generates the selected files of a project.
+        kept_paths: Paths of further generated files, which are not stale.
+        may_delete: Whether files that no design generates are stale; they are not if a design cannot be read.
+        history: Finds texts that were generated before.
+    """
+
+    project: Project
+    folder: Path
+    generate: Callable[[Project], Sequence[OutputFile]]
+    kept_paths: Sequence[str] = ()
+    may_delete: bool = True
+    history: GeneratedHistory
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GenerationPlan:
+    """The files to write and the designs to save before, and what prevents it.
+
+    Attributes:
+        folder: The folder of generated files.
+        files: All generated files.
+        differences: The files that differ from those on disk.
+        designs: The designs that contain edits of generated files, by component.
+        adopted: These edits.
+        edits: The edits that would be lost.
+        findings: Why nothing may be written.
+    """
+
+    folder: Path
+    files: Sequence[OutputFile]
+    differences: tuple[FileDiff, ...]
+    designs: Mapping[str, Design]
+    adopted: tuple[AdoptedEdit, ...] = ()
+    edits: tuple[FileEdits, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+
+def plan_generation(job: GenerationInput, *, adopt: bool = False, take: Side | None = None) -> GenerationPlan:
+    """Generate and compare with the folder, without writing.
+
+    Args:
+        job: What to generate.
+        adopt: Take edits of regions over into the designs.
+        take: The side that wins conflicts between an edit and the design; None leaves them.
+
+    Raises:
+        OSError: A file cannot be read.
+    """
+    complete_interrupted(job.folder)
+    shown = job.folder.as_posix()
+    plan = _compare(job, job.project)
+    if not adopt or not plan.edits:
+        return replace(plan, findings=tuple(describe_edits(plan.edits, shown)))
+    adoption = adopt_regions(job.project, plan.edits, take)
+    if adoption.conflicts:
+        conflicts = (describe_conflict(file, region, path, shown) for file, region, path in adoption.conflicts)
+        return replace(plan, findings=tuple(conflicts))
+    project = _with_designs(job.project, adoption.designs)
+    errors = tuple(_new_errors(job.project, project, adoption.adopted, shown))
+    if errors:
+        return replace(plan, findings=errors)
+    settled = {(file.path, region.id) for file in plan.edits for region in file.regions}
+    new = _compare(job, project)
+    edits = tuple(_without(file, settled) for file in new.edits)
+    edits = tuple(file for file in edits if not file.is_empty)
+    return replace(
+        new,
+        designs=adoption.designs,
+        adopted=adoption.adopted,
+        edits=edits,
+        findings=tuple(describe_edits(edits, shown)),
+    )
+
+
+def write_generated(plan: GenerationPlan) -> None:
+    """Write and delete the files of a plan, all of them or none, and keep a copy of what was generated.
+
+    Raises:
+        OSError: A file cannot be written.
+    """
+    texts = {difference.path: difference.new for difference in plan.differences}
+    copies = {f"{STATE_FOLDER}/generated/{path}": text for path, text in texts.items()}
+    for file in plan.files:
+        copies.setdefault(f"{STATE_FOLDER}/generated/{file.path}", file.text)
+    outdated = {path: text for path, text in copies.items() if _read(plan.folder / path) != text}
+    if texts or outdated:
+        replace_files(plan.folder, texts | outdated)
+
+
+def back_up(plan: GenerationPlan) -> tuple[Path, ...]:
+    """Copy the edited files of a plan to NAME.edited."""
+    return tuple(back_up_edited(plan.folder / file.path) for file in plan.edits)
+
+
+def _compare(job: GenerationInput, project: Project) -> GenerationPlan:
+    files = job.generate(project)
+    compared = compare_files(files, job.folder, kept_paths=job.kept_paths, is_generated=has_header)
+    ignored = {FileStatus.UNCHANGED} if job.may_delete else {FileStatus.UNCHANGED, FileStatus.STALE}
+    differences = tuple(difference for difference in compared if difference.status not in ignored)
+    edits = find_file_edits(differences, files, job.history, display_folder=job.folder.as_posix())
+    return GenerationPlan(folder=job.folder, files=files, differences=differences, designs={}, edits=edits)
+
+
+def _with_designs(project: Project, designs: Mapping[str, Design]) -> Project:
+    return replace(project, designs=tuple(designs.get(design.component, design) for design in project.designs))
+
+
+def _without(file: FileEdits, settled: set[tuple[str, str]]) -> FileEdits:
+    return replace(file, regions=tuple(each for each in file.regions if (file.path, each.id) not in settled))
+
+
+def _new_errors(before: Project, after: Project, adopted: Iterable[AdoptedEdit], folder: str) -> Iterable[Finding]:
+    """The errors that edits bring into designs, located in the generated files."""
+    edits = tuple(adopted)
+    components = {edit.file.component for edit in edits}
+    known = {(finding.rule.code, finding.message) for finding in check_project(before, components)}
+    for finding in check_project(after, components):
+        is_new = finding.severity is Severity.ERROR and (finding.rule.code, finding.message) not in known
+        if is_new:
+            yield _located(finding, edits, folder)
+
+
+def _located(finding: Finding, edits: Iterable[AdoptedEdit], folder: str) -> Finding:
+    subject = finding.subject
+    for edit in edits:
+        if subject and subject.component == edit.file.component and subject.path[: len(edit.path)] == edit.path:
+            text = edit.region.merged or edit.region.file_text
+            start, end = subject.span or (0, 0)
+            row = text.count("\n", 0, start)
+            column = start - (text.rfind("\n", 0, start) + 1)
+            location = SourceLocation(
+                file=f"{folder}/{edit.file.path}" if folder else edit.file.path,
+                line=edit.region.line + 1 + row,
+                column=len(edit.region.indent) + column + 1,
+                length=max(1, min(end, len(text.split("\n")[row]) + start - column) - start),
+            )
+            return replace(finding, location=location)
+    return finding
+
+
+def _read(path: Path) -> str | None:
+    try:
+        return path.read_text("utf-8", errors="backslashreplace")
+    except OSError:
+        return None

@@ -1,0 +1,105 @@
+"""Merges edited regions of a generated file with the code that the design has now."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+from vicode.model.merge import merge_lines
+from vicode.regions import Region, compute_checksum, is_edited
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RegionEdit:
+    """A region of a file that was edited and differs from the code of the design.
+
+    Attributes:
+        id: The region in the file, which begins at `line` and is indented by `indent`.
+        target: The region generated from the same code now, "" if the design has no such code any more.
+        file_text: The text in the file.
+        design_text: The text generated now, "" without target.
+        base: The text that was generated when the file was written, None if it is unknown.
+        merged: The text with the edits of both sides, None on a conflict.
+    """
+
+    id: str
+    line: int
+    indent: str
+    target: str
+    file_text: str
+    design_text: str
+    base: str | None
+    merged: str | None
+
+    @property
+    def is_conflict(self) -> bool:
+        return self.merged is None
+
+    @property
+    def is_merged(self) -> bool:
+        """Whether the design was changed as well, in other lines."""
+        return self.merged is not None and self.merged != self.file_text
+
+
+def merge_region_edits(
+    found: Sequence[Region], generated: Sequence[Region], find_base: Callable[[str], str | None]
+) -> tuple[RegionEdit, ...]:
+    """Return the edits in the regions of a file that the design does not have yet.
+
+    Args:
+        found: The regions of the file.
+        generated: The regions generated now.
+        find_base: Returns a text that was generated earlier by its checksum, None if it is unknown.
+    """
+    targets = _match_regions(found, generated)
+    edits = (
+        _merge(region, targets.get(region.id), find_base)
+        for region in found
+        if is_edited(region) and not _has_same_text(region, targets.get(region.id))
+    )
+    return tuple(edits)
+
+
+def _merge(region: Region, target: Region | None, find_base: Callable[[str], str | None]) -> RegionEdit:
+    base = find_base(region.checksum)
+    merged = None
+    if target is not None and target.checksum == region.checksum:
+        base, merged = target.body, region.body
+    elif target is not None and base is not None:
+        merged = merge_lines(base, region.body, target.body)
+    return RegionEdit(
+        id=region.id,
+        line=region.line,
+        indent=region.indent,
+        target=target.id if target else "",
+        file_text=region.body,
+        design_text=target.body if target else "",
+        base=base,
+        merged=merged,
+    )
+
+
+def _match_regions(found: Iterable[Region], generated: Sequence[Region]) -> dict[str, Region]:
+    """Match regions by id, and edited ones whose id is gone by the text that they were generated with.
+
+    A state that was renamed in the design has regions with new ids and the same texts.
+    """
+    by_id = {region.id: region for region in generated}
+    targets = {region.id: by_id[region.id] for region in found if region.id in by_id}
+    present = {region.id for region in found}
+    for region in found:
+        if region.id in targets or not is_edited(region):
+            continue
+        candidates = [other for other in generated if other.checksum == region.checksum and other.id not in present]
+        in_role = [other for other in candidates if _role(other.id) == _role(region.id)]
+        best = in_role or candidates
+        if len(best) == 1:
+            targets[region.id] = best[0]
+    return targets
+
+
+def _role(id_: str) -> str:
+    """The part of an id that does not depend on the name of the state: "enter", "actions", "to.Kick"."""
+    return id_.partition(".")[2]
+
+
+def _has_same_text(region: Region, target: Region | None) -> bool:
+    return target is not None and compute_checksum(region.body) == compute_checksum(target.body)

@@ -1,0 +1,133 @@
+"""Replaces several files as one: after a crash, the next command completes the replacement or drops it.
+
+The new texts are written to `.vicode/pending` in the root folder, then a journal that lists their targets. Then
+they are moved.
+"""
+
+import contextlib
+import errno
+import fcntl
+import json
+import os
+import shutil
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from vicode.output import write_atomically
+
+STATE_FOLDER = ".vicode"
+"""Folder of vicode's own files in a root folder; git ignores it."""
+
+_PENDING = "pending"
+_JOURNAL = "journal.json"
+
+
+def replace_files(root: Path, texts: Mapping[str, str | None]) -> None:
+    """Write or delete (None) files below a folder, all of them or none; symbolic links are followed.
+
+    Args:
+        root: The folder; it is created.
+        texts: The new texts by path relative to `root`.
+
+    Raises:
+        OSError: A file cannot be written; the error names it, and all files are unchanged.
+    """
+    targets = {path: _resolve_target(root, path) for path in texts}
+    with _lock(root) as state:
+        _complete(root, state)
+        pending = state / _PENDING
+        try:
+            journal = _write_pending(pending, texts, targets)
+            for target, text in zip(targets.values(), texts.values(), strict=True):
+                if text is not None:
+                    _require_writable(target)
+            write_atomically(pending / _JOURNAL, json.dumps(journal))
+        except BaseException:
+            shutil.rmtree(pending, ignore_errors=True)
+            raise
+        _complete(root, state)
+
+
+def complete_interrupted(root: Path) -> None:
+    """Complete the replacement that a killed program began below a folder, or drop what it had only prepared."""
+    if (root / STATE_FOLDER / _PENDING).is_dir():
+        with _lock(root) as state:
+            _complete(root, state)
+
+
+@contextlib.contextmanager
+def _lock(root: Path) -> Iterator[Path]:
+    """The state folder, which only one program changes at a time."""
+    state = root / STATE_FOLDER
+    if not state.is_dir():
+        state.mkdir(parents=True)
+        write_atomically(state / ".gitignore", "*\n", is_durable=False)
+    descriptor = os.open(state, os.O_RDONLY)
+    try:
+        # Some network file systems have no locks.
+        with contextlib.suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield state
+    finally:
+        os.close(descriptor)
+
+
+def _write_pending(
+    pending: Path, texts: Mapping[str, str | None], targets: Mapping[str, Path]
+) -> dict[str, str | None]:
+    """Write the new texts; return the journal: the names in `pending` (None to delete) by path."""
+    pending.mkdir()
+    journal: dict[str, str | None] = {}
+    for number, (path, text) in enumerate(texts.items()):
+        journal[path] = None if text is None else str(number)
+        if text is not None:
+            file = pending / str(number)
+            write_atomically(file, text)
+            if targets[path].exists():
+                file.chmod(targets[path].stat().st_mode & 0o777)
+    return journal
+
+
+def _complete(root: Path, state: Path) -> None:
+    pending = state / _PENDING
+    journal = pending / _JOURNAL
+    if journal.is_file():
+        for path, name in json.loads(journal.read_text("utf-8")).items():
+            _move(None if name is None else pending / name, _resolve_target(root, path))
+    if pending.is_dir():
+        # The journal goes first: without it, the rest means nothing.
+        journal.unlink(missing_ok=True)
+        shutil.rmtree(pending)
+
+
+def _move(source: Path | None, target: Path) -> None:
+    if source is None:
+        target.unlink(missing_ok=True)
+    elif source.exists():
+        target.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            source.replace(target)
+        except OSError as error:
+            if error.errno != errno.EXDEV:
+                raise
+            write_atomically(target, source.read_bytes())
+
+
+def _resolve_target(root: Path, path: str) -> Path:
+    """The target of a path, which must be below the root folder: a journal may come from a stranger."""
+    if Path(path).is_absolute() or ".." in Path(path).parts:
+        raise PermissionError(errno.EACCES, f"it is outside of {root}", path)
+    return (root / path).resolve()
+
+
+def _require_writable(target: Path) -> None:
+    """Raise an error that names the obstacle, before anything is moved."""
+    for folder in target.parents:
+        if folder.is_dir():
+            if not os.access(folder, os.W_OK):
+                raise PermissionError(errno.EACCES, "its folder is read-only", str(target))
+            break
+        if folder.exists():
+            raise NotADirectoryError(errno.ENOTDIR, "expected a folder, found a file", str(folder))
+    if target.is_dir():
+        raise IsADirectoryError(errno.EISDIR, "expected a file, found a folder", str(target))
