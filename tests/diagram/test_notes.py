@@ -9,7 +9,7 @@ from vicode.diagram.export_formats import EXPORT_FORMATS, ExportOptions
 from vicode.diagram.node_geometry import note_lines, note_size
 from vicode.editor.view import diff_scenes, make_scene
 from vicode.model.design import Design, DiagramNote, State
-from vicode.model.edits import move_notes, remove_notes
+from vicode.model.diagram_edits import move_notes, remove_notes
 from vicode.model.project import Project
 
 NOTE = DiagramNote(name="why", text="The robot <waits>\nfor the referee.", at=(300, 40))

@@ -16,6 +16,7 @@ from vicode.model.design import (
     DecisionGroup,
     Declaration,
     Design,
+    DiagramFrame,
     DiagramNote,
     Guard,
     RunCode,
@@ -150,6 +151,11 @@ _fields: dict[str, st.SearchStrategy[Any]] = {
     "initial": st.just("") | names,
     "module": code,
     "members": code,
+    "frames": _unique(
+        st.builds(DiagramFrame, name=names, color=st.sampled_from(("", *STATE_COLORS)), states=_tuples(names)),
+        "name",
+        2,
+    ),
     "notes": _unique(st.builds(DiagramNote, name=names, text=texts, at=points), "name", 2),
     "common": st.builds(
         CommonSection,

@@ -4,7 +4,7 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 from vicode.check.context import RuleContext
-from vicode.findings import Finding, did_you_mean
+from vicode.findings import DesignPath, Finding, did_you_mean
 from vicode.model.design import COMMON, Transition
 from vicode.model.disabled import strip_disabled_decision
 
@@ -44,6 +44,20 @@ def find_unknown_states(context: RuleContext) -> Iterator[Finding]:
         if isinstance(decision, Transition) and decision.to not in names:
             fix = did_you_mean(decision.to, names, "add the state, or choose another target")
             yield context.make_finding("D402", (*located.path, "to"), f"unknown state '{decision.to}'", fix)
+
+
+def find_bad_frames(context: RuleContext) -> Iterator[Finding]:
+    """D431: a frame without states, or around a state that does not exist."""
+    names = _state_names(context)
+    for frame in context.design.frames:
+        path: DesignPath = ("frames", frame.name)
+        if not frame.states:
+            message, fix = f"the frame '{frame.name}' has no states", "add states to it, or delete it"
+            yield context.make_finding("D431", path, message, fix, is_key=True)
+        for index, name in enumerate(frame.states):
+            if name not in names:
+                fix = did_you_mean(name, names, "remove it from the frame, or add the state")
+                yield context.make_finding("D431", (*path, "states", index), f"unknown state '{name}'", fix)
 
 
 def find_unreachable_states(context: RuleContext) -> Iterator[Finding]:
@@ -112,6 +126,7 @@ RULES = (
     find_no_initial_state,
     find_disabled_initial_state,
     find_unknown_states,
+    find_bad_frames,
     find_unreachable_states,
     find_dead_ends,
 )

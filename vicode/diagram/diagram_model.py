@@ -1,17 +1,20 @@
 """A diagram before routing: nodes and edges with final texts and sizes."""
 
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 
+from vicode.diagram.frames import TITLE_HEIGHT, drawn_frames, frame_padding, frame_rect
 from vicode.diagram.layered_layout import NodeLayout, complete_layout, note_position
 from vicode.diagram.node_geometry import COMMON_SIZE, Size, note_size, state_size, use_size
-from vicode.diagram.text_metrics import NAME_FONT, SMALL_FONT, shorten
+from vicode.diagram.spatial_index import Rect
+from vicode.diagram.text_metrics import NAME_FONT, SMALL_FONT, shorten, text_width
 from vicode.diagram.transition_labels import GuardKind, guard_kind, short_transition_label, transition_label
 from vicode.model.design import COMMON, Call, Design, Point, State, Transition
 from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.traversal import iter_transitions
 
+FRAME_TITLE_INSET = 14.0
 _MAX_NAME_WIDTH, _MAX_SUBTITLE_WIDTH = 230.0, 200.0
 
 
@@ -58,11 +61,29 @@ class DiagramEdge:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class FrameBox:
+    """The rectangle of a frame, with its full title and the text that fits."""
+
+    key: str
+    rect: Rect
+    title: str
+    label: str
+    color: str = ""
+
+    @property
+    def title_rect(self) -> Rect:
+        """The rectangle of the title, which labels avoid."""
+        left, top = self.rect.left + FRAME_TITLE_INSET, self.rect.top
+        return Rect(left, top, left + text_width(self.label, NAME_FONT), top + TITLE_HEIGHT)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Diagram:
-    """Nodes and edges; both ends of an edge are among the nodes."""
+    """Nodes and edges; both ends of an edge are among the nodes. Frames are behind them, back to front."""
 
     nodes: tuple[DiagramNode, ...]
     edges: tuple[DiagramEdge, ...]
+    frames: tuple[FrameBox, ...] = ()
 
 
 def build_diagram(design: Design, *, only: Collection[str] | None = None, links: bool = True) -> Diagram:
@@ -77,7 +98,19 @@ def build_diagram(design: Design, *, only: Collection[str] | None = None, links:
     elif not links:
         nodes = tuple(node for node in nodes if node.node_type != "component")
     known = {node.key for node in nodes}
-    return Diagram(nodes=nodes, edges=tuple(edge for edge in edges if edge.source in known and edge.target in known))
+    return Diagram(
+        nodes=nodes,
+        edges=tuple(edge for edge in edges if edge.source in known and edge.target in known),
+        frames=tuple(_frame_boxes(design, nodes, only)),
+    )
+
+
+def _frame_boxes(design: Design, nodes: Iterable[DiagramNode], only: Collection[str] | None) -> Iterator[FrameBox]:
+    rects = {node.key: Rect.from_center(node.center, node.size) for node in nodes}
+    for frame, states, level in drawn_frames(design, only):
+        rect = frame_rect((rects[_state_key(name)] for name in states), frame_padding(level))
+        label = shorten(frame.name, NAME_FONT, rect.right - rect.left - 2 * FRAME_TITLE_INSET)
+        yield FrameBox(key=f"f:{frame.name}", rect=rect, title=frame.name, label=label, color=frame.color)
 
 
 def _state_key(name: str) -> str:

@@ -71,7 +71,7 @@ class _EdgeRouter:
 
     def __init__(self, diagram: Diagram) -> None:
         self.nodes = {node.key: node for node in diagram.nodes}
-        self.boxes, self.labels, self.lines = RectIndex(), RectIndex(), PointIndex()
+        self.boxes, self.labels, self.lines, self.titles = RectIndex(), RectIndex(), PointIndex(), RectIndex()
         self.obstacles = ObstacleIndex(CLEARANCE)
         self.overlapping: list[str] = []
         has_labels = any(edge.label or edge.order or edge.guard_kind is not GuardKind.ALWAYS for edge in diagram.edges)
@@ -83,6 +83,8 @@ class _EdgeRouter:
             rect = Rect.from_center(node.center, node.size)
             self.boxes.add(node.key, rect)
             self.obstacles.add(node.key, rect)
+        for frame in diagram.frames:
+            self.titles.add(frame.key, frame.title_rect)
         for edge in diagram.edges:
             self._pairs[tuple(sorted((edge.source, edge.target)))].append(edge)
             for end in {edge.source, edge.target}:
@@ -166,14 +168,15 @@ class _EdgeRouter:
         return None
 
     def _is_free(self, rect: Rect) -> bool:
-        """Whether a label there overlaps no box and no other label."""
+        """Whether a label there overlaps no box, no other label and no title."""
         wide = rect.expanded(2)
-        return not self.boxes.overlapping(wide) and not self.labels.overlapping(wide)
+        return not any(index.overlapping(wide) for index in (self.boxes, self.labels, self.titles))
 
     def _overlap_cost(self, rect: Rect, own: str, enough: float) -> float:
         """The cost of what a label there covers; stops adding at `enough`."""
         wide = rect.expanded(2)
-        crowd = _BOX_COST * len(self.boxes.overlapping(wide)) + _LABEL_COST * len(self.labels.overlapping(wide))
+        texts = len(self.labels.overlapping(wide)) + len(self.titles.overlapping(wide))
+        crowd = _BOX_COST * len(self.boxes.overlapping(wide)) + _LABEL_COST * texts
         if crowd >= enough:
             return crowd
         hidden = self.lines.within(rect) - {own}

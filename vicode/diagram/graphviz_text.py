@@ -1,11 +1,12 @@
 """A design as DOT with labels and styles for Graphviz; `neato -n` keeps the positions."""
 
-from collections.abc import Collection
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Mapping
 
 import graphviz  # type: ignore[import-untyped]
 
 from vicode.diagram.diagram_model import DiagramNode, build_diagram
+from vicode.diagram.frames import FrameGroup, nest_frames
+from vicode.diagram.palettes import LIGHT
 from vicode.diagram.text_transitions import describe_dangling_transitions, list_transitions
 from vicode.model.design import COMMON, Design
 
@@ -14,22 +15,26 @@ _SHAPES = {
     "state": {"shape": "box", "style": "rounded"},
     "component": {"shape": "hexagon", "style": "dashed"},
     "common": {"shape": "box", "style": "rounded,dashed"},
+    "note": {"shape": "note"},
 }
 _USE_EDGES = {"requires": {"style": "dashed", "arrowhead": "empty"}, "modulates": {"style": "dotted"}}
 
 
 def write_graphviz(design: Design, *, only: Collection[str] | None = None, links: bool = True) -> str:
     """The text of the whole design, or of some states and the components they use."""
-    diagram = build_diagram(replace(design, notes=()), only=only, links=links)
+    diagram = build_diagram(design, only=only, links=links)
     ids = {node.key: f"n{index}" for index, node in enumerate(diagram.nodes)}
     graph = graphviz.Digraph(
         name=_quoted(design.component), graph_attr={"rankdir": "LR"}, node_attr={"fontname": "Helvetica"}
     )
+    texts = {f"n:{note.name}": note.text for note in design.notes}
     for node in diagram.nodes:
-        graph.node(ids[node.key], label=_quoted(_unshortened_label(node)), **_attributes(node))
+        label = _quoted(texts[node.key]) if node.key in texts else _quoted(_unshortened_label(node))
+        graph.node(ids[node.key], label=label, **_attributes(node))
         if node.initial:
             graph.node("start", label="", shape="point", width="0.15")
             graph.edge("start", ids[node.key])
+    _write_frames(graph, nest_frames(design, only), ids, design)
     for line in list_transitions(design, only):
         source = "common" if line.source == COMMON else f"s:{line.source}"
         if source in ids:
@@ -39,6 +44,20 @@ def write_graphviz(design: Design, *, only: Collection[str] | None = None, links
             graph.edge(ids[edge.source], ids[edge.target], **_USE_EDGES[edge.edge_type])
     lost = "".join(f"// {words}\n" for words in describe_dangling_transitions(design, only))
     return lost + str(graph.source)
+
+
+def _write_frames(
+    graph: graphviz.Digraph, groups: Iterable[FrameGroup], ids: Mapping[str, str], design: Design, prefix: str = ""
+) -> None:
+    for index, group in enumerate(groups):
+        frame = design.frame(group.name)
+        fill = {"style": "filled", "fillcolor": getattr(LIGHT, f"color_{frame.color}")} if frame and frame.color else {}
+        name = f"{prefix}{index}"
+        with graph.subgraph(name=f"cluster_{name}", graph_attr={"label": _quoted(group.name), **fill}) as cluster:
+            for state in design.states:
+                if state.name in group.own_states:
+                    cluster.node(ids[f"s:{state.name}"])
+            _write_frames(cluster, group.groups, ids, design, f"{name}_")
 
 
 def _attributes(node: DiagramNode) -> dict[str, str]:

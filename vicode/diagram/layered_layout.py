@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import count
 
 from vicode.diagram.node_geometry import COMMON_SIZE, MIN_WIDTH, OccupancyGrid, state_size, use_size
@@ -20,11 +20,15 @@ _MAX_COORDINATE = 1e7
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NodeLayout:
-    """Center positions in pixels of states, used components (by alias) and the badge of common transitions."""
+    """Center positions in pixels of states, used components (by alias) and the badge of common transitions.
+
+    `notes` contains only those that move with the states.
+    """
 
     states: dict[str, Point]
     uses: dict[str, Point]
     common: Point
+    notes: dict[str, Point] = field(default_factory=dict)
 
 
 def complete_layout(design: Design) -> NodeLayout:

@@ -4,7 +4,7 @@ from enum import StrEnum
 
 import graphviz  # type: ignore[import-untyped]
 
-from vicode.diagram.layout_graph import LayoutGraph, LayoutNode
+from vicode.diagram.layout_graph import LayoutCluster, LayoutGraph, LayoutNode
 
 POINTS_PER_INCH = 72.0
 _MAX_LABEL_LENGTH = 24
@@ -35,6 +35,8 @@ _LIMITS = {
 _NODE_GAP = 30.0
 _RANK_GAP = 70.0
 # Next to a label, 30 pixels of its edge remain; the canvas shortens labels to the available space.
+# Room for the border and the title of a frame.
+_CLUSTER_MARGIN = 42
 _LABEL_MARGIN, _MAX_RANK_GAP = 30.0, 110.0
 
 
@@ -52,10 +54,20 @@ def write_layout_dot(layout_graph: LayoutGraph, direction: RankDirection, effort
     )
     for node in layout_graph.nodes:
         _write_node(graph, node)
+    _write_clusters(graph, layout_graph.clusters)
     for edge in layout_graph.edges:
         beside = {"minlen": "0"} if edge.may_share_rank else {}
         graph.edge(edge.source, edge.target, weight=str(edge.weight), **beside)
     return str(graph.source)
+
+
+def _write_clusters(graph: graphviz.Digraph, clusters: tuple[LayoutCluster, ...], prefix: str = "") -> None:
+    for index, cluster in enumerate(clusters):
+        name = f"{prefix}{index}"
+        with graph.subgraph(name=f"cluster_{name}", graph_attr={"margin": str(_CLUSTER_MARGIN)}) as inner:
+            for node in cluster.nodes:
+                inner.node(node)
+            _write_clusters(inner, cluster.clusters, f"{name}_")
 
 
 def _rank_gap(graph: LayoutGraph, direction: RankDirection) -> float:

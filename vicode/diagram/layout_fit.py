@@ -7,6 +7,7 @@ from itertools import count
 from vicode.diagram.layered_layout import ORIGIN, NodeLayout, complete_layout
 from vicode.diagram.layout_graph import COMMON_ID, state_ids, use_ids
 from vicode.diagram.node_geometry import COMMON_SIZE, MIN_WIDTH, OccupancyGrid, Size, state_size, use_size
+from vicode.diagram.notes import follow_states
 from vicode.model.design import CommonSection, Design, Point
 from vicode.model.edits import move_nodes
 
@@ -17,6 +18,14 @@ _SCREEN, _BOX = Size(width=1280, height=800), Size(width=MIN_WIDTH, height=60)
 
 def fit_layout(design: Design, centres: Mapping[str, Point], only: Collection[str] | None) -> NodeLayout:
     """Positions of the whole design, given new centers by id of all nodes or of the states in `only`."""
+    layout = _fit_nodes(design, centres, only)
+    if not design.notes:
+        return layout
+    notes = follow_states(design, complete_layout(design), layout, _occupied_by_others(design, layout, ()))
+    return replace(layout, notes={name: _snapped(at, (0, 0)) for name, at in notes.items()})
+
+
+def _fit_nodes(design: Design, centres: Mapping[str, Point], only: Collection[str] | None) -> NodeLayout:
     states = {name: centres[id_] for name, id_ in state_ids(design).items() if id_ in centres}
     if only is not None:
         return _fit_part(design, states)

@@ -1,8 +1,9 @@
 """A design as a layout graph: boxes with sizes, edges with weights, safe ids."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from vicode.diagram.frames import FrameGroup, nest_frames
 from vicode.diagram.node_geometry import COMMON_SIZE, Size, estimate_text_width, state_size, use_size
 from vicode.model.design import COMMON, Call, Design, Guard, Transition
 from vicode.model.traversal import iter_transitions
@@ -42,11 +43,20 @@ class LayoutEdge:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LayoutCluster:
+    """Boxes of a frame, which no other box comes between; `nodes` are those in none of the inner clusters."""
+
+    nodes: tuple[str, ...]
+    clusters: "tuple[LayoutCluster, ...]" = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class LayoutGraph:
     """The graph to lay out; the first node is the initial state."""
 
     nodes: tuple[LayoutNode, ...]
     edges: tuple[LayoutEdge, ...]
+    clusters: tuple[LayoutCluster, ...] = ()
 
 
 def build_layout_graph(design: Design, only: Collection[str] | None = None) -> LayoutGraph:
@@ -57,7 +67,18 @@ def build_layout_graph(design: Design, only: Collection[str] | None = None) -> L
     edges = [
         edge for edge in candidates if edge.source in known and edge.target in known and edge.source != edge.target
     ]
-    return LayoutGraph(nodes=nodes, edges=_orient_edges(nodes, edges))
+    clusters = _clusters(nest_frames(design, only), state_ids(design))
+    return LayoutGraph(nodes=nodes, edges=_orient_edges(nodes, edges), clusters=clusters)
+
+
+def _clusters(groups: Iterable[FrameGroup], ids: Mapping[str, str]) -> tuple[LayoutCluster, ...]:
+    return tuple(
+        LayoutCluster(
+            nodes=tuple(id_ for name, id_ in ids.items() if name in group.own_states),
+            clusters=_clusters(group.groups, ids),
+        )
+        for group in groups
+    )
 
 
 def state_ids(design: Design) -> dict[str, str]:

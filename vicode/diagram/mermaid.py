@@ -1,9 +1,11 @@
 """A design as Mermaid (stateDiagram-v2), for READMEs and wikis."""
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterator, Mapping
 
+from vicode.diagram.layered_layout import complete_layout
 from vicode.diagram.node_ids import assign_ids
+from vicode.diagram.notes import nearest_states
 from vicode.diagram.text_transitions import EVERY_STATE, describe_dangling_transitions, list_transitions
 from vicode.model.design import COMMON, Design
 
@@ -15,6 +17,8 @@ _RESERVED = frozenset({
 })  # fmt: skip
 # Other characters are written as character references, which Mermaid decodes before parsing.
 _UNSAFE = re.compile(r"[^\w .,()=+\-*/'!?|]")
+
+_END_NOTE = re.compile(r"end\s+note", re.IGNORECASE)
 
 
 def write_mermaid(design: Design, *, only: Collection[str] | None = None) -> str:
@@ -32,9 +36,21 @@ def write_mermaid(design: Design, *, only: Collection[str] | None = None) -> str
     for line in lines:
         label = f" : {escape(line.label)}" if line.label else ""
         text.append(f"    {ids[line.source]} --> {ids[line.target]}{label}")
+    text += _notes(design, ids) if only is None else ()
     text += [f"    %% {words}" for words in describe_dangling_transitions(design, only)]
     text += [f"    {ids[state.name]} --> [*]" for state in design.states if state.final and state.name in ids]
     return "\n".join(text) + "\n"
+
+
+def _notes(design: Design, ids: Mapping[str, str]) -> Iterator[str]:
+    """Notes at the nearest states: others have no place in Mermaid."""
+    nearest = nearest_states(design, complete_layout(design))
+    for note in design.notes:
+        lines = [_END_NOTE.sub("end#32;note", escape(line)) for line in note.text.strip().splitlines()]
+        if note.name in nearest and lines:
+            yield f"    note right of {ids[nearest[note.name]]}"
+            yield from (f"        {line}" for line in lines)
+            yield "    end note"
 
 
 def escape(text: str) -> str:

@@ -31,6 +31,14 @@ class ColorPalette:
     color_red: str
     color_purple: str
 
+    def frame_fill(self, color: str) -> str:
+        """The fill of a frame: half of the color of a state, so that states stand out."""
+        fill = getattr(self, f"color_{color}") if color else self.faint
+        if not (fill.startswith("#") and self.paper.startswith("#")):
+            return f"color-mix(in srgb, {fill} 55%, {self.paper})"
+        pairs = ((int(fill[at : at + 2], 16), int(self.paper[at : at + 2], 16)) for at in (1, 3, 5))
+        return "#" + "".join(f"{round(0.55 * own + 0.45 * paper):02x}" for own, paper in pairs)
+
 
 def css_variable_palette() -> ColorPalette:
     """Colors defined by the style sheet of the page that contains the diagram."""

@@ -3,12 +3,13 @@
 import math
 from collections.abc import Collection, Iterable, Mapping
 
-from vicode.diagram.diagram_model import Diagram, DiagramEdge, DiagramNode, build_diagram
+from vicode.diagram.diagram_model import FRAME_TITLE_INSET, Diagram, DiagramEdge, DiagramNode, FrameBox, build_diagram
 from vicode.diagram.edge_curves import HEX_SLANT, point_on_curve
 from vicode.diagram.edge_labels import PADDING, EdgeLabel
 from vicode.diagram.edge_routing import EdgeRoute, route_edges
+from vicode.diagram.frames import TITLE_HEIGHT
 from vicode.diagram.initial_marker import Corner, initial_corner, marker_rect
-from vicode.diagram.node_geometry import NOTE_LINE_HEIGHT, NOTE_PADDING, note_lines
+from vicode.diagram.node_geometry import NOTE_LINE_HEIGHT, NOTE_PADDING, Size, note_lines
 from vicode.diagram.palettes import LIGHT, ColorPalette
 from vicode.diagram.primitives import (
     PathShape,
@@ -63,11 +64,12 @@ def render_design(
 
 
 def render_diagram(diagram: Diagram, *, title: str, doc: str = "", palette: ColorPalette = LIGHT) -> VectorImage:
-    """Render a diagram: links below transitions, labels on top."""
+    """Render a diagram: frames at the back, links below transitions, labels on top."""
     routes = route_edges(diagram)
     corners = {node.key: initial_corner(node, diagram, routes) for node in diagram.nodes if node.initial}
     artist = _DiagramRenderer(palette)
     groups = (
+        *(artist.frame(frame) for frame in diagram.frames),
         *(artist.edge(route) for route in routes if route.edge.edge_type != "transition"),
         *(artist.edge(route) for route in routes if route.edge.edge_type == "transition"),
         *(artist.node(node, corners.get(node.key)) for node in diagram.nodes),
@@ -89,6 +91,18 @@ def render_diagram(diagram: Diagram, *, title: str, doc: str = "", palette: Colo
 class _DiagramRenderer:
     def __init__(self, palette: ColorPalette) -> None:
         self.palette = palette
+
+    def frame(self, frame: FrameBox) -> ShapeGroup:
+        pal, rect = self.palette, frame.rect
+        size = Size(width=rect.right - rect.left, height=rect.bottom - rect.top)
+        center = (rect.left + size.width / 2, rect.top + size.height / 2)
+        outline = rounded_rect_path(center, size.width, size.height, 16)
+        at = (rect.left + FRAME_TITLE_INSET, rect.top + TITLE_HEIGHT / 2)
+        shapes = (
+            PathShape(commands=outline, fill=pal.frame_fill(frame.color), stroke=pal.plate_line),
+            TextShape(x=at[0], y=at[1], text=frame.label, fill=pal.muted, font=NAME_FONT),
+        )
+        return ShapeGroup(title=frame.title, css_class="frame", shapes=shapes, key=frame.key)
 
     def node(self, node: DiagramNode, initial: Corner | None) -> ShapeGroup:
         drawers = {"state": self._state, "component": self._component, "common": self._common, "note": self._note}
@@ -285,6 +299,9 @@ def _bounds(
             rects.append(marker_rect(node, corners[node.key]))
         xs += [x for rect in rects for x in (rect.left, rect.right)]
         ys += [y for rect in rects for y in (rect.top, rect.bottom)]
+    for frame in diagram.frames:
+        xs += [frame.rect.left, frame.rect.right]
+        ys += [frame.rect.top, frame.rect.bottom]
     for route in routes:
         for step in range(_SAMPLES + 1):
             x, y = point_on_curve(route.curve, step / _SAMPLES)

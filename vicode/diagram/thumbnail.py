@@ -1,9 +1,10 @@
 """A diagram for a card: complete if it is readable at that size, else only boxes and lines."""
 
-from vicode.diagram.diagram_model import Diagram, DiagramNode, build_diagram
+from vicode.diagram.diagram_model import Diagram, DiagramNode, FrameBox, build_diagram
 from vicode.diagram.palettes import DARK, LIGHT, ColorPalette
 from vicode.diagram.primitives import PathCommand, PathShape, ShapeGroup, VectorImage, polyline_path, rounded_rect_path
 from vicode.diagram.render import render_diagram
+from vicode.diagram.spatial_index import Rect
 from vicode.diagram.svg import write_svg
 from vicode.model.design import Design
 
@@ -24,27 +25,37 @@ def render_thumbnail(design: Design, *, dark: bool = False) -> str:
 
 def _outline(diagram: Diagram, title: str, palette: ColorPalette) -> VectorImage:
     """Boxes and straight lines, thick enough for the small scale."""
-    lefts = [node.center[0] - node.size.width / 2 for node in diagram.nodes]
-    rights = [node.center[0] + node.size.width / 2 for node in diagram.nodes]
-    ys = [node.center[1] for node in diagram.nodes]
-    left, width, top, height = min(lefts) - 30, max(rights) - min(lefts) + 60, min(ys) - 60, max(ys) - min(ys) + 120
+    rects = [Rect.from_center(node.center, node.size) for node in diagram.nodes]
+    rects += [frame.rect for frame in diagram.frames]
+    left, top = min(rect.left for rect in rects) - 30, min(rect.top for rect in rects) - 30
+    width, height = max(rect.right for rect in rects) + 30 - left, max(rect.bottom for rect in rects) + 30 - top
     pen = max(1.5, max(width, height) * _MIN_LINE_WIDTH)
     positions = {node.key: node.center for node in diagram.nodes}
     # With more states, only boxes are recognizable.
     shown = diagram.edges if len(diagram.edges) <= _MAX_EDGES else ()
     segments = sorted({tuple(sorted((positions[edge.source], positions[edge.target]))) for edge in shown})
     lines = tuple(step for segment in segments for step in polyline_path(segment))
-    shapes: list[PathShape] = [PathShape(commands=lines, stroke=palette.edge, width=pen)] if lines else []
+    shapes = [_outlined_frame(frame, palette, pen) for frame in diagram.frames]
+    shapes += [PathShape(commands=lines, stroke=palette.edge, width=pen)] if lines else []
     for node in diagram.nodes:
-        fill, stroke = {"common": (palette.common_fill, palette.common)}.get(
-            node.node_type, (palette.box, palette.box_line)
-        )
+        own = getattr(palette, f"color_{node.color}") if node.color else palette.box
+        fill, stroke = {
+            "common": (palette.common_fill, palette.common),
+            "note": (palette.color_yellow, palette.plate_line),
+        }.get(node.node_type, (own, palette.box_line))
         shape = rounded_rect_path(node.center, node.size.width, node.size.height, 12) if shown else _plain_box(node)
         shapes.append(PathShape(commands=shape, fill=palette.start if node.initial else fill, stroke=stroke, width=pen))
     group = ShapeGroup(title=title, css_class="outline", shapes=tuple(shapes))
     return VectorImage(
         title=title, doc="", left=left, top=top, width=width, height=height, background=palette.paper, groups=(group,)
     )
+
+
+def _outlined_frame(frame: FrameBox, palette: ColorPalette, pen: float) -> PathShape:
+    rect = frame.rect
+    corners = ((rect.left, rect.top), (rect.right, rect.top), (rect.right, rect.bottom), (rect.left, rect.bottom))
+    fill = palette.frame_fill(frame.color)
+    return PathShape(commands=polyline_path(corners, closed=True), fill=fill, stroke=palette.plate_line, width=pen)
 
 
 def _plain_box(node: DiagramNode) -> tuple[PathCommand, ...]:

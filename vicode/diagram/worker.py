@@ -16,7 +16,7 @@ from typing import Any, TextIO
 import graphviz  # type: ignore[import-untyped]
 
 from vicode.diagram.layout_dot import POINTS_PER_INCH, LayoutEffort, RankDirection, write_layout_dot
-from vicode.diagram.layout_graph import LayoutEdge, LayoutGraph, LayoutNode
+from vicode.diagram.layout_graph import LayoutCluster, LayoutEdge, LayoutGraph, LayoutNode
 
 try:
     import pygraphviz
@@ -68,6 +68,7 @@ def _answer(request: dict[str, Any]) -> dict[str, Any]:
     graph = LayoutGraph(
         nodes=tuple(LayoutNode(**node) for node in request["nodes"]),
         edges=tuple(LayoutEdge(**edge) for edge in request["edges"]),
+        clusters=tuple(map(_read_cluster, request["clusters"])),
     )
     _limit_run_time(request["timeout_s"])
     try:
@@ -76,6 +77,10 @@ def _answer(request: dict[str, Any]) -> dict[str, Any]:
         return {"error": str(error)}
     finally:
         _limit_run_time(0)
+
+
+def _read_cluster(cluster: dict[str, Any]) -> LayoutCluster:
+    return LayoutCluster(nodes=tuple(cluster["nodes"]), clusters=tuple(map(_read_cluster, cluster["clusters"])))
 
 
 def _run_library(text: str) -> str:

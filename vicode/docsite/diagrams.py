@@ -61,7 +61,7 @@ def draw_design(design: Design, addresses: SiteUrls) -> str:
     ends = {end for arrow in figure.edges for end in (arrow.source, arrow.target)}
     nodes = tuple(linked_node(node) for node in figure.nodes if node.node_type != "component" or node.key in ends)
     arrows = tuple(map(linked_arrow, figure.edges))
-    return _render_svg(Diagram(nodes=nodes, edges=arrows), f"State machine of {design.component}")
+    return _render_svg(replace(figure, nodes=nodes, edges=arrows), f"State machine of {design.component}")
 
 
 def draw_decision_tree(

@@ -97,6 +97,7 @@ _RECORDS = (
     ("D427", "outside-range", Severity.WARNING, "value outside the declared range"),
     ("D428", "unused-use", Severity.WARNING, "unused alias in uses"),
     ("D430", "no-effect", Severity.NOTE, "transition from a state to itself"),
+    ("D431", "bad-frame", Severity.WARNING, "frame without states or around an unknown state"),
     # XABSL as a target language
     ("L701", "not-in-xabsl", Severity.ERROR, "feature that XABSL does not support"),
     ("L702", "other-result-in-xabsl", Severity.ERROR, "expression with a different result in XABSL"),

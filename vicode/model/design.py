@@ -193,6 +193,15 @@ class DiagramNote:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class DiagramFrame:
+    """A rectangle around states in the diagram, without any effect; `name` is its title."""
+
+    name: str
+    color: str = ""
+    states: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Design:
     """The design of one component. Without `frequency_hz` it runs on every step."""
 
@@ -212,11 +221,15 @@ class Design:
     members: Code = field(default_factory=Code)
     common: CommonSection = field(default_factory=CommonSection)
     states: tuple[State, ...] = ()
+    frames: tuple[DiagramFrame, ...] = ()
     notes: tuple[DiagramNote, ...] = ()
 
     def state(self, name: str) -> State | None:
         """Return the first state with this name."""
         return next((state for state in self.states if state.name == name), None)
+
+    def frame(self, name: str) -> DiagramFrame | None:
+        return next((frame for frame in self.frames if frame.name == name), None)
 
     def use(self, alias: str) -> Use | None:
         return next((use for use in self.uses if use.alias == alias), None)

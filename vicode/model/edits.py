@@ -44,12 +44,6 @@ def update_state(design: Design, name: str, change: Callable[[State], State]) ->
     return replace(design, states=states)
 
 
-def set_color(design: Design, names: Collection[str], color: str) -> Design:
-    """Set the color of states; "" for none."""
-    states = tuple(replace(state, color=color) if state.name in names else state for state in design.states)
-    return replace(design, states=states)
-
-
 def rename_state(design: Design, old: str, new: str) -> Design:
     """Rename a state and update transitions to it. A state with code gets an id to keep its region marks valid."""
     if old == new or design.state(old) is None or design.state(new) is not None:
@@ -64,11 +58,15 @@ def rename_state(design: Design, old: str, new: str) -> Design:
         for state in design.states
     )
     common = replace(design.common, transitions=retarget(design.common.transitions, old, new))
-    return replace(design, states=states, common=common, initial=new if design.initial == old else design.initial)
+    frames = tuple(
+        replace(frame, states=tuple(new if name == old else name for name in frame.states)) for frame in design.frames
+    )
+    initial = new if design.initial == old else design.initial
+    return replace(design, states=states, common=common, frames=frames, initial=initial)
 
 
 def remove_states(design: Design, names: Collection[str]) -> Design:
-    """Remove states and the transitions to them."""
+    """Remove states, the transitions to them, and the frames that have no other states."""
     states = tuple(
         replace(state, transitions=drop_targets(state.transitions, names))
         for state in design.states
@@ -78,7 +76,11 @@ def remove_states(design: Design, names: Collection[str]) -> Design:
     initial = design.initial
     if initial in names:
         initial = states[0].name if states else ""
-    return replace(design, states=states, common=common, initial=initial)
+    reduced = (
+        replace(frame, states=tuple(name for name in frame.states if name not in names)) for frame in design.frames
+    )
+    frames = tuple(new for new, old in zip(reduced, design.frames, strict=True) if new.states or not old.states)
+    return replace(design, states=states, common=common, frames=frames, initial=initial)
 
 
 def reorder_state(design: Design, name: str, to_index: int) -> Design:
@@ -89,15 +91,6 @@ def reorder_state(design: Design, name: str, to_index: int) -> Design:
     rest = [other for other in design.states if other is not state]
     rest.insert(max(0, min(to_index, len(rest))), state)
     return replace(design, states=tuple(rest))
-
-
-def move_notes(design: Design, places: Mapping[str, Point]) -> Design:
-    """Set the centers of notes."""
-    return replace(design, notes=tuple(replace(note, at=places.get(note.name, note.at)) for note in design.notes))
-
-
-def remove_notes(design: Design, names: Collection[str]) -> Design:
-    return replace(design, notes=tuple(note for note in design.notes if note.name not in names))
 
 
 def move_nodes(

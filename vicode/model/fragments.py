@@ -12,6 +12,8 @@ from vicode.model.design import (
     Decision,
     DecisionGroup,
     Design,
+    DiagramFrame,
+    DiagramNote,
     Point,
     RunCode,
     State,
@@ -25,25 +27,31 @@ from vicode.model.traversal import find_decision, iter_actions, iter_decisions, 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FragmentSelection:
-    """The part of a design to extract: state names, decision paths, aliases, and the common section."""
+    """The part of a design to extract: names of states, frames and notes, decision paths, aliases, and the common
+    section.
+    """
 
     states: Collection[str] = ()
     decisions: Collection[DesignPath] = ()
     aliases: Collection[str] = ()
+    frames: Collection[str] = ()
+    notes: Collection[str] = ()
     common: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertResult:
-    """A design with an inserted fragment, the new names of its states, and unavailable components."""
+    """A design with an inserted fragment, the new names of its states, frames and notes, and unavailable components."""
 
     design: Design
     states: tuple[str, ...] = ()
+    frames: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
     missing: tuple[str, ...] = ()
 
 
 def extract_fragment(design: Design, selection: FragmentSelection) -> Design:
-    """Extract states with the components that they refer to.
+    """Extract states with the components that they refer to, frames around these states, and notes.
 
     Without states, the selected decisions are extracted as common transitions.
     """
@@ -54,7 +62,9 @@ def extract_fragment(design: Design, selection: FragmentSelection) -> Design:
         common = CommonSection(transitions=tuple(item.decision for item in located if item is not None))
     part = Design(component=design.component, common=common, states=states)
     uses = tuple(use for use in design.uses if use.alias in selection.aliases or _references_alias(part, use.alias))
-    return replace(part, uses=uses)
+    frames = _frames_around([frame for frame in design.frames if frame.name in selection.frames], states)
+    notes = tuple(note for note in design.notes if note.name in selection.notes)
+    return replace(part, uses=uses, frames=frames, notes=notes)
 
 
 def insert_fragment(
@@ -83,7 +93,14 @@ def insert_fragment(
         *(action for action in fragment.common.actions if action not in design.common.actions),
     )
     design = replace(design, common=replace(design.common, actions=actions, at=design.common.at or fragment.common.at))
-    return InsertResult(design=design, states=tuple(state.name for state in fragment.states), missing=missing)
+    frames, notes = _unique_frames(design, fragment), _unique_notes(design, fragment, offset)
+    return InsertResult(
+        design=replace(design, frames=(*design.frames, *frames), notes=(*design.notes, *notes)),
+        states=tuple(state.name for state in fragment.states),
+        frames=tuple(frame.name for frame in frames),
+        notes=tuple(note.name for note in notes),
+        missing=missing,
+    )
 
 
 def append_decisions(
@@ -132,6 +149,31 @@ def _insert_uses(
     return design, part, tuple(missing)
 
 
+def _frames_around(frames: Iterable[DiagramFrame], states: Iterable[State]) -> tuple[DiagramFrame, ...]:
+    """The frames without other states than these; none that would be empty."""
+    known = {state.name for state in states}
+    parts = (replace(frame, states=tuple(name for name in frame.states if name in known)) for frame in frames)
+    return tuple(part for part in parts if part.states)
+
+
+def _unique_frames(design: Design, part: Design) -> list[DiagramFrame]:
+    taken = {frame.name for frame in design.frames}
+    frames = []
+    for frame in _frames_around(part.frames, part.states):
+        frames.append(replace(frame, name=unique_name(frame.name, taken)))
+        taken.add(frames[-1].name)
+    return frames
+
+
+def _unique_notes(design: Design, part: Design, offset: Point) -> list[DiagramNote]:
+    taken = {note.name for note in design.notes}
+    notes = []
+    for note in part.notes:
+        notes.append(replace(note, name=unique_name(note.name, taken), at=_translated(note.at, offset)))
+        taken.add(notes[-1].name)
+    return notes
+
+
 def _with_unique_names(design: Design, part: Design) -> Design:
     """Rename states whose names are taken. A number at the end of a name is incremented."""
     taken = {state.name for state in design.states} | {state.id for state in design.states}
@@ -147,7 +189,10 @@ def _with_unique_names(design: Design, part: Design) -> Design:
         for state in part.states
     )
     common = replace(part.common, transitions=retarget_all(part.common.transitions, names))
-    return replace(part, states=tuple(states), common=common)
+    frames = tuple(
+        replace(frame, states=tuple(names.get(name, name) for name in frame.states)) for frame in part.frames
+    )
+    return replace(part, states=tuple(states), common=common, frames=frames)
 
 
 def _numbered_name(stem: str, taken: Collection[str]) -> str:

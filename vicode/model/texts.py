@@ -13,6 +13,7 @@ from vicode.model.design import (
     DecisionGroup,
     Declaration,
     Design,
+    DiagramNote,
     RunCode,
     State,
     Stay,
@@ -68,6 +69,8 @@ def _iter_docs(design: Design) -> Iterator[tuple[DesignPath, str]]:
         yield ("states", state.name, "doc"), state.doc
     for located in iter_decisions(design):
         yield (*located.path, "doc"), located.decision.doc
+    for note in design.notes:
+        yield ("notes", note.name, "text"), note.text
 
 
 # Path keys that differ from attribute names.
@@ -102,7 +105,7 @@ def _rewrite_item(item: Any, at: int, path: DesignPath, rewrite: Rewrite) -> Any
     """Rewrite a list item if the first key is its index or name."""
     key, rest = path[0], path[1:]
     match item:
-        case State(name=name) | Declaration(name=name) if isinstance(key, str):
+        case State(name=name) | Declaration(name=name) | DiagramNote(name=name) if isinstance(key, str):
             return _rewrite(item, rest, rewrite) if name == key else item
         case Call(alias=alias, arguments=arguments) if isinstance(key, str):
             # In `modulates`, parameters follow the alias directly.

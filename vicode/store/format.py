@@ -14,6 +14,7 @@ from vicode.model.design import (
     DecisionGroup,
     Declaration,
     Design,
+    DiagramFrame,
     DiagramNote,
     Guard,
     RunCode,
@@ -64,6 +65,7 @@ DOC_KEY = KeySchema("doc", TEXT, "description; becomes the docstring of generate
 XABSL_NAME_KEY = KeySchema("xabsl_name", TEXT, "name in XABSL")
 _ID = KeySchema("id", NAME, "identifier that does not change with edits; written by the editor")
 _POSITION = KeySchema("at", POSITION, "center on the canvas")
+_COLOR = KeySchema("color", ScalarSchema(scalar_type=ScalarType.NAME, choices=STATE_COLORS), "color in diagrams")
 FREQUENCY_KEY = KeySchema("frequency", FREQUENCY, "frequency in Hz; default: runs on every step", field="frequency_hz")
 
 
@@ -220,7 +222,7 @@ STATE = RecordSchema(
     keys=(
         DOC_KEY,
         _POSITION,
-        KeySchema("color", ScalarSchema(scalar_type=ScalarType.NAME, choices=STATE_COLORS), "color in diagrams"),
+        _COLOR,
         KeySchema("final", FLAG, "final state: the component reports that it is done", default=False),
         KeySchema(
             "capacity", COUNT, "maximum number of robots of a team in the state at the same time", keeps_empty=True
@@ -264,6 +266,15 @@ NOTE = RecordSchema(
     shorthand_key="text",
     flow_width=FLOW_WIDTH,
     keys=(KeySchema("text", TEXT, "the text, with line breaks"), _POSITION),
+)
+FRAME = RecordSchema(
+    name="frame",
+    description="the states of a frame",
+    model=DiagramFrame,
+    shorthand_key="states",
+    flow_width=FLOW_WIDTH,
+    synonyms={"colour": "color"},
+    keys=(_COLOR, KeySchema("states", NAMES, "the states around which it is drawn")),
 )
 
 DESIGN = RecordSchema(
@@ -312,6 +323,11 @@ DESIGN = RecordSchema(
             "states by name, in display order",
         ),
         KeySchema(
+            "frames",
+            MapSchema(description="a mapping of titles to frames", value_schema=FRAME, name_field="name"),
+            "frames around states in the diagram, by title",
+        ),
+        KeySchema(
             "notes",
             MapSchema(description="a mapping of names to notes", value_schema=NOTE, name_field="name"),
             "texts in the diagram; the names only identify them",
@@ -319,4 +335,4 @@ DESIGN = RecordSchema(
     ),
 )
 
-DESIGN_RECORDS = (DESIGN, STATE, NOTE, COMMON, DECISION, ACTION, USE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT)
+DESIGN_RECORDS = (DESIGN, STATE, FRAME, NOTE, COMMON, DECISION, ACTION, USE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT)

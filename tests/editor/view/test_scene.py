@@ -90,8 +90,8 @@ def test_a_diff_lists_changed_and_removed_items() -> None:
     old = make_scene(PROJECT, DESIGN, (), 0)
     assert diff_scenes(old, old) == {
         "rev": 0,
-        "upsert": {"states": [], "transitions": [], "components": [], "links": [], "notes": []},
-        "remove": {"states": [], "transitions": [], "components": [], "links": [], "notes": []},
+        "upsert": {"states": [], "transitions": [], "components": [], "links": [], "frames": [], "notes": []},
+        "remove": {"states": [], "transitions": [], "components": [], "links": [], "frames": [], "notes": []},
     }
     new = make_scene(PROJECT, move_nodes(rename_state(DESIGN, "B", "C"), {"A": (5, 5)}), (), 1)
     changes = diff_scenes(old, new)

@@ -13,6 +13,7 @@ from vicode.model.design import (
     DecisionGroup,
     Declaration,
     Design,
+    DiagramFrame,
     Guard,
     State,
     Stay,
@@ -169,3 +170,15 @@ def test_only_equal_designs_have_no_differences(old: Design, new: Design) -> Non
 @given(projects, projects)
 def test_only_equal_projects_have_no_differences(old: Project, new: Project) -> None:
     assert bool(diff_projects(old, new)) == (old != new)
+
+
+def test_frames_are_compared() -> None:
+    old = Design(component="A", frames=(DiagramFrame(name="Near", states=("S",)), DiagramFrame(name="Far")))
+    new = Design(
+        component="A",
+        frames=(DiagramFrame(name="Close", states=("S",)), DiagramFrame(name="Far", color="red", states=("S", "T"))),
+    )
+    renamed, colored, filled = diff_designs(old, new)
+    assert (renamed.kind, renamed.subject, renamed.old) == (ChangeKind.RENAMED, "frame Close", "Near")
+    assert (colored.attribute, colored.new) == ("color", "red")
+    assert (filled.path, filled.new) == (("frames", "Far", "states"), "S, T")

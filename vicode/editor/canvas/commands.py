@@ -37,9 +37,10 @@ class CanvasCommand:
 
 
 _ARROWS = ("ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown")
-_NODES = ("states", "components", "several")
+_NODES = ("states", "components", "frames", "notes", "several")
 _STATES_AND_TRANSITIONS = ("states", "transitions", "several")
-_DELETABLE = (*_STATES_AND_TRANSITIONS, "components", "links", "notes")
+_COPYABLE = (*_STATES_AND_TRANSITIONS, "frames", "notes")
+_DELETABLE = (*_COPYABLE, "components", "links")
 
 
 def _with_arrows(*held: str) -> tuple[str, ...]:
@@ -52,6 +53,8 @@ CANVAS_COMMANDS = (
     CanvasCommand("new-state", "New state", _CREATE, ("S",), menus=("nothing",)),
     CanvasCommand("use", "Add component…", _CREATE, ("U",), menus=("nothing",)),
     CanvasCommand("new-note", "Add note", _CREATE, ("M",), menus=("nothing",)),
+    CanvasCommand("frame", "Frame selection", _CREATE, ("G",), menus=("states", "several")),
+    CanvasCommand("frame-states", "Frame states…", _CREATE, menus=("nothing",)),
     CanvasCommand("new-target", "Add transition to new state", _CREATE, ("N",), menus=("states", "common")),
     CanvasCommand("connect", "Connect to…", _CREATE, ("T",), menus=("states", "components", "common")),
     CanvasCommand("finish-connection", "Finish connection", _CREATE, ("Enter",)),
@@ -59,7 +62,7 @@ CANVAS_COMMANDS = (
     CanvasCommand("open-design", "Open design", _MODIFY, ("Enter",), menus=("components",)),
     CanvasCommand("open-note", "Edit note", _MODIFY, ("Enter",), menus=("notes",)),
     CanvasCommand("open-common", "Edit common transitions and actions", _MODIFY, ("Enter",), menus=("common",)),
-    CanvasCommand("rename", "Rename", _MODIFY, ("F2", "Enter"), menus=("states", "components")),
+    CanvasCommand("rename", "Rename", _MODIFY, ("F2", "Enter"), menus=("states", "components", "frames")),
     CanvasCommand("initial", "Set as initial state", _MODIFY, ("I",), menus=("states",)),
     CanvasCommand("final", "Toggle final", _MODIFY, ("F",), menus=("states",)),
     CanvasCommand("disable", "Disable or enable", _MODIFY, ("D",), menus=_STATES_AND_TRANSITIONS),
@@ -70,10 +73,10 @@ CANVAS_COMMANDS = (
     CanvasCommand("reset-label", "Reset label position", _MODIFY, menus=("transitions",)),
     CanvasCommand("undo", "Undo", _EDIT, ("Ctrl+Z",)),
     CanvasCommand("redo", "Redo", _EDIT, ("Ctrl+Shift+Z", "Ctrl+Y")),
-    CanvasCommand("cut", "Cut", _EDIT, ("Ctrl+X",), menus=_STATES_AND_TRANSITIONS),
-    CanvasCommand("copy", "Copy", _EDIT, ("Ctrl+C",), menus=(*_STATES_AND_TRANSITIONS, "common")),
+    CanvasCommand("cut", "Cut", _EDIT, ("Ctrl+X",), menus=_COPYABLE),
+    CanvasCommand("copy", "Copy", _EDIT, ("Ctrl+C",), menus=(*_COPYABLE, "common")),
     CanvasCommand("paste", "Paste", _EDIT, ("Ctrl+V",), menus=(*_STATES_AND_TRANSITIONS, "common", "nothing")),
-    CanvasCommand("duplicate", "Duplicate", _EDIT, ("Ctrl+D",), menus=_STATES_AND_TRANSITIONS),
+    CanvasCommand("duplicate", "Duplicate", _EDIT, ("Ctrl+D",), menus=_COPYABLE),
     CanvasCommand(
         "delete", "Delete", _EDIT, ("Delete", "Backspace"), menus=_DELETABLE
     ),
@@ -115,13 +118,17 @@ CANVAS_COMMANDS = (
 )  # fmt: skip
 
 GESTURE_HELP = (
-    ("Double-click", "new state; on a state: rename; on a transition: edit guard; on a component: open design"),
+    (
+        "Double-click",
+        "new state; on a state or a frame's title: rename; on a transition: edit guard; on a component: open design",
+    ),
     (
         "Drag from the edge of a state",
         "new transition; dropped on empty space: also a new state; dropped on a component: link",
     ),
     ("Drag an end of a selected transition", "change source or target"),
     ("Drag a label", "move the label; dropped on another label of the same state: change priority"),
+    ("Drag the title of a frame", "move the frame with everything inside"),
     ("Drag a node", "move; snaps to other nodes unless Alt is held"),
     ("Drag on empty space", "select; Shift or Ctrl adds to the selection"),
     ("Shift+click or Ctrl+click", "add to or remove from the selection"),

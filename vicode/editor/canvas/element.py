@@ -24,7 +24,7 @@ from vicode.editor.session.decoding import MalformedEventError
 from vicode.editor.session.gestures import NodePosition
 from vicode.editor.view import ItemRef
 
-_KINDS = ("states", "transitions", "components", "links", "notes")
+_KINDS = ("states", "transitions", "components", "links", "frames", "notes")
 
 
 class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):

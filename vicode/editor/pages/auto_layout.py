@@ -133,6 +133,8 @@ def _node_positions(design: Design, layout: NodeLayout, only: Collection[str] | 
     for name, (x, y) in layout.states.items():
         if only is None or name in only:
             yield NodePosition(kind="states", id=name, x=x, y=y)
+    for name, (x, y) in layout.notes.items():
+        yield NodePosition(kind="notes", id=name, x=x, y=y)
     if only is not None:
         return
     for alias, (x, y) in layout.uses.items():

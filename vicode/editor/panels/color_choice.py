@@ -1,4 +1,4 @@
-"""Buttons that set the color of states."""
+"""Buttons that set the color of states and frames."""
 
 from collections.abc import Callable, Collection
 from functools import partial
@@ -6,23 +6,27 @@ from functools import partial
 from nicegui import ui
 
 from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.view import ItemKind, ItemRef
 from vicode.model.design import STATE_COLORS
-from vicode.model.edits import set_color
+from vicode.model.diagram_edits import set_color
 
 
-def color_choice(context: WindowContext, list_names: Callable[[], Collection[str]]) -> Callable[[], None]:
-    """Build the buttons for the states with these names; return a function that shows the current color."""
+def color_choice(context: WindowContext, list_items: Callable[[], Collection[ItemRef]]) -> Callable[[], None]:
+    """Build the buttons for these states and frames; return a function that shows the current color."""
 
     def choose(color: str) -> None:
-        names = frozenset(list_names())
-        context.edit(
-            f"color {'a state' if len(names) == 1 else f'{len(names)} states'}",
-            lambda design: set_color(design, names, color),
-        )
+        states, frames = names("states"), names("frames")
+        count = len(states) + len(frames)
+        what = f"{count} items" if count > 1 else "a frame" if frames else "a state"
+        context.edit(f"color {what}", lambda design: set_color(design, states, frames, color))
+
+    def names(kind: ItemKind) -> frozenset[str]:
+        return frozenset(item.id for item in list_items() if item.kind == kind)
 
     def show() -> None:
-        names = list_names()
-        used = {state.color for state in context.design.states if state.name in names}
+        states, frames = names("states"), names("frames")
+        used = {state.color for state in context.design.states if state.name in states}
+        used |= {frame.color for frame in context.design.frames if frame.name in frames}
         for color, button in buttons.items():
             pressed = str(used == {color}).lower()
             if button.props.get("aria-pressed") != pressed:

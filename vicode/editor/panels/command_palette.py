@@ -26,6 +26,8 @@ _ICONS = {
     SearchKind.USE: "hexagon",
     SearchKind.DECLARATION: "data_object",
     SearchKind.TRANSITION: "trending_flat",
+    SearchKind.FRAME: "crop_free",
+    SearchKind.NOTE: "sticky_note_2",
 }
 _MAX_DETAIL_LENGTH = 160
 

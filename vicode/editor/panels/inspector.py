@@ -5,6 +5,7 @@ from nicegui import ui
 from vicode.editor.panels.decision_panel import decision_panel
 from vicode.editor.panels.design_panel import common_panel, design_panel
 from vicode.editor.panels.form import Form, RemovedTexts, Rows
+from vicode.editor.panels.frame_panel import frame_panel
 from vicode.editor.panels.multi_selection_panel import multi_selection_panel
 from vicode.editor.panels.note_panel import note_panel
 from vicode.editor.panels.state_panel import state_panel
@@ -65,6 +66,8 @@ class Inspector:
                 interface = project.interface(use.component) if use else None
                 is_designed = use is not None and project.design(use.component) is not None
                 return use and (use.component, interface if is_designed else interface is not None)
+            case ItemRef(kind="frames", id=name):
+                return "frame" if context.design.frame(name) is not None else None
             case ItemRef(kind="notes", id=name):
                 return ("note", name) if any(note.name == name for note in context.design.notes) else None
             case _:
@@ -88,6 +91,8 @@ class Inspector:
                 link_panel(context, key)
             case ItemRef(kind="common"):
                 common_panel(form)
+            case ItemRef(kind="frames", id=name):
+                frame_panel(form, name)
             case ItemRef(kind="notes", id=name):
                 note_panel(form, name)
             case _:

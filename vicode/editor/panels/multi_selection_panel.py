@@ -15,6 +15,7 @@ _NOUNS = {
     "components": ("component", "components"),
     "links": ("link", "links"),
     "common": ("common part", "common parts"),
+    "frames": ("frame", "frames"),
     "notes": ("note", "notes"),
 }
 _ALIGN = (
@@ -50,8 +51,8 @@ def multi_selection_panel(context: WindowContext) -> None:
         _row(context, _DISTRIBUTE)
     heading("Edit")
     _row(context, _EDIT)
-    if counts["states"]:
-        color_choice(context, lambda: [item.id for item in context.selected if item.kind == "states"])
+    if counts["states"] or counts["frames"]:
+        color_choice(context, lambda: context.selected)
 
 
 def _row(context: WindowContext, buttons: tuple[tuple[str, str, str], ...]) -> None:

@@ -5,7 +5,7 @@ from nicegui import ui
 from vicode.editor.panels.fields import Attribute, FieldKind, attribute_field
 from vicode.editor.panels.form import Form
 from vicode.editor.panels.widgets import panel_title
-from vicode.model.edits import remove_notes
+from vicode.model.diagram_edits import remove_notes
 
 _TEXT = Attribute(label="Text", name="text", kind=FieldKind.LONG_TEXT)
 

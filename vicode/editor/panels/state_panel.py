@@ -31,6 +31,7 @@ from vicode.editor.panels.name_field import name_field, node_renamer
 from vicode.editor.panels.widgets import heading, panel_title
 from vicode.editor.session import number_text
 from vicode.editor.session.item_paths import TrackedItem
+from vicode.editor.view import ItemRef
 from vicode.model.design import Call, Design, State
 
 _NAME = Attribute(label="State", name="name")
@@ -75,7 +76,9 @@ def state_panel(form: Form, name: str) -> None:
         _initial(form, item)
         for attribute in _FLAGS:
             attribute_field(form, item, attribute)
-    form.on_refresh(color_choice(form.context, lambda: [state.name] if (state := item.get()) else []))
+    form.on_refresh(
+        color_choice(form.context, lambda: [ItemRef(kind="states", id=state.name)] if (state := item.get()) else [])
+    )
 
     def build_team() -> None:
         with ui.element("div").classes("field-row"):

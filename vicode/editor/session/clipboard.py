@@ -4,15 +4,16 @@ The system clipboard holds them as the text of a design file that contains only 
 """
 
 import re
+from collections import defaultdict
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from vicode.diagram.layered_layout import complete_layout
+from vicode.diagram.layered_layout import complete_layout, note_position
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.edits import EditResult
-from vicode.editor.view import ItemRef, parse_transition_key, transition_key
+from vicode.editor.view import ItemKind, ItemRef, parse_transition_key, transition_key
 from vicode.findings import Severity
 from vicode.model.design import Design, Point
 from vicode.model.fragments import (
@@ -29,14 +30,14 @@ from vicode.store import read_design, save_design
 
 MAX_CHARACTERS = 400_000
 _HEAD = "vicode: 1\ncomponent: Part\n"
-_SECTION = re.compile(r"^(states|common|uses) *:", re.MULTILINE)
+_SECTION = re.compile(r"^(states|common|uses|notes) *:", re.MULTILINE)
 _PASTE_OFFSET = (40, 90)
 _GRID = 10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DuplicateGesture:
-    """Duplicate states at a small offset, or else transitions."""
+    """Duplicate states, frames and notes at a small offset, or else transitions."""
 
     kind: ClassVar = "duplicate"
     items: tuple[ItemRef, ...]
@@ -45,9 +46,9 @@ class DuplicateGesture:
         design = document.design
         wanted = _parse_selection(self.items)
         part = _with_positions(extract_fragment(design, replace(wanted, common=False, aliases=())), design)
-        if part.states:
+        if part.states or part.notes:
             joined = insert_fragment(design, part, available=(), offset=_free_offset(design, part, _PASTE_OFFSET))
-            document.edit(texts.insert_states("duplicate", joined.states), lambda _design: joined.design)
+            document.edit(texts.insert_items("duplicate", joined.states, joined.notes), lambda _design: joined.design)
             return _select_inserted(joined)
         paths = sorted((path for path in wanted.decisions if find_decision(design, path)), key=str, reverse=True)
         if not paths:
@@ -69,7 +70,7 @@ class DuplicateGesture:
 def copy_as_text(design: Design, items: Iterable[ItemRef]) -> str | None:
     """The selected items as text; None if none of them can be copied."""
     part = _with_positions(extract_fragment(design, _parse_selection(items)), design)
-    if not part.states and not part.common.transitions:
+    if not part.states and not part.common.transitions and not part.notes:
         return None
     try:
         return save_design(part)
@@ -94,17 +95,17 @@ def paste(
     if isinstance(part, str):
         return EditResult(error=part)
     design = document.design
-    if not part.states and part.common.at is None:
+    if not part.states and not part.notes and part.common.at is None:
         return _paste_decisions(
             document, part, known_components, [target.id for target in targets if target.kind == "states"]
         )
     positioned = _with_positions(part, part)
-    middle = _middle([state.at for state in positioned.states if state.at is not None])
+    middle = _middle(_points(positioned))
     by = (_to_grid(at[0] - middle[0]), _to_grid(at[1] - middle[1]))
     joined = insert_fragment(
         design, positioned, available=known_components, offset=_free_offset(design, positioned, by)
     )
-    document.edit(texts.insert_states("paste", joined.states), lambda _design: joined.design)
+    document.edit(texts.insert_items("paste", joined.states, joined.notes), lambda _design: joined.design)
     return _select_inserted(joined)
 
 
@@ -130,17 +131,19 @@ def _read_part(text: str) -> Design | str:
     wrong += [use.alias for use in design.uses if not is_valid_name(use.alias)]
     if wrong:
         return f"{texts.NOTHING_TO_PASTE}: {texts.invalid_name(wrong[0])}"
-    return design if design.states or design.common.transitions else texts.NOTHING_TO_PASTE
+    return design if design.states or design.common.transitions or design.notes else texts.NOTHING_TO_PASTE
 
 
 def _parse_selection(items: Iterable[ItemRef]) -> FragmentSelection:
-    named: dict[str, list[str]] = {"states": [], "transitions": [], "components": [], "links": [], "common": []}
+    named: defaultdict[str, list[str]] = defaultdict(list)
     for item in items:
-        named.setdefault(item.kind, []).append(item.id)
+        named[item.kind].append(item.id)
     return FragmentSelection(
         states=named["states"],
         decisions=[parse_transition_key(key) for key in named["transitions"]],
         aliases=named["components"],
+        frames=named["frames"],
+        notes=named["notes"],
         common=bool(named["common"]),
     )
 
@@ -150,15 +153,24 @@ def _with_positions(part: Design, design: Design) -> Design:
     layout = complete_layout(design)
     states = (replace(state, at=_rounded(layout.states[state.name])) for state in part.states)
     uses = (replace(use, at=_rounded(layout.uses[use.alias])) for use in part.uses)
-    return replace(part, states=tuple(states), uses=tuple(uses))
+    order = {note.name: index for index, note in enumerate(design.notes)}
+    notes = (replace(note, at=_rounded(note_position(note, order[note.name]))) for note in part.notes)
+    return replace(part, states=tuple(states), uses=tuple(uses), notes=tuple(notes))
 
 
 def _free_offset(design: Design, part: Design, by: Point) -> Point:
-    """The first offset, in steps from `by`, at which no pasted state covers another exactly."""
+    """The first offset, in steps from `by`, at which no pasted state or note covers another exactly."""
     taken = {_rounded(at) for at in complete_layout(design).states.values()}
-    while any(state.at is not None and (state.at[0] + by[0], state.at[1] + by[1]) in taken for state in part.states):
+    taken |= {_rounded(note.at) for note in design.notes if note.at}
+    while any((x + by[0], y + by[1]) in taken for x, y in _points(part)):
         by = (by[0] + _PASTE_OFFSET[0], by[1] + _PASTE_OFFSET[1])
     return by
+
+
+def _points(part: Design) -> list[Point]:
+    """The centers of states and notes."""
+    points = (*(state.at for state in part.states), *(note.at for note in part.notes))
+    return [at for at in points if at is not None]
 
 
 def _middle(points: list[Point]) -> Point:
@@ -178,4 +190,10 @@ def _to_grid(value: float) -> float:
 
 def _select_inserted(joined: InsertResult) -> EditResult:
     note = texts.missing_components(dict.fromkeys(joined.missing))
-    return EditResult(new_selection=tuple(ItemRef(kind="states", id=name) for name in joined.states), note=note)
+    inserted: tuple[tuple[ItemKind, tuple[str, ...]], ...] = (
+        ("states", joined.states),
+        ("frames", joined.frames),
+        ("notes", joined.notes),
+    )
+    selection = tuple(ItemRef(kind=kind, id=name) for kind, names in inserted for name in names)
+    return EditResult(new_selection=selection, note=note)

@@ -23,14 +23,13 @@ from vicode.editor.session.edits import (
 from vicode.editor.session.transition_gestures import ConnectGesture, LabelGesture, ReconnectGesture, ReorderGesture
 from vicode.editor.view import ItemKind, ItemRef, parse_transition_key
 from vicode.model.design import Design, DiagramNote, Point
+from vicode.model.diagram_edits import add_frame, move_notes, remove_frames, remove_notes, rename_frame
 from vicode.model.edits import (
     add_modulation,
     add_requirement,
     move_nodes,
-    move_notes,
     remove_decisions,
     remove_link,
-    remove_notes,
     remove_states,
     remove_uses,
     rename_state,
@@ -108,14 +107,34 @@ class NoteGesture:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class FrameGesture:
+    """Draw a frame around states, and select it; without a title it gets one."""
+
+    kind: ClassVar = "frame"
+    states: tuple[StateName, ...]
+    title: str = ""
+
+    def apply(self, document: DocumentSession) -> EditResult:
+        known = [name for name in dict.fromkeys(self.states) if document.design.state(name) is not None]
+        if not known:
+            raise EditError(texts.SELECT_TO_FRAME)
+        wanted = _title(self.title) or "Frame"
+        title = unique_name(wanted, {frame.name for frame in document.design.frames})
+        document.edit(f"add frame {title}", lambda design: add_frame(design, title, known))
+        return EditResult(new_selection=(ItemRef(kind="frames", id=title),))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RenameGesture:
-    """Rename a state or a component's alias. The name may be taken or invalid."""
+    """Rename a state, a component's alias or a frame. The name may be taken or invalid."""
 
     kind: ClassVar = "rename"
     item: ItemRef
     name: str
 
     def apply(self, document: DocumentSession) -> EditResult:
+        if self.item.kind == "frames":
+            return self._rename_frame(document)
         old, new, design = self.item.id, self.name.strip(), document.design
         is_use = self.item.kind == "components"
         if not is_use:
@@ -132,6 +151,15 @@ class RenameGesture:
         key = "" if is_use else naming_key(document, old)
         label = texts.add_state(new) if key else texts.rename(old, new)
         document.edit(label, lambda design: rename(design, old, new), coalesce_key=key)
+        return EditResult(new_selection=(replace(self.item, id=new),))
+
+    def _rename_frame(self, document: DocumentSession) -> EditResult:
+        old, new, design = self.item.id, _title(self.name), document.design
+        if old == new:
+            return EditResult()
+        if not new or design.frame(new) is not None or design.frame(old) is None:
+            raise EditError(texts.name_exists("frame", new) if new else texts.FRAME_WITHOUT_TITLE)
+        document.edit(texts.rename(old, new), lambda design: rename_frame(design, old, new))
         return EditResult(new_selection=(replace(self.item, id=new),))
 
 
@@ -152,6 +180,7 @@ class DeleteGesture:
             smaller = remove_decisions(design, paths)
             for kind, state, alias in links:
                 smaller = remove_link(smaller, state, alias, modulates=kind == "modulates")
+            smaller = remove_frames(smaller, _ids(self.items, "frames"))
             smaller = remove_uses(remove_notes(smaller, _ids(self.items, "notes")), _ids(self.items, "components"))
             return remove_states(smaller, _ids(self.items, "states"))
 
@@ -228,6 +257,7 @@ EDIT_GESTURES: tuple[type[RequestedEdit], ...] = (
     MoveGesture,
     CreateGesture,
     NoteGesture,
+    FrameGesture,
     RenameGesture,
     DeleteGesture,
     DisableGesture,
@@ -243,11 +273,17 @@ EDIT_GESTURES: tuple[type[RequestedEdit], ...] = (
 
 
 def apply_layout(design: Design, layout: NodeLayout, only: Collection[str] | None) -> Design:
-    """Move all nodes, or `only` some states, to the positions of a layout."""
+    """Move all nodes, or `only` some states with their notes, to the positions of a layout."""
+    design = move_notes(design, layout.notes)
     if only is not None:
         return move_nodes(design, {name: point for name, point in layout.states.items() if name in only})
     has_common = design.common.transitions or design.common.actions
     return move_nodes(design, layout.states, layout.uses, layout.common if has_common else None)
+
+
+def _title(text: str) -> str:
+    """The title of a frame: one line, up to the length of a name."""
+    return " ".join(text.split())[: texts.MAX_NAME_LENGTH]
 
 
 def _alias_error(design: Design, alias: str) -> str:

@@ -96,6 +96,8 @@ def rebase_path(path: DesignPath, old: Any, new: Any) -> DesignPath | None:
     def rename(section: str, name: str) -> str:
         if section == "notes":
             return name if any(note.name == name for note in new.notes) else ""
+        if section == "frames":
+            return renamed_frame(name, old, new)
         return (renamed_state if section == "states" else renamed_use)(name, old, new)
 
     return _rebase(path, old, new, rename)
@@ -109,6 +111,15 @@ def renamed_state(name: str, old: Design, new: Design) -> str:
 def renamed_use(alias: str, old: Design, new: Design) -> str:
     """The alias of a used component in a newer design; "" if it no longer exists."""
     return alias if new.use(alias) is not None else find_renamed_uses(old, new).get(alias, "")
+
+
+def renamed_frame(name: str, old: Design, new: Design) -> str:
+    """The title of a frame in a newer design; "" if it no longer exists."""
+    frame = old.frame(name)
+    if new.frame(name) is not None or frame is None:
+        return name
+    added = (each for each in new.frames if old.frame(each.name) is None)
+    return next((each.name for each in added if replace(each, name=name) == frame), "")
 
 
 def _rebase(path: DesignPath, old: Any, new: Any, rename: Rename) -> DesignPath | None:

@@ -5,7 +5,7 @@ from functools import cache
 from typing import Annotated, Any, TypeVar, cast, get_args, get_origin, get_type_hints
 
 from vicode.editor.session.gestures import NodePosition
-from vicode.editor.session.item_paths import rebase_path, renamed_state, renamed_use
+from vicode.editor.session.item_paths import rebase_path, renamed_frame, renamed_state, renamed_use
 from vicode.editor.view import ItemKind, ItemRef, parse_transition_key, transition_key
 from vicode.model.design import COMMON, Design
 
@@ -23,6 +23,9 @@ def rebase_selection(item: ItemRef, old: Design, new: Design) -> ItemRef | None:
         case "components":
             alias = renamed_use(item.id, old, new)
             return ItemRef(kind="components", id=alias) if alias else None
+        case "frames":
+            title = renamed_frame(item.id, old, new)
+            return ItemRef(kind="frames", id=title) if title else None
         case "links":
             kind, state, alias = (*item.id.split("/"), "", "")[:3]
             parts = (kind, renamed_state(state, old, new), renamed_use(alias, old, new))

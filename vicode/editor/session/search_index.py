@@ -33,6 +33,8 @@ class SearchKind(StrEnum):
     USE = "used component"
     DECLARATION = "declaration"
     TRANSITION = "transition"
+    FRAME = "frame"
+    NOTE = "note"
 
 
 _WEIGHTS = {
@@ -202,6 +204,13 @@ def _design_items(key: str, design: Design, suffix: str) -> Iterator[SearchItem]
         yield SearchItem(SearchKind.STATE, state.name, state.doc, location, make_target("states", state.name))
     for use in design.uses:
         yield SearchItem(SearchKind.USE, use.alias, use.component, location, make_target("components", use.alias))
+    for frame in design.frames:
+        yield SearchItem(
+            SearchKind.FRAME, frame.name, ", ".join(frame.states), location, make_target("frames", frame.name)
+        )
+    for note in design.notes:
+        first, _break, rest = note.text.strip().partition("\n")
+        yield SearchItem(SearchKind.NOTE, first, rest, location, make_target("notes", note.name))
     for section, declaration in design.declarations():
         yield SearchItem(
             SearchKind.DECLARATION, declaration.name, _declaration_detail(section, declaration), location, make_target()

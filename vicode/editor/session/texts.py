@@ -105,14 +105,13 @@ def duplicate_transitions(count: int) -> str:
     return "duplicate transition" if count == 1 else f"duplicate {count} transitions"
 
 
-def insert_states(verb: str, names: Sequence[str]) -> str:
-    match names:
-        case []:
-            return f"{verb} common transitions"
-        case [name]:
-            return f"{verb} {name}"
-        case _:
-            return f"{verb} {len(names)} states"
+def insert_items(verb: str, states: Sequence[str], notes: Sequence[str]) -> str:
+    count = len(states) + len(notes)
+    if not count:
+        return f"{verb} common transitions"
+    if count == 1:
+        return f"{verb} {states[0] if states else 'note'}"
+    return f"{verb} {count} {'items' if notes else 'states'}"
 
 
 def edit_cell(column: str) -> str:
@@ -169,6 +168,8 @@ TREE_SOURCE = "the source of a transition in a decision tree cannot be changed"
 TREE_ORDER = "a transition in a decision tree can only be reordered within its branch"
 SELECT_TO_DISABLE = "select states or transitions to disable"
 SELECT_TO_DUPLICATE = "select states or transitions to duplicate"
+SELECT_TO_FRAME = "select the states to draw a frame around"
+FRAME_WITHOUT_TITLE = "a frame needs a title"
 SELECT_TO_PASTE = "select the states to add these transitions to, then paste"
 NOTHING_TO_PASTE = "the clipboard contains no part of a design"
 CELL_TOO_LONG = "this text is too long for a cell"

@@ -6,9 +6,9 @@ from urllib.parse import quote, urlencode
 
 from vicode.editor.view.selection import ItemKind, ItemRef
 
-# Names cannot contain these characters.
+# Names cannot contain these characters; a title of a frame comes last.
 _KIND_SEPARATOR, _TRAIL_SEPARATOR = ":", ","
-_KINDS = ("components", "links", "notes")
+_KINDS = ("components", "links", "frames", "notes")
 _MAX_TRAIL = 6
 _SAFE = "/:,@"
 

@@ -4,6 +4,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable
 from typing import Any
 
+from vicode.diagram.frames import drawn_frames, frame_padding
 from vicode.diagram.layered_layout import complete_layout, note_position
 from vicode.diagram.node_geometry import note_lines, note_size
 from vicode.diagram.transition_labels import guard_kind, short_transition_label, transition_label
@@ -19,7 +20,9 @@ _Findings = dict[ItemRef, list[Finding]]
 
 
 def make_scene(project: Project, design: Design, findings: Iterable[Finding], rev: int) -> Scene:
-    """The scene as {"rev", "component", "doc", "states", "transitions", "components", "links", "notes", "common"}."""
+    """The scene as {"rev", "component", "doc", "common"}, and lists of states, transitions, components, links, frames
+    and notes.
+    """
     by_item: _Findings = defaultdict(list)
     for finding in findings:
         if finding.subject is not None and finding.subject.component == design.component:
@@ -44,9 +47,18 @@ def make_scene(project: Project, design: Design, findings: Iterable[Finding], re
             for use in design.uses
         ],
         "links": list(_links(design)),
+        "frames": list(_frames(design, by_item)),
         "notes": [_note(note, index) for index, note in enumerate(design.notes)],
         "common": _common(design, by_item, layout.common),
     }
+
+
+def _frames(design: Design, by_item: _Findings) -> Iterable[dict[str, Any]]:
+    """The frames; the canvas computes their rectangles, as states are dragged."""
+    for frame, states, level in drawn_frames(design):
+        padding, marks = frame_padding(level), _marks(by_item, ItemRef(kind="frames", id=frame.name))
+        sizes = {"level": level, "side": padding.side, "top": padding.top}
+        yield {"id": frame.name, "name": frame.name, "color": frame.color, "states": list(states), **sizes, **marks}
 
 
 def _note(note: DiagramNote, index: int) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-_LISTS = ("states", "transitions", "components", "links", "notes")
+_LISTS = ("states", "transitions", "components", "links", "frames", "notes")
 
 
 def diff_scenes(old: dict[str, Any], new: dict[str, Any]) -> dict[str, Any]:

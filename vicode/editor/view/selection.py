@@ -5,7 +5,7 @@ from typing import Literal
 
 from vicode.findings import DesignPath
 
-ItemKind = Literal["states", "transitions", "components", "links", "common", "notes", "design"]
+ItemKind = Literal["states", "transitions", "components", "links", "common", "frames", "notes", "design"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,6 +27,8 @@ def item_at_path(path: DesignPath) -> ItemRef:
             return ItemRef(kind="common", id="@common")
         case ("uses", str(alias), *_):
             return ItemRef(kind="components", id=alias)
+        case ("frames", str(name), *_):
+            return ItemRef(kind="frames", id=name)
         case ("notes", str(name), *_):
             return ItemRef(kind="notes", id=name)
         case _:

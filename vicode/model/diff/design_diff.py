@@ -11,6 +11,7 @@ from vicode.model.design import (
     Decision,
     DecisionGroup,
     Design,
+    DiagramFrame,
     DiagramNote,
     Guard,
     State,
@@ -111,6 +112,14 @@ def _diff_content(old: Design, new: Design) -> Iterator[Change]:
         compare=_diff_state,
     )
     yield from diff_keyed(
+        ("frames",),
+        old.frames,
+        new.frames,
+        subject=lambda frame: f"frame {frame.name}",
+        content=lambda frame: ", ".join(frame.states),
+        compare=_diff_frame,
+    )
+    yield from diff_keyed(
         ("notes",),
         old.notes,
         new.notes,
@@ -123,6 +132,12 @@ def _diff_content(old: Design, new: Design) -> Iterator[Change]:
 def _diff_use(path: DesignPath, old: Use, new: Use) -> Iterator[Change]:
     yield from diff_attributes(path, f"use {new.alias}", old, new, {"component": "component"})
     yield from diff_positions(path, f"use {new.alias}", old.at, new.at)
+
+
+def _diff_frame(path: DesignPath, old: DiagramFrame, new: DiagramFrame) -> Iterator[Change]:
+    subject = f"frame {new.name}"
+    yield from diff_attributes(path, subject, old, new, {"color": "color"})
+    yield from _diff_text((*path, "states"), subject, ", ".join(old.states), ", ".join(new.states))
 
 
 def _diff_note(path: DesignPath, old: DiagramNote, new: DiagramNote) -> Iterator[Change]:

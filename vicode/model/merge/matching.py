@@ -7,7 +7,7 @@ from difflib import SequenceMatcher
 from typing import Any
 
 from vicode.model.decisions import retarget
-from vicode.model.design import Call, Declaration, Design, DiagramNote, State, Transition, Use
+from vicode.model.design import Call, Declaration, Design, DiagramFrame, DiagramNote, State, Transition, Use
 from vicode.model.project import Agent, Enumeration, Interface
 
 Matches = dict[int, int]
@@ -27,7 +27,7 @@ def match_items(old: Sequence[Any], new: Sequence[Any], *, is_keyed: bool) -> Ma
 def item_key(item: Any) -> Hashable:
     """Return the name that identifies an item in a keyed list."""
     match item:
-        case State(name=name) | Declaration(name=name) | DiagramNote(name=name):
+        case State(name=name) | Declaration(name=name) | DiagramFrame(name=name) | DiagramNote(name=name):
             return name
         case Use(alias=alias) | Call(alias=alias):
             return alias
@@ -132,7 +132,8 @@ def _match_neighbours(
 
 
 def _is_renamed(old: Any, new: Any) -> bool:
-    return isinstance(old, Declaration) and isinstance(new, Declaration) and replace(new, name=old.name) == old
+    is_same_kind = isinstance(old, Declaration | DiagramFrame) and type(old) is type(new)
+    return is_same_kind and bool(replace(new, name=old.name) == old)
 
 
 def _is_similar(old: Any, new: Any) -> bool:

@@ -89,7 +89,7 @@ class Canvas {
   centre(of, id) {
     const element = this.scene.find(keyOf(of, id));
     if (!element) return;
-    const { x, y } = this.scene.nodes.has(element.key) ? element : this.scene.isDrawable(element) ? this.router.route(element).at : this.viewport.middle();
+    const { x, y } = this.scene.nameOf(element.key) ?? (this.scene.isDrawable(element) ? this.router.route(element).at : this.viewport.middle());
     this.viewport.centreOn(x, y, Math.max(this.viewport.k, 0.6));
   }
 
@@ -115,7 +115,7 @@ class Canvas {
       const edge = this.scene.edges.get(key);
       return edge ? [edge.source, edge.target] : [key];
     });
-    const extent = bounds(keys.map((key) => this.scene.nodes.get(key)).filter(Boolean).map(nodeRect));
+    const extent = bounds(keys.map((key) => this.scene.boxOf(key)).filter(Boolean));
     if (extent && this.viewport.measure()) this.viewport.fit(extent);
   }
 
@@ -235,7 +235,7 @@ class Canvas {
     const element = this.scene.find(key);
     if (!element) return;
     if (this.isOverview) this.centre(element.of, element.id);
-    else if (this.scene.nodes.has(key)) this.viewport.reveal(nodeRect(element));
+    else if (this.scene.nameOf(key)) this.viewport.reveal(nodeRect(this.scene.nameOf(key)));
     else if (this.scene.isDrawable(element)) this.viewport.reveal({ ...this.router.route(element).at, w: 0, h: 0 });
     this.frame.flush();
     this.cull();
@@ -277,7 +277,7 @@ class Canvas {
     this.viewport = new Viewport(this.stage, this.frame);
     this.minimap = new Minimap(this.scene, this.viewport, colours);
     // Screen readers read nodes first, although they are painted last.
-    const readingOrder = { role: "group", "aria-label": DIAGRAM, "aria-owns": "nodes edges links" };
+    const readingOrder = { role: "group", "aria-label": DIAGRAM, "aria-owns": "nodes edges links frames" };
     this.levelOfDetail = new LevelOfDetail(this, html("div", { class: "plane", ...readingOrder }, this.painter.svgRoots), colours);
     this.theme = new Theme(this.stage, () => this.#coloursChanged());
     this.toolbar = new Toolbar(this);
@@ -382,7 +382,7 @@ class Canvas {
       setView: (view) => this.viewport.set(view),
       screen: (of, id) => {
         const element = this.scene.find(keyOf(of, id));
-        const at = this.viewport.toScreen(this.scene.nodes.has(element.key) ? element : this.router.route(element).at);
+        const at = this.viewport.toScreen(this.scene.nameOf(element.key) ?? this.router.route(element).at);
         const box = this.stage.getBoundingClientRect();
         return { x: at.x + box.left, y: at.y + box.top };
       },

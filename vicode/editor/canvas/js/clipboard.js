@@ -20,7 +20,7 @@ export class Clipboard {
 
   /** Requests the selection as text from Python and copies it to the clipboard; a cut deletes it only after that. */
   copy({ cut = false } = {}) {
-    const items = this.canvas.selection.items();
+    const items = this.canvas.selection.itemsWithContent();
     const text = this.#requestCopy(items);
     this.#write(text).then(
       () => {

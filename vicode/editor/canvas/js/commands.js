@@ -46,11 +46,14 @@ function createHandlers(canvas) {
     canvas.revealPlace({ x, y, w: 120, h: 60 });
     canvas.report("note", { x, y });
   };
+  const states = () => selection.nodes().map((key) => scene.nodes.get(key)).filter(({ of }) => of === "states");
   const hasTransitions = () => ["states", "common"].includes(node()?.of);
   return {
     "new-state": { run: () => canvas.rename.startNew(gestures.freePosition()) },
     use: { run: () => canvas.report("use", { address: null, ...gestures.freePosition() }) },
     "new-note": { run: addNote },
+    frame: { can: () => states().length > 0, run: () => canvas.rename.startFrame(states()) },
+    "frame-states": { can: () => scene.nodes.size > 0, run: () => gestures.drawFrame() },
     "new-target": { can: hasTransitions, run: () => canvas.rename.startNew({ source: node().key, ...freePositionNextTo(scene, node()) }) },
     connect: { can: () => Boolean(node()) && node().of !== "notes", run: () => gestures.connectFrom(selection.single()) },
     "finish-connection": { can: () => Boolean(gestures.connectMode), run: () => gestures.finishConnect() },
@@ -69,7 +72,7 @@ function modifyHandlers(canvas) {
     "open-design": { can: is("components"), run: open },
     "open-note": { can: is("notes"), run: open },
     "open-common": { can: is("common"), run: open },
-    rename: { can: is("states", "components"), run: () => canvas.rename.start(selection.single()) },
+    rename: { can: is("states", "components", "frames"), run: () => canvas.rename.start(selection.single()) },
     initial: { can: () => is("states")() && !single().data.initial, run: () => mark("initial") },
     final: { can: is("states"), run: () => mark("final") },
     disable: { can: () => selection.keys.size > 0, run: () => canvas.report("disable", { items: selection.items() }) },
@@ -91,9 +94,9 @@ function editHandlers(canvas) {
     copy: { can: some, run: () => canvas.clipboard.copy() },
     // With a shortcut the browser's paste event carries the text; reading the clipboard would require a permission.
     paste: { run: (chord) => (chord ? false : canvas.clipboard.paste()) },
-    duplicate: { can: some, run: () => canvas.report("duplicate", { items: selection.items() }) },
+    duplicate: { can: some, run: () => canvas.report("duplicate", { items: selection.itemsWithContent() }) },
     delete: { can: some, run: () => canvas.report("delete", { items: selection.items() }) },
-    "select-all": { run: () => selection.set([...scene.nodes.keys(), ...canvas.drawableEdges()]) },
+    "select-all": { run: () => selection.set([...scene.nodes.keys(), ...canvas.drawableEdges(), ...scene.frames.keys()]) },
   };
 }
 
@@ -108,7 +111,7 @@ function arrangeHandlers(canvas) {
     ...Object.fromEntries(["left", "centre", "right", "top", "middle", "bottom"].map((side) => [`align-${side}`, arranging(2, align, `align-${side}`)])),
     "distribute-across": arranging(3, distribute, "distribute-across"),
     "distribute-down": arranging(3, distribute, "distribute-down"),
-    nudge: { run: (chord) => nudge(canvas, boxes(), directionOf(chord), chord.startsWith("Shift+") ? 1 : SNAP) },
+    nudge: { run: (chord) => nudge(canvas, selection.movable().map((key) => scene.nodes.get(key)), directionOf(chord), chord.startsWith("Shift+") ? 1 : SNAP) },
     "lay-out": { run: () => canvas.report("command", { name: "lay-out" }) },
   };
 }

@@ -1,5 +1,5 @@
 // Pointer drags that pan the view, select with a marquee and move nodes. Each can be canceled.
-import { bounds, overlaps, pointOnCurve, rectBetween, nodeRect, snap } from "./geometry.js";
+import { bounds, containsRect, overlaps, pointOnCurve, rectBetween, nodeRect, snap } from "./geometry.js";
 import { Guides } from "./guides.js";
 import { svg } from "./svg.js";
 
@@ -70,7 +70,16 @@ export class MarqueeDrag {
       const middle = pointOnCurve(router.route(edge).curve, 0.5);
       return overlaps({ ...middle, w: 0, h: 0 }, area);
     });
-    return [...nodes, ...edges.map((edge) => edge.key)];
+    const frames = [...scene.frames.keys()].filter((key) => containsRect(area, scene.boxOf(key)));
+    return [...nodes, ...edges.map((edge) => edge.key), ...frames];
+  }
+}
+
+/** A marquee whose states get a frame. */
+export class FrameDrag extends MarqueeDrag {
+  end() {
+    super.end();
+    this.canvas.commands.run("frame");
   }
 }
 
@@ -85,7 +94,9 @@ export class MoveDrag {
   begin({ world }) {
     const { scene, selection } = this.canvas;
     this.from = world;
-    this.origins = new Map(selection.nodes().map((key) => [key, { x: scene.nodes.get(key).x, y: scene.nodes.get(key).y }]));
+    this.origins = new Map(selection.movable().map((key) => [key, { x: scene.nodes.get(key).x, y: scene.nodes.get(key).y }]));
+    // A frame moves by its states.
+    if (!this.origins.has(this.lead)) this.lead = this.origins.keys().next().value;
     this.rects = [...this.origins.keys()].map((key) => nodeRect(scene.nodes.get(key)));
     this.frame = bounds(this.rects);
     this.offset = { x: 0, y: 0 };

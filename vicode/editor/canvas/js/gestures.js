@@ -1,11 +1,11 @@
 // Converts pointer events to gestures. The element under the pointer decides which; movement is handled once per frame.
 import { ConnectDrag, ReconnectDrag } from "./connect_drags.js";
-import { MarqueeDrag, MoveDrag, PanDrag } from "./drags.js";
+import { FrameDrag, MarqueeDrag, MoveDrag, PanDrag } from "./drags.js";
 import { findFreePosition } from "./alignment.js";
 import { distanceToCurve, snap } from "./geometry.js";
 import { LabelDrag } from "./label_drag.js";
 import { ConnectMode } from "./connect_mode.js";
-import { CHANGE_SOURCE, CHANGE_TARGET, CONNECT } from "./strings.js";
+import { CHANGE_SOURCE, CHANGE_TARGET, CONNECT, DRAW_FRAME } from "./strings.js";
 import { Touch } from "./touch.js";
 import { Wheel } from "./wheel.js";
 
@@ -20,6 +20,7 @@ export class PointerGestures {
     this.connectMode = null;
     this.touch = new Touch(canvas, (event) => this.#longPress(event));
     this.isAdditive = false;
+    this.drawsFrame = false;
     this.menuAt = null;
     this.lastClick = { key: "", time: 0 };
     this.spaceHeld = false;
@@ -42,11 +43,12 @@ export class PointerGestures {
 
   /** Cancels the current gesture; returns whether there was one. */
   cancel() {
-    const busy = Boolean(this.drag || this.connectMode);
+    const busy = Boolean(this.drag || this.connectMode || this.drawsFrame);
     if (this.drag?.begun) this.drag.gesture.cancel();
     this.connectMode?.cancel();
     this.drag = null;
     this.connectMode = null;
+    this.drawsFrame = false;
     this.lastClick = { key: "", time: 0 };
     this.touch.clear();
     this.canvas.showMessage("");
@@ -57,6 +59,13 @@ export class PointerGestures {
   /** Starts to connect a node to the node that is clicked next, or that is chosen by keys. */
   connectFrom(key) {
     this.#startConnectMode(new ConnectDrag(this.canvas, key), key, CONNECT);
+  }
+
+  /** The next drag draws a rectangle around the states of a new frame. */
+  drawFrame() {
+    this.cancel();
+    this.drawsFrame = true;
+    this.canvas.showMessage(DRAW_FRAME);
   }
 
   /** Starts to move one end of a transition in the same way. */
@@ -118,12 +127,19 @@ export class PointerGestures {
     const { canvas } = this;
     const adds = this.#adds(event);
     if (event.button === 1 || this.spaceHeld) return new PanDrag(canvas);
+    if (this.drawsFrame) return this.#startFrame();
     if (hit.handle) return new ConnectDrag(canvas, hit.handle);
     if (hit.end) return new ReconnectDrag(canvas, hit.edge, hit.end);
-    if (canvas.scene.nodes.has(hit.key)) return new MoveDrag(canvas, hit.key);
+    if (canvas.scene.nodes.has(hit.key) || canvas.scene.frames.has(hit.key)) return new MoveDrag(canvas, hit.key);
     if (hit.isLabel) return new LabelDrag(canvas, hit.key);
     if (hit.key) return null;
     return event.pointerType === "touch" && !this.isAdditive ? new PanDrag(canvas) : new MarqueeDrag(canvas, adds);
+  }
+
+  #startFrame() {
+    this.drawsFrame = false;
+    this.canvas.showMessage("");
+    return new FrameDrag(this.canvas, false);
   }
 
   /** Whether a press adds to the selection: by a modifier key, or by the toggle button for touch. */
@@ -207,7 +223,7 @@ export class PointerGestures {
   #doubleClick(event, hit) {
     const { canvas } = this;
     const element = hit.key && canvas.scene.find(hit.key);
-    if (element?.of === "states") canvas.rename.start(hit.key);
+    if (["states", "frames"].includes(element?.of)) canvas.rename.start(hit.key);
     else if (element) canvas.report("open", { item: { of: element.of, id: element.id } });
     else {
       const { x, y } = this.#where(event).world;

@@ -1,5 +1,6 @@
-// The name field: over a node that it renames, or over the place of a state that is created when it closes. Python validates the name.
+// The name field: over a node or frame that it renames, or over the place of one that is created when it closes. Python validates the name.
 import { ConnectionPreview, NEW_STATE } from "./connect_drags.js";
+import { FramePreview, frameRect, titlePlace } from "./frames.js";
 import { keyOf } from "./scene.js";
 import { NAME } from "./strings.js";
 import { html } from "./svg.js";
@@ -16,7 +17,7 @@ export class InlineRename {
   }
 
   start(key) {
-    const node = this.canvas.scene.nodes.get(key);
+    const node = this.canvas.scene.nameOf(key);
     if (!node) return;
     this.#close({ keep: true, select: false });
     this.canvas.reveal(key);
@@ -37,6 +38,16 @@ export class InlineRename {
     this.#open("");
   }
 
+  /** Asks for the title of a new frame around states. */
+  startFrame(nodes) {
+    this.#close({ keep: true, select: false });
+    const { canvas } = this;
+    const area = frameRect(nodes);
+    this.draft = { place: titlePlace(area), states: nodes.map(({ id }) => id), preview: new FramePreview(canvas, area) };
+    canvas.revealPlace(this.draft.place);
+    this.#open("");
+  }
+
   /** Another user renamed the state: the field stays open, and its text will rename the state again. */
   stateRenamed(old, name) {
     if (!this.key || this.key !== keyOf("states", old)) return;
@@ -49,7 +60,7 @@ export class InlineRename {
   viewChanged() {
     if (this.draft) this.#showDraft();
     if (!this.key) return;
-    const node = this.canvas.scene.nodes.get(this.key);
+    const node = this.canvas.scene.nameOf(this.key);
     if (!node && this.isRenamePending) return;
     this.isRenamePending = false;
     if (node) this.#placeOver(node);
@@ -109,9 +120,10 @@ export class InlineRename {
   }
 
   /** Without a name Python chooses one. */
-  #create({ place: { x, y }, source, preview }, name, select) {
+  #create({ place: { x, y }, source, states, preview }, name, select) {
     const { canvas } = this;
     preview.close();
+    if (states) return canvas.report("frame", { states, title: name });
     const from = canvas.scene.nodes.get(source);
     if (from) canvas.report("connect", { source: from.id, target: null, x, y, name, select });
     else canvas.report("create", { x, y, name, select });
@@ -119,9 +131,9 @@ export class InlineRename {
   }
 
   #rename(key, name) {
-    const node = this.canvas.scene.nodes.get(key);
+    const node = this.canvas.scene.find(key);
     if (node && name && name !== nameOf(node)) this.canvas.report("rename", { item: { of: node.of, id: node.id }, name });
   }
 }
 
-const nameOf = (node) => (node.of === "states" ? node.data.name : node.data.id);
+const nameOf = (node) => (node.of === "components" ? node.data.id : node.data.name);

@@ -37,7 +37,7 @@ export class Menu {
     if (key) this.canvas.reveal(key);
     const element = key && scene.find(key);
     if (!element) return this.open({ x: viewport.width / 2, y: viewport.height / 2 });
-    const rect = scene.nodes.has(key) ? nodeRect(element) : { ...(scene.isDrawable(element) ? router.route(element).at : viewport.middle()), w: 0, h: 0 };
+    const rect = scene.nameOf(key) ? nodeRect(scene.nameOf(key)) : { ...(scene.isDrawable(element) ? router.route(element).at : viewport.middle()), w: 0, h: 0 };
     this.open(viewport.toScreen({ x: rect.x + rect.w / 2, y: rect.y + rect.h }));
   }
 

@@ -31,6 +31,9 @@ export class Minimap {
     const scale = Math.min(WIDTH / area.w, HEIGHT / area.h);
     this.map = { scale, x: (WIDTH - area.w * scale) / 2 - area.x * scale, y: (HEIGHT - area.h * scale) / 2 - area.y * scale };
     pen.setTransform(2 * scale, 0, 0, 2 * scale, 2 * this.map.x, 2 * this.map.y);
+    pen.strokeStyle = this.colours("muted");
+    pen.lineWidth = 1 / scale;
+    for (const area of [...this.scene.frames.keys()].map((key) => this.scene.boxOf(key)).filter(Boolean)) pen.strokeRect(area.x, area.y, area.w, area.h);
     this.#drawEdges(pen, scale);
     const colourOf = (node) => node.data.severity ?? { states: "box-line", components: "component-line", common: "common", notes: "plate-line" }[node.of];
     for (const [colour, nodes] of Map.groupBy([...this.scene.nodes.values()], colourOf)) {

@@ -77,7 +77,7 @@ function drawCommon(node) {
   const { w, h, data } = node;
   const parts = [svg("rect", { class: "box bg", x: -w / 2, y: -h / 2, width: w, height: h, rx: h / 2 })];
   parts.push(svg("path", { class: "mark", d: "M-52 -6V6M-57.2 -3L-46.8 3M-57.2 3L-46.8 -3" }));
-  parts.push(svg("text", { class: "name", x: 4, y: 0, text: node.label }));
+  parts.push(svg("text", { class: "name", x: 4, y: 0, text: node.label }), ...largeName(node, w));
   if (data.actions) parts.push(translateElement(svg("path", { class: "mark", d: MARKS.actions.d }), w / 2 - 24, 0));
   if (data.severity) parts.push(badge(data, w / 2 - 8, -h / 2 + 2));
   return parts;
@@ -127,7 +127,6 @@ export function badge(data, x, y) {
 /** The tooltip of a node. */
 export function nodeTooltip(node) {
   const { data } = node;
-  if (node.of === "notes") return "";
   const title = node.of === "common" ? COMMON_TITLE : data.name;
   const second = node.of === "components" && data.name !== data.id ? alias(data.id) : "";
   return [title, second, data.disabled && DISABLED, data.doc, ...findingMessages(data)].filter(Boolean).join("\n");

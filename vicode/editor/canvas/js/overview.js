@@ -71,10 +71,28 @@ export class Overview {
     pen.fillStyle = this.colours("paper");
     pen.fillRect(0, 0, canvas.width, canvas.height);
     pen.setTransform(scale, 0, 0, scale, -region.x * scale, -region.y * scale);
+    this.#drawFrames(pen, scale, selected);
     this.#drawEdges(pen, scale);
     const nodes = [...this.scene.nodes.values()].filter((node) => overlaps(nodeRect(node), region));
     this.#drawNodes(pen, nodes, scale, selected);
     if (scale >= NAMES_FROM * Math.min(1, devicePixelRatio)) this.#drawNames(pen, nodes);
+  }
+
+  #drawFrames(pen, scale, selected) {
+    pen.lineWidth = Math.max(1, 0.7 / scale);
+    pen.textBaseline = "middle";
+    for (const { key, data } of this.scene.framesInOrder()) {
+      const area = this.scene.boxOf(key);
+      if (!area) continue;
+      pen.fillStyle = this.colours(data.color ? `color-${data.color}` : "faint");
+      pen.strokeStyle = this.colours(selected.has(key) ? "accent" : "plate-line");
+      pen.fillRect(area.x, area.y, area.w, area.h);
+      pen.strokeRect(area.x, area.y, area.w, area.h);
+      pen.font = FONTS.name.replace("14px", "26px");
+      pen.fillStyle = this.colours("muted");
+      pen.textAlign = "left";
+      pen.fillText(data.name, area.x + 14, area.y + 22, area.w - 28);
+    }
   }
 
   #drawEdges(pen, scale) {

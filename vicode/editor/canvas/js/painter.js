@@ -1,5 +1,6 @@
 // Mounts the elements near the visible area in the DOM and keeps the marks of all elements.
 import { DragLayer } from "./drag_layer.js";
+import { drawFrame, placeFrame } from "./frames.js";
 import { drawEdge, placeEdge, placeLine } from "./edge_svg.js";
 import { bounds, containsRect, grow, overlaps, nodeRect } from "./geometry.js";
 import { drawNode, placeNode } from "./node_svg.js";
@@ -21,7 +22,7 @@ const HIT_AREA_MARGIN = 1000;
 
 // Back to front. Dragged elements have separate SVG roots, so that a movement does not repaint the rest.
 const LAYER_STACK = [
-  ["links", "edges"],
+  ["frames", "links", "edges"],
   ["held links", "held edges"],
   ["nodes", "chips"],
   ["held nodes", "held chips", "above"],
@@ -98,6 +99,7 @@ export class Painter {
       this.#mount(key);
     }
     if (focused && touched.includes(focused)) this.focus(focused);
+    this.#placeFrames();
     this.#placeEdges(affectedNodes);
     this.rerouteNear(changedRects);
     this.#placeInitialMarks();
@@ -152,8 +154,9 @@ export class Painter {
   repositionAll() {
     for (const [key, item] of [...this.items]) {
       if (item.node) placeNode(item.node, this.scene.nodes.get(key));
-      else this.#placeEdge(this.scene.edges.get(key));
+      else if (item.line) this.#placeEdge(this.scene.edges.get(key));
     }
+    this.#placeFrames();
     this.#placeInitialMarks();
   }
 
@@ -173,7 +176,7 @@ export class Painter {
 
   focus(key) {
     const item = this.items.get(key);
-    (item?.node ?? item?.line)?.focus({ preventScroll: true });
+    (item?.node ?? item?.line ?? item?.frame)?.focus({ preventScroll: true });
   }
 
   /**
@@ -191,6 +194,7 @@ export class Painter {
     const wanted = new Set();
     for (const key of this.scene.nodeGrid.query(rect)) if (overlaps(nodeRect(this.scene.nodes.get(key)), rect)) wanted.add(key);
     for (const key of this.scene.edgeGrid.query(rect)) wanted.add(key);
+    for (const key of this.scene.frames.keys()) wanted.add(key);
     return wanted;
   }
 
@@ -207,7 +211,7 @@ export class Painter {
     this.revision += 1;
     const element = this.scene.find(key);
     if (!element) return;
-    const item = this.scene.nodes.has(key) ? this.#mountNode(element) : this.#mountEdge(element);
+    const item = this.scene.nodes.has(key) ? this.#mountNode(element) : this.scene.frames.has(key) ? this.#mountFrame(element) : this.#mountEdge(element);
     if (!item) return;
     this.items.set(key, item);
     for (const [name, keys] of this.marks) if (keys.has(key)) this.#toggle(key, name, true);
@@ -217,6 +221,25 @@ export class Painter {
     const group = drawNode(node);
     this.layers.nodes.append(group);
     return { node: group };
+  }
+
+  /** Frames are few; all are sorted again, so that inner ones stay in front. */
+  #mountFrame(frame) {
+    const area = this.scene.boxOf(frame.key);
+    if (!area) return null;
+    const group = drawFrame(frame, area);
+    const others = this.scene.framesInOrder().map(({ key }) => (key === frame.key ? group : this.items.get(key)?.frame));
+    this.layers.frames.append(...others.filter(Boolean));
+    return { frame: group };
+  }
+
+  /** Draws the frames around the current positions of their states. */
+  #placeFrames() {
+    for (const frame of this.scene.frames.values()) {
+      const group = this.items.get(frame.key)?.frame;
+      const area = group && this.scene.boxOf(frame.key);
+      if (area) placeFrame(group, frame, area);
+    }
   }
 
   #mountEdge(edge) {
@@ -247,6 +270,7 @@ export class Painter {
       const item = this.items.get(key);
       if (item && !this.dragLayer.has(key)) placeNode(item.node, this.scene.nodes.get(key));
     }
+    this.#placeFrames();
   }
 
   #placeEdges(nodeKeys) {

@@ -1,6 +1,6 @@
 // Presence of other users: outlines of their selections in their color with their name, and their pointers.
 import { pathOf } from "./edge_svg.js";
-import { grow, nodeRect } from "./geometry.js";
+import { grow } from "./geometry.js";
 import { keyOf } from "./scene.js";
 import { html, svg } from "./svg.js";
 
@@ -60,11 +60,11 @@ export class PresenceLayer {
   #outlines(person) {
     const { scene, router } = this.canvas;
     const elements = person.items.slice(0, MAX_OUTLINES).map(({ of, id }) => scene.find(keyOf(of, id))).filter(Boolean);
-    const drawn = elements.filter((element) => scene.nodes.has(element.key) || scene.isDrawable(element));
+    const drawn = elements.filter((element) => scene.boxOf(element.key) || scene.isDrawable(element));
     return drawn.map((element, index) => {
-      const isNode = scene.nodes.has(element.key);
-      const route = isNode ? null : router.route(element);
-      const box = isNode ? grow(nodeRect(element), GAP) : null;
+      const area = scene.boxOf(element.key);
+      const route = area ? null : router.route(element);
+      const box = area && grow(area, GAP);
       if (index === 0) this.#tag(person, box ? { x: box.x + box.w, y: box.y } : route.at);
       const shape = box
         ? svg("rect", { x: box.x, y: box.y, width: box.w, height: box.h, rx: 12 + GAP })

@@ -2,6 +2,7 @@
 import { Grid } from "./grid.js";
 import { bounds, polylineTouches, curveBounds, grow, curveLength, overlaps, pointOnCurve, sampleCurve, rectAround, nodeRect } from "./geometry.js";
 import { makeEdgeLabel, labelPosition, placeLabel, shorterLabels } from "./edge_labels.js";
+import { titleRect } from "./frames.js";
 import { LINKS, pairKey } from "./scene.js";
 import { parallelCurves, selfLoopCurves, readingOrder, straightCurves } from "./edge_curves.js";
 
@@ -18,6 +19,7 @@ export class Router {
     this.lines = new Grid();
     this.labels = new Grid();
     this.labelRects = new Map();
+    this.titles = [];
     // During a drag, labels avoid nodes and labels only; the edges in `provisional` are routed again after it.
     this.isProvisional = false;
     this.provisional = new Set();
@@ -125,6 +127,7 @@ export class Router {
 
   /** Places all missing labels, shortest edges first, so that positions do not depend on the order of requests. */
   #placeLabels() {
+    this.titles = [...this.scene.frames.values()].filter(({ key }) => this.scene.boxOf(key)).map((frame) => titleRect(frame, this.scene.boxOf(frame.key)));
     if (this.scene.edges.size > MAX_PLANNED) return;
     const edges = [...this.scene.edges.values()].filter((edge) => !this.routes.has(edge.key) && this.scene.isDrawable(edge));
     const lengths = new Map(edges.map((edge) => [edge, this.edgePath(edge).length]));
@@ -179,6 +182,7 @@ export class Router {
     for (const key of this.labels.query(rect)) {
       if (key !== own && overlaps(grow(this.labelRects.get(key), 2), rect)) sum += COST.label;
     }
+    for (const title of this.titles) if (overlaps(grow(title, 2), rect)) sum += COST.label;
     if (this.isProvisional || sum >= limit) return sum;
     for (const key of this.lines.query(rect)) {
       if (sum >= limit) return sum;

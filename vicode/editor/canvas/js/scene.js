@@ -1,12 +1,13 @@
 // The scene sent by Python: nodes and edges by key, with a spatial index and an index by node pair.
 import { Grid } from "./grid.js";
-import { bounds, nodeRect } from "./geometry.js";
+import { frameRect, titlePlace } from "./frames.js";
+import { bounds, containsRect, nodeRect } from "./geometry.js";
 import { EVERY_STATE } from "./strings.js";
 import { truncate, textWidth } from "./text_metrics.js";
 
 /** Prefix of the keys of links. */
 export const LINKS = "l:";
-const KINDS = { states: "s:", components: "c:", transitions: "t:", links: LINKS, common: "common", notes: "n:" };
+const KINDS = { states: "s:", components: "c:", transitions: "t:", links: LINKS, common: "common", frames: "f:", notes: "n:" };
 const NODE_HEIGHT = 60;
 const COMMON_ID = "@common";
 
@@ -19,6 +20,7 @@ export class Scene {
     this.component = "";
     this.nodes = new Map();
     this.edges = new Map();
+    this.frames = new Map();
     this.initialNodes = new Set();
     this.pairs = new Map();
     this.edgesAt = new Map();
@@ -30,7 +32,7 @@ export class Scene {
   }
 
   load(view) {
-    for (const store of [this.nodes, this.edges, this.initialNodes, this.pairs, this.edgesAt, this.nodeGrid, this.edgeGrid]) store.clear();
+    for (const store of [this.nodes, this.edges, this.frames, this.initialNodes, this.pairs, this.edgesAt, this.nodeGrid, this.edgeGrid]) store.clear();
     this.rev = view.rev;
     this.component = view.component;
     this.doc = view.doc ?? "";
@@ -79,7 +81,36 @@ export class Scene {
   }
 
   find(key) {
-    return this.nodes.get(key) ?? this.edges.get(key);
+    return this.nodes.get(key) ?? this.edges.get(key) ?? this.frames.get(key);
+  }
+
+  /** Returns the rectangle of a node or of a frame; null for other keys. */
+  boxOf(key) {
+    const [node, frame] = [this.nodes.get(key), this.frames.get(key)];
+    if (frame) return frameRect(this.#statesOf(frame), frame.data);
+    return node ? nodeRect(node) : null;
+  }
+
+  /** Returns the place of the name of a node or of the title of a frame, with the element. */
+  nameOf(key) {
+    const frame = this.frames.get(key);
+    return frame ? { ...frame, ...titlePlace(this.boxOf(key)) } : this.nodes.get(key);
+  }
+
+  /** Returns the frames from back to front. */
+  framesInOrder() {
+    return [...this.frames.values()].sort((a, b) => b.data.level - a.data.level);
+  }
+
+  /** Returns the keys of the states of a frame, and of all nodes inside its rectangle. */
+  contentOf(key) {
+    const area = this.boxOf(key);
+    const inside = [...this.nodeGrid.query(area)].filter((node) => containsRect(area, nodeRect(this.nodes.get(node))));
+    return [...new Set([...this.#statesOf(this.frames.get(key)).map((node) => node.key), ...inside])];
+  }
+
+  #statesOf(frame) {
+    return frame.data.states.map((name) => this.nodes.get(keyOf("states", name))).filter(Boolean);
   }
 
   /** Returns the topmost node under a point. */
@@ -89,7 +120,7 @@ export class Scene {
   }
 
   extent() {
-    return bounds([...this.nodes.values()].map(nodeRect));
+    return bounds([...[...this.nodes.values()].map(nodeRect), ...[...this.frames.keys()].map((key) => this.boxOf(key)).filter(Boolean)]);
   }
 
   /** Measures all nodes again, after a web font was loaded. */
@@ -103,6 +134,11 @@ export class Scene {
     for (const of of ["states", "components", "notes"]) {
       for (const data of lists[of] ?? []) touched.push(this.#putNode(of, data.id, data));
     }
+    for (const data of lists.frames ?? []) {
+      const key = keyOf("frames", data.id);
+      this.frames.set(key, { key, of: "frames", id: data.id, data });
+      touched.push(key);
+    }
     for (const data of lists.transitions ?? []) touched.push(this.#putEdge(transitionOf(data)));
     for (const data of lists.links ?? []) touched.push(this.#putEdge(linkOf(data)));
     return touched;
@@ -112,6 +148,10 @@ export class Scene {
     const gone = [];
     for (const of of ["transitions", "links"]) {
       for (const id of lists[of] ?? []) gone.push(this.#dropEdge(keyOf(of, id)));
+    }
+    for (const key of (lists.frames ?? []).map((id) => keyOf("frames", id))) {
+      this.frames.delete(key);
+      gone.push(key);
     }
     for (const of of ["states", "components", "notes"]) {
       for (const id of lists[of] ?? []) gone.push(this.#dropNode(keyOf(of, id)));

@@ -55,13 +55,26 @@ export class Selection {
     return [...this.keys].filter((key) => this.scene.nodes.has(key));
   }
 
+  /** The selected nodes, and those inside selected frames. */
+  movable() {
+    const frames = [...this.keys].filter((key) => this.scene.frames.has(key));
+    return [...new Set([...this.nodes(), ...frames.flatMap((key) => this.scene.contentOf(key))])];
+  }
+
+  /** The selected elements, with the content of selected frames. */
+  itemsWithContent() {
+    return [...new Set([...this.keys, ...this.movable()])].map((key) => this.scene.find(key)).map(({ of, id }) => ({ of, id }));
+  }
+
   items() {
     return [...this.keys].map((key) => this.scene.find(key)).map(({ of, id }) => ({ of, id }));
   }
 
   /** Highlights the hovered or selected elements with their edges and ends; nothing else changes. */
   updateHighlight() {
-    const centre = this.hovered ? [this.hovered] : this.keys.size <= MAX_HIGHLIGHTED ? [...this.keys] : [];
+    const isFrame = (key) => this.scene.frames.has(key);
+    const elements = this.hovered ? [this.hovered] : this.keys.size <= MAX_HIGHLIGHTED ? [...this.keys] : [];
+    const centre = elements.filter((key) => !isFrame(key));
     const lit = new Set(centre);
     for (const key of centre) {
       const edge = this.scene.edges.get(key);

@@ -4,7 +4,7 @@ export const EMPTY = "No states yet.\nDouble-click, or press S, to add the first
 
 export const STAGE_ROLE = "state machine canvas";
 export const DIAGRAM = "Diagram";
-export const LAYERS = { links: "Links to components", edges: "Transitions", nodes: "States and components" };
+export const LAYERS = { frames: "Frames", links: "Links to components", edges: "Transitions", nodes: "States and components" };
 export const stageName = (component) => `State machine ${component}`;
 
 // Clipboard
@@ -22,6 +22,7 @@ export const CHANGE_TARGET = "Change target to";
 export const CHANGE_SOURCE = "Change source to";
 export const chooseTarget = (action) => `${action}…: click a node or type its name. Esc cancels.`;
 export const confirmTarget = (action, name) => `${action} ${name}: press Enter. Esc cancels.`;
+export const DRAW_FRAME = "Draw a rectangle around the states of the frame. Esc cancels.";
 export const DROP_ON_LABEL = "Drop on another label of this state to change the priority";
 
 // Controls
@@ -46,6 +47,8 @@ export const componentName = (alias) => `Component ${alias}`;
 export const stateName = (name) => `State ${name}`;
 export const alias = (name) => `as ${name}`;
 export const colored = (color) => `colored ${color}`;
+export const FRAME = "Frame";
+export const frameName = (title, states) => `${FRAME} ${title}: ${states.join(", ")}`;
 export const noteName = (text) => `Note: ${text}`;
 export const markName = (name, count) => (count ? `${name} ${count}` : `${name} code`);
 export const linkName = ({ kind, state, component }) => `${state} ${kind} ${component}`;

@@ -1,5 +1,6 @@
 // Tooltip of the hovered or focused element. A press, the wheel or a key closes it; it ignores the pointer.
 import { edgeTooltip } from "./edge_svg.js";
+import { frameTooltip } from "./frames.js";
 import { nodeRect } from "./geometry.js";
 import { nodeTooltip } from "./node_svg.js";
 import { EVERY_STATE } from "./strings.js";
@@ -47,7 +48,7 @@ export class Tooltip {
   #show(key) {
     const { canvas } = this;
     const element = canvas.scene.find(key);
-    if (this.requestedKey !== key || !element || canvas.gestures.isDragging() || !canvas.rename.input.hidden) return;
+    if (this.requestedKey !== key || !element || element.of === "notes" || canvas.gestures.isDragging() || !canvas.rename.input.hidden) return;
     this.key = key;
     const [title, ...lines] = this.#linesOf(element);
     this.element.replaceChildren(html("div", { class: "tooltip-title", text: title }), ...lines.map((text) => html("div", { class: "tooltip-line", text })));
@@ -61,6 +62,7 @@ export class Tooltip {
   #linesOf(element) {
     const { scene } = this.canvas;
     const nameOf = (key) => (key === "common" ? EVERY_STATE : String(scene.nodes.get(key)?.data.name));
+    if (element.of === "frames") return frameTooltip(element).split("\n");
     const text = scene.nodes.has(element.key) ? nodeTooltip(element) : edgeTooltip(element, { source: nameOf(element.source), target: nameOf(element.target) });
     return text.split("\n");
   }
@@ -68,7 +70,8 @@ export class Tooltip {
   /** Positions the tooltip on the side of the element with more space. */
   #place(element) {
     const { viewport, scene, router } = this.canvas;
-    const box = scene.nodes.has(element.key) ? nodeRect(element) : chipRect(router.route(element));
+    const name = scene.nameOf(element.key);
+    const box = name ? nodeRect(name) : chipRect(router.route(element));
     const [a, b] = [viewport.toScreen(box), viewport.toScreen({ x: box.x + box.w, y: box.y + box.h })];
     const { offsetWidth: w, offsetHeight: h } = this.element;
     const isRight = b.x + GAP + w + MARGIN <= viewport.width || viewport.width - b.x > a.x;

@@ -4,7 +4,14 @@ from dataclasses import replace
 
 from vicode.editor.session.fixes.context import DesignEdit, Fix, FixContext
 from vicode.model.design import COMMON, Design, State, Transition
-from vicode.model.edits import add_state, remove_decisions, remove_states, replace_decision, update_state
+from vicode.model.diagram_edits import remove_frames, set_frame_states
+from vicode.model.edits import (
+    add_state,
+    remove_decisions,
+    remove_states,
+    replace_decision,
+    update_state,
+)
 from vicode.model.names import is_valid_state_name
 
 
@@ -62,6 +69,25 @@ def fix_dead_end(case: FixContext) -> list[Fix]:
     return [Fix(label=f"Mark {name} as final", edit=change)]
 
 
+def fix_bad_frame(case: FixContext) -> list[Fix]:
+    assert case.finding.subject is not None
+    _section, title, *rest = case.finding.subject.path
+    frame = case.design.frame(str(title))
+    if frame is None or not rest:
+        return [Fix(label="Remove the frame", edit=lambda old: remove_frames(old, [str(title)]))]
+    wrong, suggestion = frame.states[int(rest[-1])], case.finding.suggestion
+    left = tuple(name for name in frame.states if name != wrong)
+    fixes = [Fix(label="Remove the name from the frame", edit=_frame_edit(frame.name, left))]
+    if suggestion and suggestion not in left:
+        renamed = tuple(suggestion if name == wrong else name for name in frame.states)
+        fixes.insert(0, Fix(label=f"Change the name to {suggestion}", edit=_frame_edit(frame.name, renamed)))
+    return fixes
+
+
+def _frame_edit(title: str, states: tuple[str, ...]) -> DesignEdit:
+    return lambda old: set_frame_states(old, title, states) if states else remove_frames(old, [title])
+
+
 def _with_start(design: Design) -> Design:
     return replace(design, states=(State(name="Start", at=(160, 120)),), initial="Start")
 
@@ -83,4 +109,5 @@ FIXERS = {
     "D418": fix_disabled_initial_state,
     "D421": fix_unreachable_state,
     "D422": fix_dead_end,
+    "D431": fix_bad_frame,
 }
