@@ -2,7 +2,7 @@
 
 import os
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,6 +13,7 @@ _SAFE_OPTIONS = (
     *("-c", "core.quotePath=false", "--no-pager", "--literal-pathspecs"),
 )
 _REVISION_LENGTH = 40
+_MAX_CONFLICTS = 127
 
 
 class GitError(OSError):
@@ -140,6 +141,28 @@ class Repository:
     def stage(self, paths: Sequence[str]) -> None:
         self._run("add", "--all", "--", *paths)
 
+    def is_merge_commit(self, revision: str) -> bool:
+        return self._try("rev-parse", "--quiet", "--verify", f"{revision}^2") is not None
+
+    def replace_tree_of_head(self) -> None:
+        """Add what is staged to the current commit, without hooks, and also before git has ended its merge."""
+        head = self.resolve("HEAD")
+        names = ("AUTHOR_NAME", "AUTHOR_EMAIL", "AUTHOR_DATE", "COMMITTER_NAME", "COMMITTER_EMAIL", "COMMITTER_DATE")
+        values = self._run("show", "--no-patch", "--format=%an%n%ae%n%ad%n%cn%n%ce%n%cd", "--date=raw", head)
+        author = {f"GIT_{name}": value for name, value in zip(names, values.decode().splitlines(), strict=True)}
+        parents = self._run("show", "--no-patch", "--format=%P", head).decode().split()
+        message = self._run("show", "--no-patch", "--format=%B", head).rstrip(b"\n") + b"\n"
+        tree = self._run("write-tree").decode().strip()
+        sign = (
+            ("-S",) if (self._try("config", "--get", "--type=bool", "commit.gpgSign") or b"").strip() == b"true" else ()
+        )
+        links = [part for parent in parents for part in ("-p", parent)]
+        command = [*_SAFE_OPTIONS, "-C", str(self.root), "commit-tree", *sign, tree, *links, "-F", "-"]
+        done = _call_git(command, content=message, environment=author)
+        if done.returncode:
+            raise GitError(_first_line(done.stderr) or "git commit-tree failed")
+        self._run("update-ref", "-m", "merge: generated files", "HEAD", done.stdout.decode().strip(), head)
+
     def _run(self, *arguments: str) -> bytes:
         done = _call_git([*_SAFE_OPTIONS, "-C", str(self.root), *arguments])
         if done.returncode:
@@ -168,12 +191,26 @@ def find_repository(path: Path) -> Repository:
     return Repository(Path(os.path.realpath(os.fsdecode(done.stdout.rstrip(b"\n")))))
 
 
-def _call_git(arguments: Sequence[str]) -> "subprocess.CompletedProcess[bytes]":
-    environment = {**os.environ, "LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0", "GIT_TERMINAL_PROMPT": "0"}
+def merge_lines(ours: Path, base: Path, theirs: Path) -> tuple[bytes, bool]:
+    """Merge files by lines, with markers around conflicts; returns the text and whether there are conflicts.
+
+    Raises:
+        GitError: A file is binary or cannot be read.
+    """
+    labels = ("-L", "ours", "-L", "base", "-L", "theirs")
+    done = _call_git(["merge-file", "-p", "-q", *labels, str(ours), str(base), str(theirs)])
+    if done.returncode > _MAX_CONFLICTS:
+        raise GitError(_first_line(done.stderr) or "git merge-file failed")
+    return done.stdout, done.returncode > 0
+
+
+def _call_git(
+    arguments: Sequence[str], *, content: bytes = b"", environment: Mapping[str, str] | None = None
+) -> "subprocess.CompletedProcess[bytes]":
+    variables = {"LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0", "GIT_TERMINAL_PROMPT": "0", **(environment or {})}
+    command = ["git", *arguments]
     try:
-        return subprocess.run(
-            ["git", *arguments], capture_output=True, stdin=subprocess.DEVNULL, env=environment, check=False
-        )
+        return subprocess.run(command, capture_output=True, input=content, env={**os.environ, **variables}, check=False)
     except FileNotFoundError:
         raise GitError("the program git is not installed") from None
 

@@ -12,7 +12,22 @@ from importlib import import_module
 from vicode import __version__
 from vicode.cli.console import describe_os_error
 
-COMMANDS = ("edit", "gen", "sync", "check", "docs", "run", "diff", "sample", "export", "import", "schema", "xabsl")
+COMMANDS = (
+    "edit",
+    "gen",
+    "sync",
+    "check",
+    "docs",
+    "run",
+    "diff",
+    "merge",
+    "hook",
+    "sample",
+    "export",
+    "import",
+    "schema",
+    "xabsl",
+)
 _BATCH_COMMANDS = ("gen", "sync", "check")
 EXIT_OK, EXIT_FINDINGS, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_PIPE_CLOSED = 0, 1, 2, 130, 141
 _ASCII = {"→": "->", "…": "...", "×": "x", "–": "-", "·": "-"}

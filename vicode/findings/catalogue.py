@@ -47,6 +47,7 @@ _RECORDS = (
     ("Y110", "not-text", Severity.ERROR, "file that is not valid UTF-8"),
     ("Y111", "conflicting-keys", Severity.ERROR, "mutually exclusive keys"),
     ("Y112", "several-documents", Severity.ERROR, "several YAML documents in a file"),
+    ("Y113", "unresolved-conflict", Severity.ERROR, "unresolved merge conflict"),
     # Projects
     ("P201", "duplicate-component", Severity.ERROR, "duplicate component name"),
     ("P202", "unknown-component", Severity.ERROR, "unknown component"),

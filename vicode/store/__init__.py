@@ -3,6 +3,7 @@
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from vicode.store.conflicts import TextConflict, find_conflicts, resolve_conflicts
 from vicode.store.documents import DesignReadResult, ProjectReadResult, read_design, read_project_file
 from vicode.store.durable_write import FileChangedError, is_read_only, replace_text, write_text
 from vicode.store.locations import find_faulty_components, find_location, iter_owning_components, locate_findings
@@ -23,6 +24,7 @@ from vicode.store.unread import UnreadContentError
 if TYPE_CHECKING:
     from vicode.store.comments import add_comments
     from vicode.store.json_schema import design_schema, project_schema
+    from vicode.store.merge_texts import TextMerge, merge_file_texts
     from vicode.store.save import save_design, save_project_file
 
 __all__ = [
@@ -31,9 +33,12 @@ __all__ = [
     "OpenProject",
     "ProjectReadResult",
     "SourceMap",
+    "TextConflict",
+    "TextMerge",
     "UnreadContentError",
     "add_comments",
     "design_schema",
+    "find_conflicts",
     "find_design_files",
     "find_faulty_components",
     "find_location",
@@ -45,12 +50,14 @@ __all__ = [
     "iter_owning_components",
     "locate_findings",
     "looks_like_design",
+    "merge_file_texts",
     "open_project",
     "project_schema",
     "read_design",
     "read_project_file",
     "read_python_module",
     "replace_text",
+    "resolve_conflicts",
     "save_design",
     "save_project_file",
     "write_text",
@@ -58,7 +65,9 @@ __all__ = [
 
 _LAZY_MODULES = {
     "add_comments": "comments",
+    "TextMerge": "merge_texts",
     "design_schema": "json_schema",
+    "merge_file_texts": "merge_texts",
     "project_schema": "json_schema",
     "save_design": "save",
     "save_project_file": "save",

@@ -8,6 +8,7 @@ from vicode.findings import Finding, FindingSubject, sort_findings
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.store.codec import decode_design, decode_project
+from vicode.store.conflicts import TextConflict, find_conflicts
 from vicode.store.format import DESIGN
 from vicode.store.line_index import LineIndex, ReadReport
 from vicode.store.project_format import PROJECT
@@ -17,6 +18,7 @@ from vicode.store.source_map import SourceMap
 from vicode.store.typed_node import TypedNode
 from vicode.store.yaml_tree import MAX_BYTES, YamlTree, parse_yaml
 
+_MAX_QUOTED = 80
 PROJECT_FILES = ("project.yaml", "project.yml")
 
 
@@ -81,6 +83,10 @@ def read_record(text: str | bytes, file: str, schema: RecordSchema) -> tuple[Rea
     except UnicodeDecodeError as error:
         return _not_utf8(error, file), None
     report = ReadReport(line_index=LineIndex(decoded, file))
+    conflicts = find_conflicts(decoded)
+    if conflicts:
+        _report_conflicts(conflicts, report)
+        return report, None
     tree = parse_yaml(decoded, report)
     if tree.root is None:
         if not report.findings:
@@ -104,6 +110,27 @@ def _complete_root(root: TypedNode, tree: YamlTree, report: ReadReport) -> Typed
 def _is_certain(finding: Finding, unclosed: set[tuple[int, int]]) -> bool:
     is_unclosed = finding.location is not None and (finding.location.line, finding.location.column) in unclosed
     return finding.rule.code == "Y101" or not (finding.rule.code == "Y104" or is_unclosed)
+
+
+def _report_conflicts(conflicts: tuple[TextConflict, ...], report: ReadReport) -> None:
+    """Report each merge conflict at its first part."""
+    for conflict in conflicts:
+        first, *others = conflict.parts
+        place = f" in {conflict.name}" if conflict.name else ""
+        sides = f"ours {_quote(conflict.ours)}, theirs {_quote(conflict.theirs)}"
+        report.add(
+            "Y113",
+            f"unresolved merge conflict{place}: {sides}",
+            (first.start, first.end),
+            fix="keep one side, or combine them, and remove the lines with <<<<<<<, ======= and >>>>>>>",
+            note=("continues here", others[0].start) if others else None,
+        )
+
+
+def _quote(text: str) -> str:
+    """One side of a conflict in one line."""
+    line = " ".join(text.split())
+    return f"'{line if len(line) <= _MAX_QUOTED else line[:_MAX_QUOTED] + '…'}'" if line else "nothing"
 
 
 def _not_utf8(error: UnicodeDecodeError, file: str) -> ReadReport:

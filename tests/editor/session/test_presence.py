@@ -6,10 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vicode.editor.session import DISK_USER, Presence, PresenceRoom, UserDirectory
-from vicode.editor.session.descriptions import describe_path, describe_presence, describe_value
+from vicode.editor.session.descriptions import describe_presence, describe_value
 from vicode.editor.session.field_merge import FieldMerge, SentValues
 from vicode.editor.view import ItemRef
 from vicode.model.design import Transition
+from vicode.model.paths import describe_path
 
 
 def test_users_are_guests_until_they_choose_a_name() -> None:

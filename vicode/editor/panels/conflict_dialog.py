@@ -10,10 +10,11 @@ from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DiskConflictError
-from vicode.editor.session.descriptions import describe_path, describe_value, error_reason
+from vicode.editor.session.descriptions import describe_value, error_reason
 from vicode.editor.session.document import DiskVersion
 from vicode.findings import DesignPath
 from vicode.model.merge import Conflict
+from vicode.model.paths import describe_path
 
 _SIDES = (("mine", "Your version"), ("theirs", "On disk"))
 

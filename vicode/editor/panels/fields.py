@@ -14,11 +14,11 @@ from vicode.editor.panels.form import Form
 from vicode.editor.panels.text_input import TextInput
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import number_text
-from vicode.editor.session.descriptions import describe_path
 from vicode.editor.session.field_merge import SentValues
 from vicode.editor.session.item_paths import TrackedItem
 from vicode.findings import DesignPath, Finding
 from vicode.model.design import Design
+from vicode.model.paths import describe_path
 
 ReadValue = Callable[[Design], Any]
 WriteValue = Callable[[Design, Any], Design]

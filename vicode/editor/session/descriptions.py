@@ -1,40 +1,12 @@
-"""Describes paths, values and presences in words."""
+"""Describes values and presences in words."""
 
 from dataclasses import fields, is_dataclass
 
 from vicode.editor.session.presence import Presence
 from vicode.editor.view import ItemRef, parse_transition_key
-from vicode.findings import DesignPath
+from vicode.model.paths import describe_path
 
-_KINDS = {
-    "states": "state",
-    "uses": "component",
-    "parameters": "parameter",
-    "outputs": "output",
-    "variables": "variable",
-}
-_ITEM_KINDS = {
-    "transitions": "transition",
-    "then": "decision",
-    "else": "decision",
-    "enter": "enter action",
-    "actions": "action",
-    "leave": "leave action",
-}
-_ATTRIBUTES = {"at": "position", "doc": "description", "label_at": "label position", "to": "target"}
 _MAX_VALUE_LENGTH = 400
-
-
-def describe_path(path: DesignPath) -> str:
-    """The subject of a path, such as "description of state Kick" or "transition 2 of state Kick, when"."""
-    if not path:
-        return "the design"
-    section, *rest = path
-    if section in _KINDS and rest:
-        return _within(rest[1:], f"{_KINDS[str(section)]} {rest[0]}")
-    if section == "common":
-        return _within(rest, "the common section")
-    return _within(list(path), "the design")
 
 
 def describe_presence(presence: Presence) -> str:
@@ -64,20 +36,6 @@ def _describe_item(item: ItemRef) -> str:
             return describe_path(parse_transition_key(item.id))
         case _:
             return ""
-
-
-def _within(steps: list[str | int], owner: str) -> str:
-    if not steps:
-        return owner
-    if len(steps) > 1 and isinstance(steps[1], int):
-        kind = _ITEM_KINDS.get(str(steps[0]), str(steps[0]))
-        inner = f"{kind} {steps[1] + 1} of {owner}"
-        return ", ".join([inner, *(_attribute(step) for step in steps[2:])])
-    return f"{', '.join(_attribute(step) for step in steps)} of {owner}"
-
-
-def _attribute(step: str | int) -> str:
-    return str(step + 1) if isinstance(step, int) else _ATTRIBUTES.get(step, step)
 
 
 def _text(value: object) -> str:

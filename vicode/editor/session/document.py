@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from vicode.editor.session import texts
-from vicode.editor.session.descriptions import describe_path
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
 from vicode.editor.session.positions import keep_positions
 from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
@@ -17,6 +16,7 @@ from vicode.editor.view import Scene, diff_scenes, make_scene, parse_transition_
 from vicode.findings import Finding
 from vicode.model.design import Design
 from vicode.model.merge import Conflict, merge_designs
+from vicode.model.paths import describe_path
 from vicode.model.project import Project
 from vicode.model.traversal import find_decision
 from vicode.store import UnreadContentError, save_design

@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from vicode.editor.session.descriptions import describe_path
 from vicode.findings import DesignPath
 from vicode.model.design import Declaration, Design
 from vicode.model.edits import unique_name
+from vicode.model.paths import describe_path
 from vicode.model.project import Project
 from vicode.model.rename import SymbolRef, rename_symbol, sibling_names
 from vicode.model.traversal import iter_code, iter_expressions

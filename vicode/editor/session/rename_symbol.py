@@ -8,7 +8,7 @@ from pathlib import Path
 
 from vicode.check import check_project
 from vicode.editor.session import texts
-from vicode.editor.session.descriptions import describe_path, error_reason
+from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import DocumentSession, FileTransaction
 from vicode.editor.session.rename_component import FileChange, validate_writable
 from vicode.editor.session.rename_symbol_xabsl import collect_xabsl_renames, count_names_in_xabsl, rename_in_xabsl
@@ -16,6 +16,7 @@ from vicode.editor.session.workspace import Workspace
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
 from vicode.model.names import is_valid_name
+from vicode.model.paths import describe_path
 from vicode.model.project import Project
 from vicode.model.rename import ReferenceKind, ReferenceRename, SymbolRef, is_declared, rename_symbol, sibling_names
 from vicode.model.rename.cpp import count_identifier_in_cpp, has_reference_in_cpp

@@ -1,12 +1,19 @@
 """Three-way merges of designs and texts."""
 
-from vicode.model.merge.design_merge import Conflict, MergeResult, merge_designs
+from vicode.model.merge.design_merge import (
+    Conflict,
+    MergeResult,
+    ProjectMergeResult,
+    merge_designs,
+    merge_projects,
+)
 from vicode.model.merge.matching import find_renamed_states, find_renamed_uses, item_key, match_items
-from vicode.model.merge.text_merge import contains_edits, merge_characters, merge_lines
+from vicode.model.merge.text_merge import contains_edits, merge_characters, merge_lines, merge_texts
 
 __all__ = [
     "Conflict",
     "MergeResult",
+    "ProjectMergeResult",
     "contains_edits",
     "find_renamed_states",
     "find_renamed_uses",
@@ -15,4 +22,6 @@ __all__ = [
     "merge_characters",
     "merge_designs",
     "merge_lines",
+    "merge_projects",
+    "merge_texts",
 ]

@@ -11,8 +11,10 @@ from vicode.model.edits import rename_state, rename_use
 from vicode.model.merge.list_merge import ListVersions, merge_lists
 from vicode.model.merge.matching import find_renamed_states, find_renamed_uses, item_key
 from vicode.model.merge.text_merge import merge_lines
+from vicode.model.project import Project
 from vicode.model.traversal import iter_actions, iter_transitions
 
+_POSITIONS = (("at",), ("label_at",))
 _ORDERED = {"transitions", "then", "otherwise", "enter", "actions", "leave"}
 # File keys that differ from field names. Empty: the field has no key in the file.
 _FILE_KEYS: dict[str, DesignPath] = {
@@ -22,6 +24,7 @@ _FILE_KEYS: dict[str, DesignPath] = {
     "frequency_hz": ("frequency",),
     "values": ("set",),
 }
+_VALUE_KEYS: dict[str | int, str] = {"parameters": "default", "arguments": "default", "constants": "value"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,6 +42,14 @@ class MergeResult:
     """The merged design. Conflicts are resolved with our side unless theirs was chosen."""
 
     design: Design
+    conflicts: tuple[Conflict, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProjectMergeResult:
+    """The merged declarations of a project; conflicts as in `MergeResult`."""
+
+    project: Project
     conflicts: tuple[Conflict, ...] = ()
 
 
@@ -65,6 +76,16 @@ def merge_designs(base: Design, ours: Design, theirs: Design, *, theirs_at: Coll
         if not broken:
             return MergeResult(design=design, conflicts=(*renaming.conflicts, *merger.conflicts))
         contested |= broken
+
+
+def merge_projects(
+    base: Project, ours: Project, theirs: Project, *, theirs_at: Collection[DesignPath] = ()
+) -> ProjectMergeResult:
+    """Merge the changes that two sides made to project.yaml; see `merge_designs`. The designs are those of our side."""
+    merger = _Merger(frozenset(theirs_at))
+    base, theirs = replace(base, designs=ours.designs), replace(theirs, designs=ours.designs)
+    project = merger.merge_record((), base, ours, theirs)
+    return ProjectMergeResult(project=project, conflicts=tuple(merger.conflicts))
 
 
 def _unify_names(merger: "_Merger", base: Design, ours: Design, theirs: Design) -> tuple[Design, Design, Design]:
@@ -120,7 +141,9 @@ class _Merger:
         self.conflicts: list[Conflict] = []
 
     def add_conflict(self, path: DesignPath, base: Any, ours: Any, theirs: Any) -> Any:
-        """Record a conflict and return the chosen side."""
+        """Record a conflict and return the chosen side. Positions are no conflict: ours is kept."""
+        if path[-1:] in _POSITIONS:
+            return ours
         self.conflicts.append(Conflict(path=path, base=base, ours=ours, theirs=theirs))
         return theirs if path in self.theirs_at else ours
 
@@ -143,6 +166,8 @@ class _Merger:
         """Merge a dataclass field by field."""
         changes: dict[str, Any] = {}
         for field in fields(base):
+            if not field.init:
+                continue
             values = [getattr(side, field.name) for side in (base, ours, theirs)]
             here = (*path, *_path_step(base, field.name, path))
             if all(_is_list(value) for value in values):
@@ -206,8 +231,8 @@ def _duplicates(items: tuple[Any, ...]) -> list[Any]:
 
 
 def _path_step(record: Any, field: str, path: DesignPath) -> DesignPath:
-    if isinstance(record, Declaration) and field == "initial" and path[0] == "parameters":
-        return ("default",)
+    if isinstance(record, Declaration) and field == "initial" and path[-2] in _VALUE_KEYS:
+        return (_VALUE_KEYS[path[-2]],)
     if isinstance(record, Call) and field == "arguments":
         return () if "modulates" in path else ("with",)
     return _FILE_KEYS.get(field, (field,))

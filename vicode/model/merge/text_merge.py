@@ -42,6 +42,24 @@ def contains_edits(base: str, ours: str, theirs: str) -> bool:
     return all(chunk.contains_ours for chunk in _diff3_chunks(base.split("\n"), ours.split("\n"), theirs.split("\n")))
 
 
+def merge_texts(base: str, ours: str, theirs: str, *, keeps_theirs: bool) -> str:
+    """Merge by lines; changes of neighboring lines do not conflict.
+
+    Where both sides changed the same lines, ours are kept, and theirs after them if `keeps_theirs`.
+    """
+    lines, mine, yours = (text.splitlines(keepends=True) for text in (base, ours, theirs))
+    merged: list[str] = []
+    offset = 0
+    for our_edits, their_edits in _group_edits(_line_edits(lines, mine), _line_edits(lines, yours)):
+        edits = (*our_edits, *their_edits)
+        start, end = min(edit[0] for edit in edits), max(edit[1] for edit in edits)
+        sides = [_apply_edits(lines, side, start, end) for side in (our_edits, their_edits) if side]
+        merged += lines[offset:start] + sides[0]
+        merged += sides[-1] if keeps_theirs and sides[-1] != sides[0] else []
+        offset = end
+    return "".join([*merged, *lines[offset:]])
+
+
 def merge_characters(base: str, ours: str, theirs: str) -> str:
     """Merge by characters. Where both sides changed the same text, both versions are kept, ours first."""
     merged: list[str] = []
@@ -88,3 +106,35 @@ def _common_runs(
         else:
             yours += 1
     yield (len(base), len(ours), len(theirs)), 0
+
+
+_Edit = tuple[int, int, list[str]]
+"""Start and end of the replaced lines of the base, and the new lines."""
+
+
+def _line_edits(base: list[str], side: list[str]) -> list[_Edit]:
+    opcodes = SequenceMatcher(None, base, side, autojunk=False).get_opcodes()
+    return [(start, end, side[first:last]) for tag, start, end, first, last in opcodes if tag != "equal"]
+
+
+def _group_edits(ours: list[_Edit], theirs: list[_Edit]) -> list[tuple[list[_Edit], list[_Edit]]]:
+    """The edits in order; those that overlap are one group."""
+    groups: list[tuple[list[_Edit], list[_Edit]]] = []
+    start, end = -1, -1
+    sided = [*((edit, 0) for edit in ours), *((edit, 1) for edit in theirs)]
+    for edit, side in sorted(sided, key=lambda pair: (pair[0][:2], pair[1])):
+        if edit[0] >= end and edit[:2] != (start, end):
+            groups.append(([], []))
+            start, end = edit[:2]
+        groups[-1][side].append(edit)
+        end = max(end, edit[1])
+    return groups
+
+
+def _apply_edits(base: list[str], edits: list[_Edit], start: int, end: int) -> list[str]:
+    """The lines from `start` to `end` after some edits."""
+    lines: list[str] = []
+    for first, last, new in edits:
+        lines += base[start:first] + new
+        start = last
+    return lines + base[start:end]

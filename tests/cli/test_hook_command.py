@@ -1,0 +1,91 @@
+"""`vicode hook install`: keeps what exists, changes nothing when repeated, and can be removed."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.command_runner import lamps, vicode
+from tests.cli.git_folder import git, init
+
+__all__ = ["lamps"]
+
+
+@pytest.fixture
+def repository(lamps: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A repository with the project in the folder `lamps`."""
+    init(lamps.parent)
+    return lamps.parent
+
+
+def hook_file(repository: Path) -> Path:
+    return repository / ".git" / "hooks" / "pre-commit"
+
+
+def state_of(repository: Path) -> dict[str, str]:
+    hooks = (hook_file(repository).with_name(name) for name in ("pre-commit", "pre-merge-commit", "post-merge"))
+    files = (repository / ".gitattributes", *hooks)
+    texts = {file.name: file.read_text(encoding="utf-8") for file in files if file.exists()}
+    return {**texts, "config": git(repository, "config", "--local", "--list")}
+
+
+def test_install_and_remove(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = state_of(repository)
+    assert vicode("hook", "install") == 0
+    assert capsys.readouterr().out.count("\n") == 11
+    installed = state_of(repository)
+    assert installed[".gitattributes"] == (
+        "# vicode hook install: begin\n"
+        "/lamps/**/*.y*ml merge=vicode diff=vicode\n"
+        "/lamps/generated/** merge=vicode-generated\n"
+        "# vicode hook install: end\n"
+    )
+    assert git(repository, "check-attr", "merge", "lamps/lamp.yaml") == "lamps/lamp.yaml: merge: vicode\n"
+    assert hook_file(repository).stat().st_mode & 0o111
+    assert vicode("hook", "install") == 0
+    assert capsys.readouterr().out == ""
+    assert state_of(repository) == installed
+    assert vicode("hook", "install", "--uninstall") == 0
+    left = state_of(repository)
+    assert {name: left[name] for name in before} == before
+    assert set(left) == set(before)
+
+
+def test_existing_hooks_and_attributes_are_kept(repository: Path) -> None:
+    attributes, hook = repository / ".gitattributes", hook_file(repository)
+    attributes.write_text("*.png binary", encoding="utf-8")
+    hook.parent.mkdir(exist_ok=True)
+    hook.write_text("#!/usr/bin/env bash\nexec other\n", encoding="utf-8")
+    hook.chmod(0o755)
+    assert vicode("hook", "install") == 0
+    assert attributes.read_text(encoding="utf-8").startswith("*.png binary\n# vicode")
+    lines = hook.read_text(encoding="utf-8").splitlines()
+    assert (lines[0], lines[-1]) == ("#!/usr/bin/env bash", "exec other")
+    assert lines[2].endswith(" -P -m vicode hook pre-commit || exit $?")
+    assert vicode("hook", "install", "--uninstall") == 0
+    assert hook.read_text(encoding="utf-8") == "#!/usr/bin/env bash\nexec other\n"
+    assert attributes.read_text(encoding="utf-8") == "*.png binary\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "mode", "reason"),
+    [
+        ("#!/usr/bin/env python3\n", 0o755, "is no shell script"),
+        ("#!/bin/sh\nexit 0\n", 0o644, "is not executable, so git ignores it"),
+    ],
+)
+def test_a_hook_that_cannot_be_changed_is_reported(
+    repository: Path, capsys: pytest.CaptureFixture[str], text: str, mode: int, reason: str
+) -> None:
+    hook = hook_file(repository)
+    hook.parent.mkdir(exist_ok=True)
+    hook.write_text(text, encoding="utf-8")
+    hook.chmod(mode)
+    assert vicode("hook", "install") == 1
+    assert reason in capsys.readouterr().err
+    assert hook.read_text(encoding="utf-8") == text
+
+
+def test_a_folder_without_designs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    init(tmp_path)
+    assert vicode("hook", "install", str(tmp_path)) == 2
+    assert capsys.readouterr().err == f"vicode: no designs in {tmp_path}\n"

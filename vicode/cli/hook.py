@@ -1,0 +1,212 @@
+"""Set up git for designs: merge and diff drivers, and checks before a commit."""
+
+import argparse
+import os
+import shlex
+import stat
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from vicode.git import GitError, Repository, find_repository
+from vicode.output import write_atomically
+
+_BEGIN, _END = "# vicode hook install: begin", "# vicode hook install: end"
+_HOOKS = ("pre-commit", "pre-merge-commit", "post-merge")
+_SHELLS = ("sh", "bash", "dash", "ash", "zsh", "ksh")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "action",
+        choices=("install", *_HOOKS),
+        help="install: set up the repository; the others are what the hooks of git call",
+    )
+    parser.add_argument("path", metavar="PATH", nargs="?", default=".", help="a folder of the repository (default: .)")
+    parser.add_argument("--uninstall", action="store_true", help="with install: remove what it set up")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Install the hooks, or run one; return 1 if a hook could not be installed or found errors."""
+    repository = find_repository(Path(args.path))
+    if args.action == "install":
+        return _install(repository, is_removed=args.uninstall)
+    if args.action == "post-merge":
+        return _complete_merge(repository)
+    projects = [project for project in _find_projects(repository) if project.has_changed(repository.list_staged())]
+    if not projects:
+        return 0
+    return _check(projects) if args.action == "pre-commit" else _regenerate(repository, projects)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _TrackedProject:
+    """The folder of a project and, if git tracks generated files, their folder; relative to the root."""
+
+    folder: str
+    generated: str
+    is_generated_tracked: bool
+
+    def has_changed(self, files: Sequence[str]) -> bool:
+        """Whether one of some files belongs to the project."""
+        folders = (self.folder, *((self.generated,) if self.generated else ()))
+        return any(folder == "." or file.startswith(f"{folder}/") for file in files for folder in folders)
+
+
+def _find_projects(repository: Repository) -> list[_TrackedProject]:
+    from vicode.store import find_projects, open_project
+
+    found = []
+    for folder in find_projects(repository.root):
+        output = Path(os.path.realpath(folder / open_project(folder).project.generated))
+        is_inside = output.is_relative_to(repository.root)
+        generated = repository.relative(output) if is_inside else ""
+        found.append(
+            _TrackedProject(
+                folder=repository.relative(folder),
+                generated=generated,
+                is_generated_tracked=is_inside and bool(repository.list_tracked([generated])),
+            )
+        )
+    return found
+
+
+def _check(projects: Sequence[_TrackedProject]) -> int:
+    """Check the designs and what is generated from them, as in the work tree."""
+    from vicode.cli.entry_point import COMMANDS, main
+
+    folders = [project.folder for project in projects]
+    tracked = [project.folder for project in projects if project.is_generated_tracked]
+    codes = [main(["check", *folders])]
+    codes += [main(["gen", "--check", *tracked])] if tracked else []
+    codes += [main(["sync", "--check", *tracked])] if tracked and "sync" in COMMANDS else []
+    if any(codes):
+        print("vicode: the commit is stopped; 'git commit --no-verify' skips this check", file=sys.stderr)
+    return max(codes)
+
+
+def _regenerate(repository: Repository, projects: Sequence[_TrackedProject]) -> int:
+    """Generate from the merged designs, and stage the result; `_complete_merge` adds it to the commit."""
+    from vicode.cli.entry_point import main
+
+    tracked = [project for project in projects if project.is_generated_tracked]
+    if not tracked:
+        return 0
+    code = main(["gen", *(project.folder for project in tracked)])
+    repository.stage(sorted({project.generated for project in tracked}))
+    if code:
+        print("vicode: the merge is not committed; correct the designs, then 'git commit'", file=sys.stderr)
+    return code
+
+
+def _complete_merge(repository: Repository) -> int:
+    """Add the generated files that `_regenerate` staged to the commit of the merge, which git made without them."""
+    staged = repository.list_staged()
+    if staged and repository.is_merge_commit("HEAD"):
+        repository.replace_tree_of_head()
+        print(f"vicode: generated {len(staged)} file{'s' * (len(staged) != 1)} anew, in the commit of the merge")
+    return 0
+
+
+def _install(repository: Repository, *, is_removed: bool) -> int:
+    attributes = [] if is_removed else _attribute_lines(_find_projects(repository))
+    if not is_removed and not attributes:
+        raise GitError(f"no designs in {repository.root}")
+    _update_block(repository.root / ".gitattributes", attributes, insert=lambda text, block: text + block)
+    for name, value in _config().items():
+        if repository.config(name) != (None if is_removed else value):
+            repository.set_config(name, None if is_removed else value)
+            print(f"{'removed' if is_removed else 'set'} {name} in the configuration of the repository")
+    folder = repository.hooks_folder()
+    return max([_install_hook(folder / name, is_removed=is_removed) for name in _HOOKS])
+
+
+def _attribute_lines(projects: Sequence[_TrackedProject]) -> list[str]:
+    designs = {project.folder: "merge=vicode diff=vicode" for project in projects}
+    generated = {
+        project.generated: "merge=vicode-generated" for project in projects if project.generated not in ("", ".")
+    }
+    return [
+        *(f"{_pattern(folder, '**/*.y*ml')} {drivers}" for folder, drivers in designs.items()),
+        *(f"{_pattern(folder, '**')} {driver}" for folder, driver in generated.items()),
+    ]
+
+
+def _pattern(folder: str, files: str) -> str:
+    pattern = f"/{files}" if folder == "." else f"/{folder}/{files}"
+    escaped = pattern.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"' if escaped != pattern or " " in pattern else pattern
+
+
+def _config() -> dict[str, str]:
+    """The drivers: commands that do not depend on the search path, which hooks may not have."""
+    command = _command()
+    return {
+        "merge.vicode.name": "vicode: merge designs by state and transition",
+        "merge.vicode.driver": f"{command} merge --path=%P -- %O %A %B",
+        # A merge of several common ancestors takes one of them, instead of writing markers into it.
+        "merge.vicode.recursive": "binary",
+        "merge.vicode-generated.name": "vicode: keep generated files, which vicode gen writes anew",
+        "merge.vicode-generated.driver": f"{command} merge --generated --path=%P -- %O %A %B",
+        "merge.vicode-generated.recursive": "binary",
+        "diff.vicode.command": f"{command} diff --external --",
+    }
+
+
+def _command() -> str:
+    # -P: a folder vicode in the repository must not shadow the package.
+    return f"{shlex.quote(Path(sys.executable).as_posix())} -P -m vicode"
+
+
+def _install_hook(file: Path, *, is_removed: bool) -> int:
+    """Add our lines to a hook, after the first line of an existing script; return 1 if that is not possible."""
+    lines = [] if is_removed else [f"{_command()} hook {file.name} || exit $?"]
+    if file.exists() and not is_removed:
+        reason = _why_unusable(file)
+        if reason:
+            print(f"vicode: {file} {reason}; call '{_command()} hook {file.name}' in it", file=sys.stderr)
+            return 1
+    _update_block(file, lines, insert=_insert_after_shebang)
+    if file.exists() and file.read_text(encoding="utf-8").strip() in ("", "#!/bin/sh"):
+        file.unlink()
+    elif file.exists() and lines:
+        file.chmod(file.stat().st_mode | stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH)
+    return 0
+
+
+def _why_unusable(file: Path) -> str:
+    """Why lines cannot be added to a hook; empty if they can."""
+    content = file.read_bytes()
+    first = content.split(b"\n", 1)[0].decode(errors="replace")
+    interpreter = (
+        Path(first.removeprefix("#!").split()[-1]).name if first.startswith("#!") and first.strip("#! ") else ""
+    )
+    if interpreter not in _SHELLS:
+        return "is no shell script"
+    return "" if os.access(file, os.X_OK) else "is not executable, so git ignores it"
+
+
+def _insert_after_shebang(text: str, block: str) -> str:
+    first, _line_break, rest = (text or "#!/bin/sh\n").partition("\n")
+    return f"{first}\n{block}{rest}"
+
+
+def _update_block(file: Path, lines: Sequence[str], *, insert: Callable[[str, str], str]) -> None:
+    """Replace our lines in a file, between comments that mark them, and say so."""
+    old = file.read_text(encoding="utf-8") if file.exists() else ""
+    before, begin, rest = old.partition(f"{_BEGIN}\n")
+    block = "".join(f"{line}\n" for line in (_BEGIN, *lines, _END)) if lines else ""
+    if begin:
+        new = before + block + rest.partition(f"{_END}\n")[2]
+    else:
+        ended = old if not old or old.endswith("\n") else f"{old}\n"
+        new = insert(ended, block) if lines else old
+    if new == old:
+        return
+    if new:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(file, new)
+    else:
+        file.unlink()
+    print(f"{'wrote' if new else 'deleted'} {file}")

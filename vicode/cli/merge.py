@@ -1,0 +1,67 @@
+"""Merge two versions of a design by state and transition; a merge driver for git."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from vicode.git import merge_lines
+from vicode.output import write_atomically
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("base", metavar="BASE", help="the common ancestor; an empty file if there is none")
+    parser.add_argument("ours", metavar="OURS", help="our version; the result is written to it")
+    parser.add_argument("theirs", metavar="THEIRS", help="their version")
+    parser.add_argument("--path", metavar="P", help="the path of the file in messages (default: OURS)")
+    parser.add_argument(
+        "--generated", action="store_true", help="the file is generated: keep OURS, 'vicode gen' writes it anew"
+    )
+    parser.epilog = "Exit codes: 0 merged, 1 conflicts are marked in OURS, 2 the command could not run."
+
+
+def run(args: argparse.Namespace) -> int:
+    """Merge and write the result; return 1 if there are conflicts."""
+    files = [Path(each) for each in (args.base, args.ours, args.theirs)]
+    path = args.path or args.ours
+    base, ours, theirs = (file.read_bytes() for file in files)
+    if args.generated and not any(_has_hand_edits(path, content) for content in (ours, theirs)):
+        if base != theirs != ours:
+            print(f"vicode: {path} is generated; run 'vicode gen' after the merge", file=sys.stderr)
+        return 0
+    merged = None if args.generated else _merge_designs(path, base, ours, theirs)
+    if merged is not None:
+        content, conflicts = merged
+    else:
+        content, has_conflicts = merge_lines(files[1], files[0], files[2])
+        conflicts = ("lines",) if has_conflicts else ()
+    if content != ours:
+        write_atomically(files[1], content)
+    for name in conflicts:
+        print(f"vicode: {path}: conflict in {name}", file=sys.stderr)
+    return int(bool(conflicts))
+
+
+def _merge_designs(path: str, base: bytes, ours: bytes, theirs: bytes) -> tuple[bytes, tuple[str, ...]] | None:
+    """The merged content and its conflicts; None if a version is no sound design."""
+    from vicode.store import is_project_text, looks_like_design, merge_file_texts
+
+    if not looks_like_design(ours) or not looks_like_design(theirs):
+        return None
+    try:
+        texts = [content.decode("utf-8") for content in (base, ours, theirs)]
+    except UnicodeDecodeError:
+        return None
+    merged = merge_file_texts(*texts, is_project_file=is_project_text(path, ours))
+    return None if merged is None else (merged.text.encode(), merged.conflicts)
+
+
+def _has_hand_edits(path: str, content: bytes) -> bool:
+    """Whether a generated file contains changes that generating would lose."""
+    from vicode.regions import find_regions, get_comment_prefix, has_header, is_edited
+
+    try:
+        text = content.decode("utf-8")
+    except UnicodeDecodeError:
+        return True
+    parsed = find_regions(text, get_comment_prefix(path))
+    return not has_header(text) or bool(parsed.findings) or any(is_edited(region) for region in parsed.regions)
