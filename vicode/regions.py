@@ -208,11 +208,16 @@ def _indented(body: str, indent: str) -> list[str]:
 
 
 def _unindented(lines: list[str], indent: str) -> str:
-    """The lines without the indentation of their marks."""
+    """The lines without the indentation of their marks; tabs that indent a line further become spaces."""
     fixed = _lines_inside_strings("\n".join(lines))
     return "\n".join(
-        line if number in fixed else line.removeprefix(indent) for number, line in enumerate(lines, start=1)
+        line if number in fixed else _spaced(line.removeprefix(indent)) for number, line in enumerate(lines, start=1)
     )
+
+
+def _spaced(line: str) -> str:
+    code = line.lstrip(" \t")
+    return line[: len(line) - len(code)].expandtabs(4) + code
 
 
 def _lines_inside_strings(body: str) -> set[int]:
