@@ -62,7 +62,7 @@ class Generator:
     write: Callable[..., tuple[OutputFile, ...]]
     list_paths: Callable[..., tuple[str, ...]]
     reserved_modules: frozenset[str]
-    component_writer: Callable[[ProjectPlan], Callable[[ComponentPlan], ComponentCode]]
+    component_writer: Callable[..., Callable[[ComponentPlan], ComponentCode]]
     find_origins: Callable[[ComponentPlan, str], tuple[Origin, ...]]
     list_regions: Callable[[ComponentPlan], Iterable[CodePlan]]
 
@@ -128,7 +128,7 @@ def generate(
 
 
 def component_generator(
-    project: Project, language: str, sources: Mapping[str, str]
+    project: Project, language: str, sources: Mapping[str, str], *, standalone: bool = False
 ) -> Callable[[Design], ComponentCode | None]:
     """Return a function that writes the file of one design, or returns None if the language cannot express it."""
     generator = GENERATORS[language]()
@@ -136,7 +136,7 @@ def component_generator(
     @cache
     def start() -> tuple[ProjectPlan, Callable[[ComponentPlan], ComponentCode]]:
         plan = plan_project(project, (), sources, generator.reserved_modules)
-        return plan, generator.component_writer(plan)
+        return plan, generator.component_writer(plan, standalone=standalone)
 
     def write(design: Design) -> ComponentCode | None:
         try:

@@ -83,6 +83,11 @@ def imported_names(items: Iterable[CodeItem]) -> tuple[tuple[str, str, str], ...
     return tuple(sorted(names))
 
 
+def docstring_text(item: CodeItem) -> str:
+    """Return the lines of a docstring without their indentation."""
+    return (_docstring(item.node) or "") if item.node is not None else ""
+
+
 def _mask_regions(text: str) -> tuple[str, dict[int, int]]:
     """Replace each region by a call in its first line; return the last lines of the regions by the first."""
     lines = text.split("\n")

@@ -56,12 +56,13 @@ def generate_python(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile,
     return (*files, *(_copy_runtime(folder) if standalone else ()))
 
 
-def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCode]:
+def component_writer(plan: ProjectPlan, *, standalone: bool = False) -> Callable[[ComponentPlan], ComponentCode]:
     """Return a function that writes the module of one component."""
     names = assign_global_names(plan)
+    runtime = ".bica" if standalone else RUNTIME
 
     def write(component: ComponentPlan) -> ComponentCode:
-        file = _module(ComponentWriter(project=plan, component=component, names=names, runtime=RUNTIME))
+        file = _module(ComponentWriter(project=plan, component=component, names=names, runtime=runtime))
         return ComponentCode(file=file, origins=find_origins(component, file.text))
 
     return write

@@ -1,0 +1,233 @@
+"""Proposes edits for changes of the class and the module: settings, declarations, states, docs and added code."""
+
+import ast
+import re
+import textwrap
+from collections.abc import Iterator
+from dataclasses import replace
+
+from vicode.model.design import Code, Declaration, Design, State
+from vicode.model.edits import set_declarations, update_state
+from vicode.sync.code_items import CODE, COMMENT, DOCSTRING, REGION, CodeItem, docstring_text
+from vicode.sync.interpret.edit_context import CodeChange, EditContext, method_name
+
+_ENTRY = re.compile(r"    (\w+): (.*)")
+_FACTS = re.compile(r" \([^()]*\)\Z")
+
+
+def propose_class_edits(context: EditContext, change: CodeChange) -> Iterator[Design]:
+    """Propose edits for a change outside of the methods of states."""
+    method = method_name(change.item.scope)
+    kinds = {item.kind for item in (*change.removed, *change.added)}
+    if kinds == {DOCSTRING}:
+        yield from _docs(context, change)
+    elif method == "__init__":
+        yield from _initial_values(context, change)
+        yield from _added_variables(context, change.added)
+        yield from _changed_states(context, change)
+    elif method == "modulate":
+        yield from _defaults(context, change)
+    elif not method and change.item.scope:
+        yield from _settings(context, change)
+    if change.added and not change.removed and REGION not in kinds:
+        yield from _added_code(context, change.added)
+
+
+def _docs(context: EditContext, change: CodeChange) -> Iterator[Design]:
+    old, new = ("\n".join(docstring_text(item) for item in items) for items in (change.removed, change.added))
+    place = context.place_of(change.item.scope)
+    if place is not None:
+        for text in _unwrapped(new):
+            yield update_state(context.design, place.source, lambda state, doc=text: replace(state, doc=doc))  # type: ignore[misc]
+    elif not method_name(change.item.scope) and change.item.scope:
+        (old_doc, old_entries), (doc, entries) = _split_docstring(old), _split_docstring(new)
+        for text in _unwrapped(doc) if doc.split() != old_doc.split() else [context.design.doc]:
+            edited = replace(context.design, doc=text)
+            yield _with_declaration_docs(edited, old_entries, entries)
+
+
+def _unwrapped(doc: str) -> list[str]:
+    """Return possible texts of a docstring: each paragraph as one line, and as it is."""
+    paragraphs = re.split(r"\n\s*\n", doc)
+    is_plain = all(line[:1].isalnum() for line in doc.split("\n") if line)
+    joined = "\n\n".join(" ".join(paragraph.split()) for paragraph in paragraphs)
+    return list(dict.fromkeys([joined, doc] if is_plain else [doc, joined]))
+
+
+def _split_docstring(text: str) -> tuple[str, dict[str, str]]:
+    """Split the docstring of a class into its doc and the texts of its attributes."""
+    doc, _heading, section = f"{text}\n".partition("\nAttributes:\n")
+    entries: dict[str, str] = {}
+    name = ""
+    for line in section.split("\n"):
+        match = _ENTRY.match(line)
+        if match:
+            name, entries[match[1]] = match[1], match[2]
+        elif name and line.strip():
+            entries[name] += f" {line.strip()}"
+    return doc.strip(), entries
+
+
+def _with_declaration_docs(design: Design, old: dict[str, str], new: dict[str, str]) -> Design:
+    for section in ("parameters", "outputs", "variables"):
+        declarations = tuple(
+            declaration
+            if old.get(declaration.name) == new.get(declaration.name)
+            else replace(declaration, doc=_doc_of(declaration, new.get(declaration.name, "")))
+            for declaration in getattr(design, section)
+        )
+        design = set_declarations(design, section, declarations)
+    return design
+
+
+def _doc_of(declaration: Declaration, text: str) -> str:
+    """Return the doc without the unit and range that the generator adds."""
+    has_facts = declaration.unit or declaration.range
+    doc = _FACTS.sub("", text) if has_facts else text
+    return f"{doc}." if has_facts and declaration.doc.rstrip().endswith(".") and not doc.endswith(".") else doc
+
+
+def _initial_values(context: EditContext, change: CodeChange) -> Iterator[Design]:
+    if len(change.removed) != 1 or len(change.added) != 1:
+        return
+    old, new = _read_attribute(change.removed[0]), _read_attribute(change.added[0])
+    if old is None or new is None or old[0] != new[0]:
+        return
+    yield from _with_initial(context, old[0], old[1], new[1])
+
+
+def _with_initial(context: EditContext, name: str, old: ast.expr | None, new: ast.expr) -> Iterator[Design]:
+    for section in ("parameters", "outputs", "variables"):
+        declarations: tuple[Declaration, ...] = getattr(context.design, section)
+        for declaration in declarations:
+            if declaration.name != name:
+                continue
+            for text in context.reader.read_change(declaration.initial, old if declaration.initial else None, new):
+                changed = tuple(replace(each, initial=text) if each is declaration else each for each in declarations)
+                yield set_declarations(context.design, section, changed)
+                # A value of another form changes a type that is inferred from it.
+                typed = tuple(
+                    replace(each, initial=text, type=each.type or "float") if each is declaration else each
+                    for each in declarations
+                )
+                yield set_declarations(context.design, section, typed)
+
+
+def _defaults(context: EditContext, change: CodeChange) -> Iterator[Design]:
+    """Propose defaults of parameters for a changed signature of `modulate`."""
+    nodes = [item.node for item in (*change.removed[:1], *change.added[:1])]
+    match nodes:
+        case [ast.FunctionDef(args=old), ast.FunctionDef(args=new)]:
+            before = {argument.arg: value for argument, value in zip(old.kwonlyargs, old.kw_defaults, strict=True)}
+            for argument, value in zip(new.kwonlyargs, new.kw_defaults, strict=True):
+                was = before.get(argument.arg)
+                if value is not None and was is not None and ast.dump(was) != ast.dump(value):
+                    yield from _with_initial(context, argument.arg, was, value)
+
+
+def _added_variables(context: EditContext, added: tuple[CodeItem, ...]) -> Iterator[Design]:
+    if len(added) != 1 or (read := _read_attribute(added[0])) is None:
+        return
+    name, value = read
+    text = context.reader.read(value)
+    variables = context.design.variables
+    for type_ in ("", "float", "int", "bool"):
+        declaration = Declaration(name=name, initial=text, type=type_)
+        for index in range(len(variables), -1, -1):
+            yield replace(context.design, variables=(*variables[:index], declaration, *variables[index:]))
+    if isinstance(value, ast.Attribute):
+        yield replace(context.design, variables=(*variables, Declaration(name=name, initial=text)))
+
+
+def _read_attribute(item: CodeItem) -> tuple[str, ast.expr] | None:
+    match item.node:
+        case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=name)], value=value):
+            return name, value
+        case _:
+            return None
+
+
+def _changed_states(context: EditContext, change: CodeChange) -> Iterator[Design]:
+    """Propose requirements, `final` and the numbers of robots for a changed `State(…)`."""
+    if len(change.removed) != 1 or len(change.added) != 1:
+        return
+    match change.removed[0].node, change.added[0].node:
+        case ast.Expr(value=ast.Call(args=[ast.Constant(value=str(name)), *_])), ast.Expr(value=ast.Call() as call):
+            keywords = {keyword.arg: keyword.value for keyword in call.keywords}
+            yield update_state(context.design, name, lambda state: _with_keywords(state, keywords))
+
+
+def _with_keywords(state: State, keywords: dict[str | None, ast.expr]) -> State:
+    requires = keywords.get("requires")
+    final = keywords.get("final")
+    return replace(
+        state,
+        requires=tuple(_attribute_names(requires)),
+        final=isinstance(final, ast.Constant) and final.value is True,
+        capacity=_whole_number(keywords.get("capacity")),
+        synchronized=_whole_number(keywords.get("synchronized")),
+    )
+
+
+def _attribute_names(node: ast.expr | None) -> Iterator[str]:
+    for element in node.elts if isinstance(node, ast.Tuple | ast.List) else ():
+        if isinstance(element, ast.Attribute):
+            yield element.attr
+
+
+def _whole_number(node: ast.expr | None) -> int | None:
+    match node:
+        case ast.Constant(value=int(value)):
+            return value
+        case _:
+            return None
+
+
+def _settings(context: EditContext, change: CodeChange) -> Iterator[Design]:
+    for item in change.added:
+        match item.node:
+            case ast.Assign(targets=[ast.Name(id="frequency_hz")], value=ast.Constant(value=int() | float() as hertz)):
+                yield replace(context.design, frequency_hz=float(hertz))
+            case ast.Assign(targets=[ast.Name(id="resume")], value=ast.Constant(value=bool(resume))):
+                yield replace(context.design, resume=resume)
+    if not change.added:
+        yield replace(context.design, frequency_hz=None)
+        yield replace(context.design, resume=False)
+
+
+def _added_code(context: EditContext, added: tuple[CodeItem, ...]) -> Iterator[Design]:
+    """Propose code of the class or the module: definitions and assignments, behind or before the code that is there."""
+    definitions = [item for item in added if item.kind == CODE]
+    first = next((item for item in added if item.kind != COMMENT), None)
+    if first is None or not definitions:
+        return
+    text = textwrap.dedent(context.source_of(added)).strip("\n") + "\n"
+    depth = 1 if isinstance(first.node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef) else 0
+    level = first.depth
+    if level == 0:
+        for code in _extended(context.design.module, text, separator="\n\n" if depth else ""):
+            yield replace(context.design, module=code)
+    elif level == 1:
+        for code in _extended(context.design.members, text, separator="\n"):
+            yield replace(context.design, members=code)
+
+
+def _extended(code: Code, text: str, *, separator: str) -> Iterator[Code]:
+    """Yield the code with a text behind it, and before it."""
+    own = code.in_language("python") or ""
+    others = tuple(pair for pair in code.texts if pair[0] != "python")
+    if not own.strip():
+        yield replace(code, texts=(("python", text), *others))
+        return
+    own = own.rstrip("\n") + "\n"
+    yield replace(code, texts=(("python", own + separator + text), *others))
+    yield replace(code, texts=(("python", text + separator + own), *others))
+
+
+def with_imports(design: Design, statements: list[str]) -> Design:
+    """Return the design with import statements at the start of its module code."""
+    own = design.module.in_language("python") or ""
+    lines = "".join(f"{statement}\n" for statement in statements)
+    separator = "" if not own.strip() or own.lstrip().startswith(("import ", "from ")) else "\n"
+    others = tuple(pair for pair in design.module.texts if pair[0] != "python")
+    return replace(design, module=Code(texts=(("python", lines + separator + own), *others)))

@@ -1,0 +1,86 @@
+"""Splits the difference of two normal forms into changes that are explained one by one."""
+
+import ast
+from collections.abc import Iterator, Sequence
+from difflib import SequenceMatcher
+from itertools import groupby
+
+from vicode.sync.code_items import COMMENT, CodeItem
+from vicode.sync.interpret.edit_context import CodeChange
+from vicode.sync.interpret.normal_form import NormalForm
+
+
+def find_changes(old: NormalForm, new: NormalForm) -> Iterator[CodeChange]:
+    """Yield the changes of statements of one kind first, then what remains as additions and removals."""
+    whole: list[CodeChange] = []
+    for tag, first, last, start, end in SequenceMatcher(None, old.keys, new.keys, autojunk=False).get_opcodes():
+        if tag == "equal":
+            continue
+        removed, added = old.items[first:last], new.items[start:end]
+        yield from _pairs(removed, added)
+        whole.append(CodeChange(removed=removed, added=added))
+    for change in whole:
+        yield from _runs(change)
+
+
+def _pairs(removed: Sequence[CodeItem], added: Sequence[CodeItem]) -> Iterator[CodeChange]:
+    """Yield pairs of an old and a new item; what remains between them are additions and removals."""
+    signatures = [_signature(item) for item in removed], [_signature(item) for item in added]
+    matcher = SequenceMatcher(None, *signatures, autojunk=False)
+    for tag, first, last, start, end in matcher.get_opcodes():
+        if tag == "equal":
+            for old, new in zip(removed[first:last], added[start:end], strict=True):
+                if old.key != new.key:
+                    yield CodeChange(removed=(old,), added=(new,))
+            continue
+        if last - first == end - start == 1:
+            yield CodeChange(removed=(removed[first],), added=(added[start],))
+        for is_added, items in ((False, removed[first:last]), (True, added[start:end])):
+            if items and len(removed) > 0 and len(added) > 0:
+                yield CodeChange(added=tuple(items)) if is_added else CodeChange(removed=tuple(items))
+
+
+def _runs(change: CodeChange) -> Iterator[CodeChange]:
+    """Yield the additions and removals of a change: whole, by definition, and item by item."""
+    for items, is_added in ((change.added, True), (change.removed, False)):
+        if not items:
+            continue
+        parts = [items]
+        parts += [tuple(group) for _owner, group in groupby(items, key=_definition_of)]
+        parts += _statements(items)
+        for part in dict.fromkeys(parts):
+            yield CodeChange(added=part) if is_added else CodeChange(removed=part)
+
+
+def _definition_of(item: CodeItem) -> str:
+    return ".".join(item.scope.split(".")[:2])
+
+
+def _statements(items: tuple[CodeItem, ...]) -> Iterator[tuple[CodeItem, ...]]:
+    """Yield each statement with the comments before it and the items nested in it."""
+    start = 0
+    for index, item in enumerate(items):
+        following = items[index + 1] if index + 1 < len(items) else None
+        is_inside = following is not None and following.depth > items[start].depth
+        if item.kind != COMMENT and not is_inside:
+            yield items[start : index + 1]
+            start = index + 1
+    if start < len(items):
+        yield items[start:]
+
+
+def _signature(item: CodeItem) -> tuple[object, ...]:
+    """What a changed item has in common with the old one."""
+    match item.node:
+        case ast.If():
+            about = item.code.split()[0]
+        case ast.Assign(targets=[target]) | ast.AugAssign(target=target):
+            about = ast.unparse(target)
+        case ast.Expr(value=ast.Call(func=function, args=[first, *_rest])):
+            name = ast.unparse(function)
+            about = f"{name} {ast.unparse(first)}" if name in ("self._call", "State") else name
+        case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
+            about = name
+        case _:
+            about = ""
+    return (item.kind, item.scope, item.depth, about)

@@ -1,0 +1,253 @@
+"""Explains a changed file by edits of its design: proposes edits, generates, and keeps those that give the change.
+
+The distance of modules counts the statements to delete and insert. An edit is understood if the code generated with it
+lies between the code generated without it and the edited file; it contains nothing that the person did not write.
+"""
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from vicode.check import check_design
+from vicode.findings import DesignPath, Severity
+from vicode.generators import component_generator
+from vicode.model.design import Design
+from vicode.model.diff import Change, ChangeKind, describe_change, diff_designs
+from vicode.model.project import Project
+from vicode.sync.interpret.action_proposals import propose_actions
+from vicode.sync.interpret.class_proposals import propose_class_edits, with_imports
+from vicode.sync.interpret.code_changes import find_changes
+from vicode.sync.interpret.decision_proposals import propose_decisions
+from vicode.sync.interpret.edit_context import CodeChange, EditContext
+from vicode.sync.interpret.leftover import LeftoverWriter, import_statement, make_patch
+from vicode.sync.interpret.normal_form import NormalForm, build_normal_form, collect_parts
+from vicode.sync.interpret.renames import find_word_mapping, list_states, map_parts, map_words, propose_renames
+from vicode.sync.interpret.sequence_distance import distance
+
+_SOURCE = re.compile(r'^    design_file = "([^"\\]*)"$', re.MULTILINE)
+_Imports = frozenset[tuple[str, str, str]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterpretedEdit:
+    """An edit of the design: the path of the element, the edit in words, and its line in the edited file."""
+
+    path: DesignPath
+    words: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Interpretation:
+    """The design with the edits that were understood, and the rest as a patch of the text generated from it."""
+
+    design: Design
+    edits: tuple[InterpretedEdit, ...] = ()
+    leftover: str = ""
+
+
+def interpret_edits(project: Project, component: str, *, generated: str, edited: str) -> Interpretation:
+    """Explain the edits of a generated Python file; bodies of regions are ignored.
+
+    Args:
+        project: The project with the design of the component.
+        component: The component.
+        generated: The text generated from the design.
+        edited: The file as it was found.
+    """
+    design = project.design(component)
+    if design is None:
+        raise ValueError(f"the component '{component}' has no design")
+    edited = edited.replace("\r\n", "\n").replace("\r", "\n")
+    generated = generated.replace("\r\n", "\n")
+    try:
+        search = _Search(project, design, generated, edited)
+    except SyntaxError:
+        return Interpretation(design=design, leftover=make_patch(generated, edited, component))
+    if not search.is_generated_from(generated):
+        return Interpretation(design=design, leftover=make_patch(generated, edited, component))
+    search.run()
+    return Interpretation(design=search.design, edits=tuple(search.edits), leftover=search.write_leftover())
+
+
+class _Search:
+    """Searches for edits of one design; `design` and `form` change with each edit that is understood."""
+
+    def __init__(self, project: Project, design: Design, generated: str, edited: str) -> None:
+        source = _SOURCE.search(generated)
+        self._project = project
+        self._write = component_generator(
+            project,
+            "python",
+            {design.component: source[1]} if source else {},
+            standalone="\nfrom .bica import " in generated,
+        )
+        self.design, self._text, self._edited = design, generated, edited
+        self._parts = collect_parts(generated)
+        self._form = build_normal_form(generated, self._parts, is_generated=True)
+        self._target = build_normal_form(edited, self._parts, is_generated=False)
+        self._old_imports = self._form.imports
+        self._errors = self._find_errors(design)
+        self.edits: list[InterpretedEdit] = []
+
+    def is_generated_from(self, text: str) -> bool:
+        """Whether the text is generated from the design."""
+        return self._write_text(self.design) == text
+
+    def run(self) -> None:
+        """Apply every edit that is understood."""
+        while self._form.keys != self._target.keys and (self._apply_rename() or self._apply_edit()):
+            pass
+        self._apply_imports()
+
+    def write_leftover(self) -> str:
+        return LeftoverWriter(
+            generated=self._text,
+            generated_form=self._form,
+            edited=self._edited,
+            edited_form=self._target,
+            parts=self._parts,
+            imports=self._wanted_imports(),
+        ).write(self.design.component)
+
+    def _apply_rename(self) -> bool:
+        for design in propose_renames(self.design, self._form, self._target):
+            text = self._write_text(design)
+            mapping = find_word_mapping(self._text, text) if text else None
+            if text is None or mapping is None or self._has_new_errors(design):
+                continue
+            parts = map_parts(self._parts, mapping)
+            form = build_normal_form(text, parts, is_generated=True)
+            edited = map_words(self._edited, mapping)
+            target = build_normal_form(edited, parts, is_generated=False)
+            if build_normal_form(map_words(self._text, mapping), parts, is_generated=True).keys != form.keys:
+                continue
+            if distance(form.keys, target.keys) >= distance(self._form.keys, self._target.keys):
+                continue
+            self._accept(design, self._first_difference())
+            self._text, self._form, self._parts = text, form, parts
+            self._edited, self._target = edited, target
+            return True
+        return False
+
+    def _apply_edit(self) -> bool:
+        total = distance(self._form.keys, self._target.keys)
+        context = self._context()
+        seen = {self.design}
+        for change in find_changes(self._form, self._target):
+            for design in _propose(context, change):
+                if design in seen:
+                    continue
+                seen.add(design)
+                result = self._generate(design)
+                if result is None or not self._is_between(result[1], total) or self._has_new_errors(design):
+                    continue
+                self._accept(design, change.item.first if change.added else self._first_difference())
+                self._text, self._form = result
+                return True
+        return False
+
+    def _is_between(self, form: NormalForm, total: int) -> bool:
+        """Whether a form is a part of the way from the generated text to the edited one."""
+        step = distance(self._form.keys, form.keys)
+        return 0 < step <= total and step + distance(form.keys, self._target.keys) == total
+
+    def _apply_imports(self) -> None:
+        """Move imports that were added to the code of the module."""
+        for name in sorted(self._added_imports()):
+            design = with_imports(self.design, [import_statement(*name)])
+            result = self._generate(design)
+            if result is None or result[1].keys != self._form.keys or self._has_new_errors(design):
+                continue
+            if result[1].imports - self._form.imports == {name}:
+                lines = [item.first for item in self._target.raw if import_statement(*name).split()[1] in item.code]
+                self._accept(design, lines[0] if lines else 1)
+                self._text, self._form = result
+
+    def _added_imports(self) -> _Imports:
+        """Return the imports that the person added, without those that the generator adds where they are needed."""
+        added = self._target.imports - self._old_imports - self._form.imports
+        declared = {item.name for item in self._project.constants} | {"arithmetic"}
+        declared |= {item.name for item in self._project.enumerations}
+        words = self._words_of_rest()
+        return frozenset(
+            (module, name, alias)
+            for module, name, alias in added
+            if name.rstrip("_") not in declared or not module or (alias or name) in words
+        )
+
+    def _words_of_rest(self) -> set[str]:
+        own = set(self._form.keys)
+        rest = (item.code for item in self._target.items if item.key not in own)
+        return {word for code in rest for word in re.findall(r"\w+", code)}
+
+    def _wanted_imports(self) -> _Imports:
+        """Return the imports of the generated text with the changes of the person that were not understood."""
+        removed = self._old_imports - self._target.imports
+        return (self._form.imports - removed) | self._added_imports()
+
+    def _context(self) -> EditContext:
+        return EditContext(
+            project=self._project,
+            design=self.design,
+            stems={stem: name for name, stem in list_states(self._form.items)},
+            edited=self._target.raw,
+            lines=tuple(self._edited.split("\n")),
+        )
+
+    def _generate(self, design: Design) -> tuple[str, NormalForm] | None:
+        text = self._write_text(design)
+        try:
+            return None if text is None else (text, build_normal_form(text, self._parts, is_generated=True))
+        except SyntaxError:
+            return None
+
+    def _write_text(self, design: Design) -> str | None:
+        code = self._write(design)
+        return None if code is None else code.file.text
+
+    def _find_errors(self, design: Design) -> frozenset[tuple[str, str]]:
+        findings = check_design(self._project, design)
+        return frozenset(
+            (finding.rule.code, finding.message) for finding in findings if finding.severity is Severity.ERROR
+        )
+
+    def _has_new_errors(self, design: Design) -> bool:
+        return not self._find_errors(design) <= self._errors
+
+    def _accept(self, design: Design, line: int) -> None:
+        for change in diff_designs(self.design, design):
+            self.edits.append(InterpretedEdit(path=change.path, words=_describe(change), line=line))
+        self.design = design
+
+    def _first_difference(self) -> int:
+        """Return the first line of the edited file that differs from the generated text."""
+        for own, other in zip(self._form.items, self._target.items, strict=False):
+            if own.key != other.key:
+                return other.first
+        return self._target.items[-1].last if self._target.items else 1
+
+
+def _describe(change: Change) -> str:
+    """The new value in full, or the lines that are new, since the reader knows what was written."""
+    if change.kind != ChangeKind.CHANGED:
+        return describe_change(change)[2:]
+    is_transition = change.subject.startswith("transition ")
+    subject = change.subject.removeprefix("transition ") if is_transition else change.subject
+    attribute = " of ".join(part for part in (change.attribute, subject) if part)
+    old = change.old.split("\n") if "\n" in change.new else []
+    lines = [line.strip() for line in change.new.split("\n") if line.strip() and line not in old]
+    new = f"{lines[0]} …" if len(lines) > 1 else "".join(lines)
+    return f"{attribute}: {new or '(none)'}"
+
+
+_PROPOSERS: tuple[Callable[[EditContext, CodeChange], Iterator[Design]], ...] = (
+    propose_decisions,
+    propose_actions,
+    propose_class_edits,
+)
+
+
+def _propose(context: EditContext, change: CodeChange) -> Iterator[Design]:
+    for propose in _PROPOSERS:
+        yield from propose(context, change)
