@@ -22,6 +22,7 @@ COMMANDS = (
     "diff",
     "merge",
     "hook",
+    "rename",
     "sample",
     "export",
     "import",

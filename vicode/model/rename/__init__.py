@@ -3,12 +3,15 @@
 from vicode.model.rename.designs import map_code
 from vicode.model.rename.projects import is_declared, rename_alias, rename_symbol, sibling_names
 from vicode.model.rename.references import ReferenceKind, ReferenceRename, SymbolRef
+from vicode.model.rename.search import find_symbols, list_names
 
 __all__ = [
     "ReferenceKind",
     "ReferenceRename",
     "SymbolRef",
+    "find_symbols",
     "is_declared",
+    "list_names",
     "map_code",
     "rename_alias",
     "rename_symbol",

@@ -1,0 +1,86 @@
+"""Renames any symbol in the files of a project, outside of an open editor."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from vicode.editor.session import texts
+from vicode.editor.session.edits import state_name_error
+from vicode.editor.session.rename_component import FileChange, plan_component_rename, validate_writable
+from vicode.editor.session.rename_symbol import plan_symbol_rename
+from vicode.editor.session.workspace import Workspace
+from vicode.model.design import Design
+from vicode.model.edits import rename_state
+from vicode.model.rename import SymbolRef
+from vicode.store import replace_text, save_design
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FileRenamePlan:
+    """The files to write and the file that a renamed component leaves, or the error message.
+
+    `notes` say what is left to rename by hand.
+    """
+
+    changes: tuple[FileChange, ...] = ()
+    removed: Path | None = None
+    error: str = ""
+    notes: tuple[str, ...] = ()
+
+
+def plan_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> FileRenamePlan:
+    """Plan the rename of a symbol, a state or a component; no file is written.
+
+    Raises:
+        ValueError: A file has content that the rename would lose.
+    """
+    broken = workspace.broken_file_names
+    if broken:
+        return FileRenamePlan(error=f"{broken[0]} cannot be read; correct it first, as it may contain the name")
+    design = workspace.project.design(symbol.component or symbol.name)
+    if symbol.section == "components" and design is not None:
+        plan = plan_component_rename(workspace, symbol.name, new)
+        return FileRenamePlan(changes=plan.changes, removed=plan.removed, error=plan.error)
+    if symbol.section == "states":
+        assert design is not None
+        error = state_name_error(new, {state.name for state in design.states})
+        error = error or validate_writable(workspace, [design.component])
+        changes = () if error else _design_changes(workspace, rename_state(design, symbol.name, new))
+        return FileRenamePlan(changes=changes, error=error)
+    found = plan_symbol_rename(workspace, symbol, new)
+    changes = found.changes if found.design is None else _design_changes(workspace, found.design)
+    notes = tuple(f"check by hand: {place}" for place in found.ambiguous_places)
+    return FileRenamePlan(changes=changes, error=found.error, notes=(*notes, *((found.note,) if found.note else ())))
+
+
+def apply_rename(plan: FileRenamePlan) -> None:
+    """Write all files of a plan or none.
+
+    Raises:
+        OSError: A file cannot be written, or another program has changed it.
+    """
+    written: list[FileChange] = []
+    try:
+        for change in plan.changes:
+            replace_text(change.file, change.old, change.new)
+            written.append(change)
+        if plan.removed is not None:
+            plan.removed.unlink()
+    except OSError:
+        _restore(written)
+        raise
+
+
+def _restore(written: Sequence[FileChange]) -> None:
+    for change in reversed(written):
+        if change.old is None:
+            change.file.unlink()
+        else:
+            replace_text(change.file, change.new, change.old)
+
+
+def _design_changes(workspace: Workspace, design: Design) -> tuple[FileChange, ...]:
+    file = workspace.files[design.component]
+    text = file.read_bytes().decode("utf-8")
+    summary = texts.line_summary(design.component, 0)
+    return (FileChange(file=file, old=text, new=save_design(design, text), summary=summary),)
