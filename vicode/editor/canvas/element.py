@@ -181,6 +181,8 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._remove_embedded_scene()
         scene, client = self._full_scene(), self.client
         if client._response_built:
+            # Added to an open page: the scene arrives with the element.
+            self._props["scene"], self._embedded_rev = json.dumps(scene), scene["rev"]
             return
         # Without "<" the text can neither end the script nor start a comment.
         text = json.dumps(scene).replace("<", "\\u003c")
@@ -193,6 +195,9 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         """Drop the embedded scene; NiceGUI would keep it as long as the page is open."""
         if self._embedded_script:
             self.client._body_html = self.client._body_html.replace(self._embedded_script, "")
+        elif self.client._response_built:
+            with self._props.suspend_updates():
+                self._props["scene"] = ""
         self._embedded_script, self._embedded_rev = "", None
 
     def _full_scene(self) -> dict[str, Any]:

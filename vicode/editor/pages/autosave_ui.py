@@ -44,10 +44,12 @@ class AutosaveControls:
     def __init__(self, context: WindowContext, autosave: AutosaveService | None) -> None:
         self.context, self.autosave = context, autosave
         self.shown_notice = context.document.shared.notice
-        if autosave is not None:
+
+    def offer_recovery(self) -> None:
+        if self.autosave is not None:
             from vicode.editor.panels.recovery_dialog import offer_recovery
 
-            offer_recovery(context, autosave)
+            offer_recovery(self.context, self.autosave)
 
     def commands(self) -> tuple[Command, ...]:
         return (

@@ -37,7 +37,7 @@ class BrokenPage:
         Theme(editors, apply_theme())
         with ui.element("div").classes("shell broken-shell"):
             head = ui.element("header").classes("head")
-            DesignsList(library, (workspace.key, ""), DesignDialogs(show_toast=show_toast, offer_undo=UndoBar().show))
+            DesignsList(library, DesignDialogs(show_toast=show_toast, offer_undo=UndoBar().show))
             with ui.element("main").classes("design-view broken-view"):
                 self.title = ui.label(name).classes("dialog-title").props("role=heading aria-level=1")
                 self.note = ui.label().classes("small").props("role=status")

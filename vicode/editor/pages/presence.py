@@ -1,6 +1,6 @@
 """Presence of one window: announces it while it is connected, and shows the other users."""
 
-from nicegui import core, ui
+from nicegui import core
 
 from vicode.editor.canvas import Canvas
 from vicode.editor.canvas.protocol import RemoteUser, item_json
@@ -16,16 +16,14 @@ class PresenceSync:
     """Synchronizes one window with the presence room of the design."""
 
     def __init__(self, context: WindowContext, user: User, canvas: Canvas, presence_bar: PresenceBar) -> None:
-        """Join when the browser connects; leave when it disconnects or closes."""
+        """Join when the browser connects; leave when it disconnects, or the window shows another design or closes."""
         self.context, self.person, self.canvas, self.presence_bar = context, user, canvas, presence_bar
         presence_bar.rename = self.rename
         self.shown_typing: object = None
         self.is_update_scheduled = False
-        client = ui.context.client
-        client.on_connect(self._join)
-        client.on_disconnect(lambda: context.presence.leave(context.window))
-        client.on_delete(lambda: context.presence.leave(context.window))
-        client.on_delete(context.presence.changes.subscribe(self._on_presence_change))
+        context.closings.subscribe(context.presence.changes.subscribe(self._on_presence_change))
+        for leaving in (context.disconnects, context.closings):
+            leaving.subscribe(lambda: context.presence.leave(context.window))
         context.changes.subscribe(lambda: context.presence.update(context.window, selected=context.selected))
 
     def rename(self, name: str) -> None:
@@ -36,7 +34,7 @@ class PresenceSync:
             if presence.user.id == self.person.id:
                 self.context.presence.update(presence.window, user=self.person)
 
-    def _join(self) -> None:
+    def join(self) -> None:
         self.context.presence.join(self.context.window, self.person)
         self.context.presence.update(self.context.window, selected=self.context.selected)
 

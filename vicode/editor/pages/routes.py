@@ -8,16 +8,15 @@ from starlette.requests import Request
 
 from vicode.editor.pages import texts
 from vicode.editor.pages.autosave_ui import run_autosave
-from vicode.editor.pages.design_page import DesignPage
+from vicode.editor.pages.design_page import DesignPage, open_design_at
 from vicode.editor.pages.docs_preview import serve_docs_preview
-from vicode.editor.pages.navigation import PageRequest
 from vicode.editor.pages.theme import apply_theme
 from vicode.editor.panels.thumbnails import serve_thumbnails
 from vicode.editor.panels.toasts import show_internal_error
 from vicode.editor.session import Library, Workspace
 from vicode.editor.session.autosave import AutosaveService
 from vicode.editor.session.search_index import SearchIndex
-from vicode.editor.view.page_urls import broken_file_url, parse_trail
+from vicode.editor.view.page_urls import DesignAddress, broken_file_url, parse_selection
 
 
 def register_pages(library: Library, autosave: AutosaveService | None = None, *, tour: bool = False) -> None:
@@ -41,23 +40,24 @@ def register_pages(library: Library, autosave: AutosaveService | None = None, *,
 
     @ui.page("/design/{key}/{component}", title="vicode")
     def design(key: str, component: str, request: Request) -> None:
-        workspace = _workspace_as_on_disk(library, key)
-        document = workspace.open_document(component) if workspace else None
-        if workspace is None or document is None:
-            _show_not_found(texts.design_not_found(component[:80]), texts.MAYBE_REMOVED, workspace)
-            return
-        ui.page_title(f"{component} – vicode")
         query = request.query_params
-        trail = parse_trail(query.get("from", ""), workspace.project.interfaces(), component)
+        selected = parse_selection(query.get("select", ""))
+        address = DesignAddress(key=key, component=component, selected=selected, trail=query.get("from", ""))
+        opened = open_design_at(library, address)
+        if opened is None:
+            _show_not_found(texts.design_not_found(component[:80]), texts.MAYBE_REMOVED, library.workspace(key))
+            return
         ui.on_exception(show_internal_error)
-        page_request = PageRequest(index=index, trail=trail, select=query.get("select", ""), tour=tour)
-        DesignPage(library, workspace, document, page_request, autosave)
+        DesignPage(library, index, autosave, opened, starts_tour=tour)
 
     @ui.page("/broken/{key}/{file:path}", title="vicode")
     def broken(key: str, file: str) -> None:
         from vicode.editor.pages.broken_page import BrokenPage
 
-        workspace = _workspace_as_on_disk(library, key)
+        workspace = library.workspace(key)
+        with contextlib.suppress(OSError):
+            if workspace:
+                workspace.sync_from_disk()
         # Only files known to be unreadable are opened, so that a URL cannot name any other file.
         path = workspace.broken_files.get(file) if workspace else None
         if workspace is None or path is None:
@@ -66,15 +66,6 @@ def register_pages(library: Library, autosave: AutosaveService | None = None, *,
         ui.page_title(f"{file} – vicode")
         ui.on_exception(show_internal_error)
         BrokenPage(library, workspace, path, file)
-
-
-def _workspace_as_on_disk(library: Library, key: str) -> Workspace | None:
-    """Return the project of a key, after reading changed files."""
-    workspace = library.workspace(key)
-    if workspace:
-        with contextlib.suppress(OSError):
-            workspace.sync_from_disk()
-    return workspace
 
 
 def _show_not_found(title: str, hint: str, workspace: Workspace | None = None) -> None:

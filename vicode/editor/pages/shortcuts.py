@@ -61,11 +61,13 @@ document.addEventListener("keydown", (event) => {
   if (event.target.matches?.("input, textarea")) event.target.dispatchEvent(new Event("change", { bubbles: true }));
   queueMicrotask(send);
 }, true);
-// Send typed text before the page unloads, as the pause would be cut short.
-addEventListener("beforeunload", () => {
+// Send typed text before the page shows another design or unloads, as the pause would be cut short.
+const sendText = () => {
   const field = document.activeElement;
   if (field?.matches("input, textarea")) field.dispatchEvent(new Event("change", { bubbles: true }));
-});
+};
+addEventListener("vicode-leave", sendText);
+addEventListener("beforeunload", sendText);
 </script>
 """
 

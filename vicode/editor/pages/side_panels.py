@@ -1,5 +1,6 @@
 """The panels around the diagram: the dock below and the side panel on the right."""
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from nicegui import ui
@@ -28,12 +29,10 @@ _FOCUS_SEARCH = """
 """
 
 
-class SidePanels:
-    """Builds both tab bars. `build` adds the panels, after the diagram is shown, as they take longer to load."""
+class SideTabs:
+    """Both tab bars, which stay while the window shows other designs."""
 
-    def __init__(self, context: WindowContext, canvas: Canvas, findings: FindingNavigator) -> None:
-        self._context, self._canvas, self._finding_navigator = context, canvas, findings
-        self._simulator: SimulationController | None = None
+    def __init__(self) -> None:
         add_splitters()
         with ui.element("section").classes("dock").props('aria-label="Bottom panel"'):
             dock_splitter()
@@ -42,6 +41,19 @@ class SidePanels:
             side_splitter()
             self.side = Tabs(_SIDE, "side", "Side panels")
 
+    def clear(self, remove: Callable[[ui.element], None]) -> None:
+        self.dock.clear(remove)
+        self.side.clear(remove)
+
+
+class SidePanels:
+    """The panels of one design. `build` adds them, after the diagram is shown, as they take longer to load."""
+
+    def __init__(self, context: WindowContext, canvas: Canvas, findings: FindingNavigator, tabs: SideTabs) -> None:
+        self._context, self._canvas, self._finding_navigator = context, canvas, findings
+        self._dock, self._side = tabs.dock, tabs.side
+        self._simulator: SimulationController | None = None
+
     def build(self) -> None:
         from vicode.editor.panels.code_panel import CodePanel
         from vicode.editor.panels.findings_panel import FindingsPanel
@@ -49,8 +61,8 @@ class SidePanels:
         from vicode.editor.panels.inspector import Inspector
 
         context = self._context
-        self.side.build({_INSPECT: lambda: Inspector(context), _CODE: lambda: CodePanel(context)})
-        self.dock.build(
+        self._side.build({_INSPECT: lambda: Inspector(context), _CODE: lambda: CodePanel(context)})
+        self._dock.build(
             {
                 _FINDINGS: lambda: FindingsPanel(context, self._finding_navigator),
                 _SEARCH: self._search_panel,
@@ -61,7 +73,7 @@ class SidePanels:
 
     def commands(self) -> tuple[Command, ...]:
         return (
-            *simulation_commands(self._simulate, lambda: self.dock.show(_SIMULATE)),
+            *simulation_commands(self._simulate, lambda: self._dock.show(_SIMULATE)),
             Command(
                 "search",
                 "Search and replace in all texts",
@@ -78,11 +90,11 @@ class SidePanels:
             self._simulator.check_design()
 
     def refresh(self) -> None:
-        self.dock.refresh()
-        self.side.refresh()
+        self._dock.refresh()
+        self._side.refresh()
 
     def _open_search(self) -> None:
-        self.dock.show(_SEARCH)
+        self._dock.show(_SEARCH)
         ui.run_javascript(_FOCUS_SEARCH)
 
     def _simulate(self) -> "SimulationController":

@@ -38,13 +38,14 @@ class CommandPalette(ui.element, component="command_palette.js"):
     Args:
         index: the search index.
         navigate: opens a search result.
-        current: the open design, None on the home page.
     """
 
-    def __init__(self, index: SearchIndex, navigate: NavigateTo, current: SearchTarget | None = None) -> None:
+    def __init__(self, index: SearchIndex, navigate: NavigateTo) -> None:
         super().__init__()
-        self._index, self._navigate, self._current = index, navigate, current
+        self._index, self._navigate = index, navigate
         self.commands: Sequence[Command] = ()
+        self.current: SearchTarget | None = None
+        """The open design, None on the home page."""
         self._items: list[SearchItem] = []
         self._last_result: tuple[str, tuple[SearchMatch, ...]] = ("", ())
         self._opening_id: object = None
@@ -87,7 +88,7 @@ class CommandPalette(ui.element, component="command_palette.js"):
 
     def _find(self, text: str) -> tuple[SearchMatch, ...]:
         if not self._last_result[1] or self._last_result[0] != text:
-            self._last_result = text, rank_items(self._items, text, self._current)
+            self._last_result = text, rank_items(self._items, text, self.current)
         return self._last_result[1]
 
 

@@ -7,6 +7,7 @@ from nicegui import ui
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
+from vicode.editor.panels.open_design import open_design
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.session import Workspace, rename_component, templates, trash
 from vicode.editor.session.workspace import TrashedDesign
@@ -22,6 +23,14 @@ class DesignDialogs:
 
     show_toast: ShowToast
     offer_undo: Callable[[str, Callable[[], object]], None]
+
+    def menu_entries(self) -> dict[str, Callable[[Workspace, str], None]]:
+        """The entries of the menu of a design."""
+        return {
+            "Rename everywhere…": self.ask_rename,
+            "Duplicate…": self.ask_duplicate,
+            "Move to trash…": self.ask_move_to_trash,
+        }
 
     def ask_new(self, workspace: Workspace) -> None:
         choices = templates.list_templates()
@@ -42,7 +51,7 @@ class DesignDialogs:
                     _suggest_valid_name(name)
                     return
                 dialog.close()
-                ui.navigate.to(design_url(workspace.key, new_name))
+                open_design(design_url(workspace.key, new_name))
 
             _buttons(dialog, "Create", create, name)
 

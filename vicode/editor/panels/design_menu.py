@@ -1,4 +1,4 @@
-"""The menu of a design: opened by a button, or by a right click on its row or card."""
+"""The menu of a design: opened by a button, or by a right click on its card."""
 
 from nicegui import ui
 
@@ -8,7 +8,7 @@ from vicode.editor.session import Workspace
 
 
 def add_design_menu(workspace: Workspace, component: str, dialogs: DesignDialogs, area: ui.element) -> None:
-    """Add the button; a right click within `around` opens the same menu.
+    """Add the button; a right click within `area` opens the same menu.
 
     The menu is built when it is first opened, as a folder may have many designs.
     """
@@ -26,14 +26,9 @@ def add_design_menu(workspace: Workspace, component: str, dialogs: DesignDialogs
 
 
 def _menu(workspace: Workspace, component: str, dialogs: DesignDialogs) -> ui.menu:
-    entries = (
-        ("Rename everywhere…", dialogs.ask_rename),
-        ("Duplicate…", dialogs.ask_duplicate),
-        ("Move to trash…", dialogs.ask_move_to_trash),
-    )
     # Without this, Quasar toggles the menu at each click on the button, too.
     with ui.menu().props("no-parent-event") as menu:
-        for label, open_dialog in entries:
+        for label, open_dialog in dialogs.menu_entries().items():
             ui.menu_item(label, lambda open_dialog=open_dialog: open_dialog(workspace, component)).props(
                 "role=menuitem"
             )

@@ -115,21 +115,21 @@ def _uses(form: Form) -> None:
             ui.label(use.component).classes("component-name")
             icon_button("close", f"Remove {use.alias}", _use_remover(context, use.alias))
 
-    def list_menus() -> list[tuple[str, ...]]:
+    def unused_components() -> list[str]:
         used = {use.component for use in context.design.uses} | {context.design.component}
-        return [tuple(sorted(name for name in context.workspace.project.interfaces() if name not in used))]
+        return sorted(name for name in context.workspace.project.interfaces() if name not in used)
 
-    def build_menu(_row: Form, names: tuple[str, ...]) -> None:
-        with add_button("Component", "Add Component") as button:
-            if not names:
-                button.disable()
-            with ui.menu().props("auto-close"):
-                for name in names:
-                    ui.menu_item(name, on_click=_use_adder(context, name)).classes("mono")
+    def fill_menu() -> None:
+        menu.clear()
+        with menu:
+            for name in unused_components():
+                ui.menu_item(name, on_click=_use_adder(context, name)).classes("mono")
 
     Rows(form, lambda: [replace(use, at=None) for use in context.design.uses], build_use)
-    with ui.row().classes("adders"):
-        Rows(form, list_menus, build_menu)
+    with ui.row().classes("adders"), add_button("Component", "Add Component") as button:
+        # Filled when it opens, as a project may have many components.
+        menu = ui.menu().props("auto-close").on("before-show", fill_menu)
+    form.watch(lambda: bool(unused_components()), button.set_enabled)
 
 
 def _use_adder(context: WindowContext, component: str) -> Callable[[], None]:

@@ -18,16 +18,15 @@ _VIEW_MENU = ("table", "links", "page", "theme", "tour", "help")
 
 
 class Header:
-    """Builds the header; `refresh` updates its labels."""
+    """Builds the header of a window; `show` fills it for a design, `refresh` updates its labels."""
 
-    def __init__(self, context: WindowContext, commands: Sequence[Command], trail: Sequence[str] = ()) -> None:
-        """Build the header; `trail` are the components on the path to this design."""
+    def __init__(self, context: WindowContext, commands: Sequence[Command]) -> None:
         self.context = context
         named = {command.name: command for command in commands}
         ui.link("vicode", "/").classes("brand").props('aria-label="vicode, all designs"')
-        self._build_breadcrumbs(trail)
+        self._breadcrumbs = ui.element("nav").classes("crumbs").props('aria-label="Breadcrumb"')
         self.save_status = ui.label().classes("saved").props('role="status"')
-        self.conflict_button = ui.button("Resolve…", on_click=lambda: ask_to_resolve_conflict(context)).props(
+        self.conflict_button = ui.button("Resolve…", on_click=lambda: ask_to_resolve_conflict(self.context)).props(
             "flat dense no-caps"
         )
         ui.element("div").classes("spacer")
@@ -39,15 +38,19 @@ class Header:
         _labeled(save)
         primary_button(generate.label, generate.handler, icon=generate.icon)
 
-    def _build_breadcrumbs(self, trail: Sequence[str]) -> None:
-        key, here = self.context.workspace.key, self.context.design.component
-        with ui.element("nav").classes("crumbs").props('aria-label="Breadcrumb"'):
-            ui.link(self.context.workspace.project.name, f"/#{key}").classes("crumb")
+    def show(self, context: WindowContext, trail: Sequence[str]) -> None:
+        """Show a design; `trail` are the components on the path to it."""
+        self.context = self.presence_bar.context = context
+        key, here = context.workspace.key, context.design.component
+        self._breadcrumbs.clear()
+        with self._breadcrumbs:
+            ui.link(context.workspace.project.name, f"/#{key}").classes("crumb")
             for index, name in enumerate(trail):
                 _separator()
                 ui.link(name, design_url(key, name, trail=trail[:index])).classes("crumb")
             _separator()
             ui.label(here).classes("crumb here").props('role="heading" aria-level="1"')
+        self.presence_bar.refresh()
 
     def _file_status(self) -> tuple[str, str]:
         document = self.context.document

@@ -33,7 +33,6 @@ class PresenceBar:
         self.rename: Callable[[str], None] = lambda _name: None
         self.rendered_key: object = None
         self.row = ui.row().classes("people").props('role="group" aria-label="Connected users"')
-        self.refresh()
 
     def refresh(self) -> None:
         """Show the current users, this one first."""

@@ -51,6 +51,13 @@ class Tabs:
             self._builders = builders
             self.refresh()
 
+    def clear(self, remove: Callable[[ui.element], None]) -> None:
+        """Call `remove` with the content of each panel; the same tab stays open, and `build` fills it again."""
+        self._builders, self._panels = {}, {}
+        for slot in self._slots.values():
+            for child in tuple(slot.default_slot.children):
+                remove(child)
+
     def refresh(self) -> None:
         if not self._builders:
             return

@@ -45,6 +45,11 @@ class WindowContext:
     linter: CodeLinter = field(init=False)
     changes: Subscribers[[]] = field(default_factory=Subscribers)
     """Called after each change of design or selection."""
+    disconnects: Subscribers[[]] = field(default_factory=Subscribers)
+    """Called when the browser loses the connection."""
+    closings: Subscribers[[]] = field(default_factory=Subscribers)
+    """Called once, when the window shows another design or is closed."""
+    is_closed: bool = field(init=False, default=False)
 
     def __post_init__(self) -> None:
         self.linter = CodeLinter(self.workspace, self.document)
@@ -78,8 +83,15 @@ class WindowContext:
 
     def notify_subscribers(self) -> None:
         """Call all subscribers in the client of this window."""
-        with self.client:
-            self.changes.notify()
+        if not self.is_closed:
+            with self.client:
+                self.changes.notify()
+
+    def close(self) -> None:
+        """Release what the panels subscribed to; work in the background may still edit the design."""
+        if not self.is_closed:
+            self.is_closed = True
+            self.closings.notify()
 
     def run_in_background(self, work: Coroutine[Any, Any, object], name: str) -> None:
         """Run a coroutine as a task of this window; the page reports its exceptions."""

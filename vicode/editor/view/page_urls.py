@@ -1,8 +1,9 @@
 """The URLs of the editor's pages, with the selection and the navigation trail."""
 
 from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
 from typing import cast
-from urllib.parse import quote, urlencode
+from urllib.parse import parse_qsl, quote, unquote, urlencode, urlsplit
 
 from vicode.editor.view.selection import ItemKind, ItemRef
 
@@ -22,6 +23,32 @@ def design_url(key: str, component: str, selected: ItemRef | None = None, trail:
         query["from"] = _TRAIL_SEPARATOR.join(trail)
     path = f"/design/{quote(key, safe='')}/{quote(component, safe='')}"
     return f"{path}?{urlencode(query, safe=_SAFE)}" if query else path
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DesignAddress:
+    """What the URL of a design says; `trail` is its text, and neither design nor selected item need exist."""
+
+    key: str
+    component: str
+    selected: ItemRef | None = None
+    trail: str = ""
+
+
+def parse_design_url(url: str) -> DesignAddress | None:
+    """The parts of the URL of a design, None if it is another URL."""
+    parts = urlsplit(url)
+    match parts.path.split("/"):
+        case ["", "design", key, component]:
+            query = dict(parse_qsl(parts.query))
+            return DesignAddress(
+                key=unquote(key),
+                component=unquote(component),
+                selected=parse_selection(query.get("select", "")),
+                trail=query.get("from", ""),
+            )
+        case _:
+            return None
 
 
 def broken_file_url(key: str, file: str) -> str:

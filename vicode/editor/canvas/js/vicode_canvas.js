@@ -25,9 +25,10 @@ export default {
   },
 };
 
-/** Removes and returns the scene that is embedded in the page as a script element, if any. */
-function takeScene(id) {
-  const script = document.getElementById(id);
+/** Returns the scene; as part of a new page, it is a script element with an id, which is removed. */
+function takeScene(text) {
+  if (text.startsWith("{")) return JSON.parse(text);
+  const script = document.getElementById(text);
   script?.remove();
   return script && JSON.parse(script.textContent);
 }

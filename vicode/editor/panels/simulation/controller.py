@@ -64,8 +64,8 @@ class SimulationController:
         self._starting = asyncio.Lock()
         self._is_closed = False
         self._seq = 0
-        canvas.client.on_disconnect(self.pause)
-        canvas.client.on_delete(self.close)
+        context.disconnects.subscribe(self.pause)
+        context.closings.subscribe(self.close)
 
     async def restart(self) -> None:
         self.pause()
