@@ -19,7 +19,7 @@ GUARDS = ("seen", "ball.near and not lost", "x > 0", "tries >= 3", "ball_distanc
 COUNT = """() => {
     const root = document.querySelector('.vicode-canvas').shadowRoot;
     // Measured as when zoomed in: below 50 % labels are hidden.
-    root.querySelector('.stage').classList.remove('small');
+    root.querySelector('.plane').classList.remove('small');
     const {k} = document.querySelector('.vicode-canvas').vicode.view();
     const rect = (element, key) => {
         const {x, y, width, height} = element.getBoundingClientRect();

@@ -99,6 +99,7 @@ CANVAS_COMMANDS = (
     CanvasCommand("actual-size", "Zoom to 100%", _VIEW, ("0",), menus=("nothing",)),
     CanvasCommand("zoom-in", "Zoom in", _VIEW, ("+", "=")),
     CanvasCommand("zoom-out", "Zoom out", _VIEW, ("-",)),
+    CanvasCommand("inside", "Show or hide inside", _VIEW, ("E",), menus=("states", "components")),
     CanvasCommand("links", "Show or hide links to components", _VIEW, menus=("nothing",)),
     CanvasCommand("breakpoint", "Toggle breakpoint", _RUN, menus=_STATES_AND_TRANSITIONS),
     CanvasCommand("simulate-here", "Run to here", _RUN, menus=("states",)),

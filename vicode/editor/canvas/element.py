@@ -58,7 +58,8 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._embedded_rev: int | None = None
         self._embedded_script = ""
         self.on_ready: Callable[[], None] = lambda: None
-        self._active: tuple[list[str], int, list[str]] = ([], -1, [])
+        self._active: tuple[list[str], int, list[str], dict[str, str]] = ([], -1, [], {})
+        self._inside: dict[ItemRef, list[dict[str, Any]]] = {}
         self._breakpoints: list[dict[str, str]] = []
         self._acknowledged = -1
         self._sent = -1
@@ -138,7 +139,20 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         """End a preview whose positions were applied; the view stays."""
         self._call("showPreview", [], True)
 
-    def highlight_active(self, ids: Sequence[str], seq: int, transitions: Sequence[str] = ()) -> None:
+    def show_inside(self, item: ItemRef, machines: Sequence[dict[str, Any]]) -> None:
+        """Show machines {"alias", "component", "scene"} in place at a node, or none."""
+        self._inside.pop(item, None)
+        if machines:
+            self._inside[item] = list(machines)
+        self._call("insets.show", item_json(item), list(machines))
+
+    @property
+    def shows_inside(self) -> bool:
+        return bool(self._inside)
+
+    def highlight_active(
+        self, ids: Sequence[str], seq: int, transitions: Sequence[str] = (), inner: Mapping[str, str] | None = None
+    ) -> None:
         """Highlight the active states of a running component and the transitions taken last.
 
         Until the browser has painted a call, only the newest later call is kept.
@@ -147,10 +161,11 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             ids: the active states.
             seq: increases with every call; calls with a smaller number are ignored.
             transitions: the transitions taken last.
+            inner: the active states of used components, by component.
         """
         if seq <= self._active[1]:
             return
-        self._active = (list(ids), seq, list(transitions))
+        self._active = (list(ids), seq, list(transitions), dict(inner or {}))
         if self._sent == self._acknowledged:
             self._send_active()
 
@@ -208,8 +223,8 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._call("select", [item_json(item) for item in self._selected], self._acked_seq)
 
     def _send_active(self) -> None:
-        ids, self._sent, taken = self._active
-        self._call("highlightActive", ids, self._sent, taken)
+        ids, self._sent, taken, inner = self._active
+        self._call("highlightActive", ids, self._sent, taken, inner)
 
     def _send_presence(self) -> None:
         if self._is_mounted:
@@ -256,6 +271,8 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             self._initial_target = None
         self._call("setBreakpoints", self._breakpoints)
         self._send_presence()
+        for item, machines in self._inside.items():
+            self._call("insets.show", item_json(item), machines)
         if self._active[1] >= 0:
             self._send_active()
         self.on_ready()

@@ -87,6 +87,15 @@ class TooltipGesture:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class InsideGesture:
+    """Show the machines of a used component, or of those that a state uses, in place, or stop showing them."""
+
+    kind: ClassVar = "inside"
+    item: ItemRef
+    shown: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PreviewGesture:
     """The user accepted (Enter) or rejected (Escape) a layout preview."""
 
@@ -111,6 +120,7 @@ PageGesture = (
     | UseGesture
     | CommandGesture
     | TooltipGesture
+    | InsideGesture
     | PreviewGesture
     | StateRenamedGesture
 )

@@ -12,6 +12,7 @@ from vicode.editor.canvas.protocol import (
     CommandGesture,
     CopyGesture,
     Gesture,
+    InsideGesture,
     OpenGesture,
     PasteGesture,
     PreviewGesture,
@@ -21,6 +22,7 @@ from vicode.editor.canvas.protocol import (
     UseGesture,
 )
 from vicode.editor.pages import texts
+from vicode.editor.pages.inside_views import InsideViews
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.texts import invalid_event
 from vicode.editor.panels.use_dialog import ask_for_component
@@ -66,6 +68,7 @@ class CanvasController:
         self.page_commands: Mapping[str, Callable[[], object]] = {}
         self.canvas = Canvas(self._on_gesture, self._share_pointer, self._on_malformed)
         self.canvas.classes("canvas")
+        self.inside_views = InsideViews(context, self.canvas)
         self.design = context.design
         self.scene: Scene = self._draw()
         self.canvas.load(self.scene)
@@ -95,6 +98,7 @@ class CanvasController:
                 self.canvas.state_renamed(old, new)
         self.canvas.apply(self.context.document.shared.scene_diff(self.scene, scene))
         self.scene = scene
+        self.inside_views.refresh()
         rebased = [rebase_selection(item, self.design, self.context.design) for item in self.context.selected]
         self.design = self.context.design
         self.context.selected = tuple(item for item in rebased if item is not None and self.exists(item))
@@ -131,20 +135,28 @@ class CanvasController:
                 self._open(gesture.item)
             case CommandGesture():
                 self.page_commands.get(gesture.name, lambda: None)()
-            case CopyGesture():
-                self.canvas.write_clipboard(clipboard.copy_as_text(self.context.design, gesture.items))
+            case CopyGesture() | TooltipGesture() | InsideGesture():
+                self._answer(gesture)
             case PasteGesture():
                 self._paste(gesture)
             case UseGesture():
                 self._use(gesture)
             case StateRenamedGesture():
                 self.context.show_toast(texts.renamed_while_typing(gesture.old, gesture.new), "info")
-            case TooltipGesture():
-                self._show_tooltip(gesture.item)
             case PreviewGesture():
                 self.on_preview(accepted=gesture.accepted)
             case _:
                 self._edit(gesture, rev)
+
+    def _answer(self, gesture: CopyGesture | TooltipGesture | InsideGesture) -> None:
+        """Send what the canvas requests about its items."""
+        match gesture:
+            case CopyGesture():
+                self.canvas.write_clipboard(clipboard.copy_as_text(self.context.design, gesture.items))
+            case TooltipGesture():
+                self._show_tooltip(gesture.item)
+            case InsideGesture():
+                self.inside_views.show(gesture)
 
     def _on_malformed(self, reason: str) -> None:
         self.context.show_toast(invalid_event(reason), "warning")

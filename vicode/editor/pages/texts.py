@@ -28,6 +28,10 @@ SAVED_WITH_ERRORS = "Saved, but the file cannot be opened as a design yet"
 NO_ERRORS_IN_FILE = "No errors. Save to open the design."
 
 
+def nothing_inside(name: str) -> str:
+    return f"No component that {name} uses has a design"
+
+
 def no_matching_designs(text: str) -> str:
     return f"No designs match “{text}”"
 

@@ -15,6 +15,7 @@ import { Painter } from "./painter.js";
 import { Tooltip } from "./tooltip.js";
 import { PresenceLayer } from "./presence.js";
 import { LayoutPreview } from "./layout_preview.js";
+import { Insets } from "./insets.js";
 import { InlineRename } from "./inline_rename.js";
 import { Router } from "./routing.js";
 import { keyOf, Scene } from "./scene.js";
@@ -120,12 +121,13 @@ class Canvas {
   }
 
   /** Highlights the active states of a running component; calls with an older sequence number are ignored. */
-  highlightActive(ids, seq, taken = []) {
+  highlightActive(ids, seq, taken = [], inner = {}) {
     if (seq <= this.activeSeq) return;
     this.activeSeq = seq;
     this.frame.schedule("active", () => {
       this.painter.mark("active", ids.map((id) => keyOf("states", id)));
       this.painter.mark("taken", taken.map((id) => keyOf("transitions", id)));
+      this.insets.highlight(inner);
       if (this.isOverview) this.cull();
       this.emit("ack", { seq: this.activeSeq });
     });
@@ -289,6 +291,7 @@ class Canvas {
     this.menu = new Menu(this);
     this.rename = new InlineRename(this);
     this.preview = new LayoutPreview(this);
+    this.insets = new Insets(this);
     this.tooltip = new Tooltip(this);
     this.presence = new PresenceLayer(this);
     this.dots = html("div", { class: "dots" });
@@ -297,7 +300,7 @@ class Canvas {
     this.empty = html("div", { class: "empty", hidden: true, text: EMPTY });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
     const above = [this.empty, this.message, this.rename.input, corner, this.tooltip.element, this.menu.element];
-    this.stage.append(this.dots, ...this.levelOfDetail.elements, ...this.presence.elements, ...above);
+    this.stage.append(this.dots, ...this.levelOfDetail.elements, ...this.presence.elements, this.insets.element, ...above);
     this.keyboard = new Keyboard(this);
     this.nudge = new Nudge(this);
   }
@@ -331,6 +334,7 @@ class Canvas {
     this.toolbar.show(k);
     this.minimap.viewChanged();
     this.rename.viewChanged();
+    this.insets.place();
     this.presence.viewChanged();
     this.levelOfDetail.viewChanged();
   }
@@ -368,6 +372,7 @@ class Canvas {
     this.frame.schedule("scene", () => {
       this.cull();
       this.handles.refresh();
+      this.insets.place();
       this.rename.viewChanged();
       this.presence.draw();
     });

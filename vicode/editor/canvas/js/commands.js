@@ -117,7 +117,8 @@ function arrangeHandlers(canvas) {
 }
 
 function viewHandlers(canvas) {
-  const { viewport, selection } = canvas;
+  const { viewport, selection, scene } = canvas;
+  const hasInside = (node) => Boolean(node && (node.of === "states" ? node.data.requires || node.data.modulates : node.data.design));
   const centre = () => viewport.middle();
   return {
     fit: { run: () => canvas.fit() },
@@ -125,6 +126,7 @@ function viewHandlers(canvas) {
     "actual-size": { run: () => viewport.centreOn(centre().x, centre().y, 1) },
     "zoom-in": { run: () => viewport.zoomBy(1.25) },
     "zoom-out": { run: () => viewport.zoomBy(0.8) },
+    inside: { can: () => hasInside(scene.nodes.get(selection.single())), run: () => canvas.insets.toggle(selection.single()) },
     links: { run: () => canvas.report("command", { name: "links" }) },
     help: { run: () => canvas.report("command", { name: "help" }) },
     breakpoint: { can: () => selection.keys.size > 0, run: () => canvas.report("command", { name: "breakpoint" }) },

@@ -137,6 +137,7 @@ export class MoveDrag {
   #put() {
     this.#place();
     this.canvas.painter.updateDrag([...this.origins.keys()], this.offset);
+    this.canvas.insets.place();
   }
 
   #place() {

@@ -31,7 +31,7 @@ export class LevelOfDetail {
     const zooms = viewport.k !== this.shownZoom;
     if (zooms) this.#freeze();
     this.shownZoom = viewport.k;
-    this.canvas.stage.classList.toggle("small", viewport.k < LEGIBLE_ZOOM);
+    this.plane.classList.toggle("small", viewport.k < LEGIBLE_ZOOM);
     this.overview.place();
     this.snapshot.place();
     if (this.frozen) return;

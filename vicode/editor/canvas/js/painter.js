@@ -30,12 +30,13 @@ const LAYER_STACK = [
 const TWINS = ["links", "edges", "nodes", "chips"].map((name) => [name, `held ${name}`]);
 
 export class Painter {
-  constructor(scene, router) {
+  /** `isInset`: the layers have no ids, which those of the canvas have. */
+  constructor(scene, router, { isInset = false } = {}) {
     this.scene = scene;
     this.router = router;
     this.items = new Map();
     this.marks = new Map(["selected", "active", "taken", "breakpoint", "drop", "held", "lit", "hover"].map((name) => [name, new Set()]));
-    this.layers = Object.fromEntries(LAYER_STACK.flat().map((name) => [name, layer(name)]));
+    this.layers = Object.fromEntries(LAYER_STACK.flat().map((name) => [name, layer(name, isInset)]));
     this.hitAreas = LAYER_STACK.map(() => svg("rect", { class: "ground" }));
     this.svgRoots = LAYER_STACK.map((names, index) => svg("svg", { role: "presentation" }, [this.hitAreas[index], ...names.map((name) => this.layers[name])]));
     this.svgRoots[0].prepend(hatching());
@@ -321,7 +322,7 @@ export class Painter {
   }
 }
 
-const layer = (name) => svg("g", { class: name, id: LAYERS[name] && name, role: LAYERS[name] && "group", "aria-label": LAYERS[name] });
+const layer = (name, isInset) => svg("g", { class: name, id: !isInset && LAYERS[name] && name, role: LAYERS[name] && "group", "aria-label": LAYERS[name] });
 
 /** Describes the marks in addition to the name, which does not change. */
 function describeMarks(part) {

@@ -26,6 +26,9 @@ export const DRAW_FRAME = "Draw a rectangle around the states of the frame. Esc 
 export const DROP_ON_LABEL = "Drop on another label of this state to change the priority";
 
 // Controls
+export const FOLD = "Hide inside (E)";
+export const OPEN_DESIGN = "Open design";
+export const insetName = (alias, component) => `Inside ${alias}: state machine ${component}`;
 export const MENU = "Menu";
 export const NAME = "Name";
 export const VIEW = "View";

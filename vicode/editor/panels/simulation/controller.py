@@ -281,7 +281,13 @@ class SimulationController:
             latest = simulation.recording.latest_transition(simulation.cursor)
             taken = [latest] if latest and simulation.status is not RunStatus.ENDED else []
         self._seq += 1
-        self.canvas.highlight_active(active, self._seq, taken)
+        self.canvas.highlight_active(active, self._seq, taken, self._inner_states() if active else {})
+
+    def _inner_states(self) -> dict[str, str]:
+        """The active states of all stepped components, if the canvas shows any of them."""
+        iteration = self._current.shown_iteration if self.canvas.shows_inside else None
+        steps = iteration.tree if iteration else []
+        return {str(step["component"]): str(step["state"]) for step in steps if step.get("state")}
 
     def _show_breakpoints(self) -> None:
         self.canvas.set_breakpoints(sorted(self.breakpoints.items, key=_order))
