@@ -2,6 +2,8 @@
 
 import shutil
 import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -103,6 +105,35 @@ def test_a_run_needs_the_edits_in_the_design(generated: Path, capsys: pytest.Cap
     assert "'vicode sync'" in capsys.readouterr().err
     assert vicode("sync", "lamps") == 0
     assert vicode("run", "lamps/lamp.yaml", "--ticks", "2", "--plain") == 0
+
+
+@pytest.mark.parametrize("setting", ['indent-style="tab"', 'quote-style="single"'])
+def test_formatters_make_no_edits(generated: Path, setting: str) -> None:
+    edit(DESIGN, "self.count = 1", 'self.note = dict(one="first", two="second", three="third")')
+    vicode("gen", "lamps")
+    formatter = [sys.executable, "-m", "ruff", "format", "-q", "--isolated", "--line-length", "50"]
+    subprocess.run([*formatter, "--config", f"format.{setting}", "lamps/generated"], check=True)
+    assert vicode("sync", "--check", "lamps") == 0
+    edit(FILE, "three=", "four=")
+    assert vicode("sync", "lamps") == 0
+    assert "four=" in DESIGN.read_text()
+
+
+@pytest.mark.nightly
+def test_kill_9_loses_no_edit(generated: Path) -> None:
+    """Whenever a sync is killed, the edit is in the file or in the design, and the next one completes it."""
+    for attempt in range(200):
+        edit(FILE, "self.count = ", f"self.line_{attempt} = 0\n        self.count = ")
+        sync = subprocess.Popen([sys.executable, "-m", "vicode", "sync", "lamps"], stdout=subprocess.DEVNULL)
+        time.sleep(0.25 + 0.005 * (attempt % 60))
+        sync.kill()
+        sync.wait()
+        assert f"self.line_{attempt} = 0" in FILE.read_text() + DESIGN.read_text()
+        assert vicode("sync", "lamps") == 0
+        assert f"self.line_{attempt} = 0" in DESIGN.read_text()
+        edit(DESIGN, f"self.line_{attempt} = 0\n      ", "")
+        assert vicode("gen", "lamps") == 0
+        assert vicode("gen", "--check", "lamps") == 0
 
 
 def git(*arguments: str) -> None:

@@ -96,13 +96,16 @@ class _EditFinder:
             return replace(
                 edits, problems=(Finding(rule=get_rule("G501"), message=message, fix=fix, location=location),)
             )
-        parsed = [find_regions(side, get_comment_prefix(path), file=file) for side in sides]
+        comment = get_comment_prefix(path)
+        parsed = [find_regions(side, comment, file=file) for side in sides]
         problems = tuple(finding for each in parsed for finding in each.findings)
         if problems:
             return replace(edits, problems=problems)
         targets = _regions(new, path) if new is not None else self._renamed_regions(parsed)
         base_texts = _BaseTexts(path, sides, self.history)
-        regions = tuple(edit for each in parsed for edit in merge_region_edits(each.regions, targets, base_texts.find))
+        regions = tuple(
+            edit for each in parsed for edit in merge_region_edits(each.regions, targets, base_texts.find, comment)
+        )
         # The statements of a merge conflict were generated in two branches.
         is_outside = len(sides) == 1 and self._is_edited_outside(path, old, new)
         return replace(

@@ -4,7 +4,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from vicode.model.merge import merge_lines
-from vicode.regions import Region, compute_checksum, is_edited
+from vicode.regions import Region, is_edited
+from vicode.sync.same_code import is_same_code
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,31 +41,31 @@ class RegionEdit:
 
 
 def merge_region_edits(
-    found: Sequence[Region], generated: Sequence[Region], find_base: Callable[[str], str | None]
+    found: Sequence[Region], generated: Sequence[Region], find_base: Callable[[str], str | None], comment: str = "#"
 ) -> tuple[RegionEdit, ...]:
-    """Return the edits in the regions of a file that the design does not have yet.
+    """Return the edits in the regions of a file that the design does not have yet; layout alone is no edit.
 
     Args:
         found: The regions of the file.
         generated: The regions generated now.
         find_base: Returns a text that was generated earlier by its checksum, None if it is unknown.
+        comment: The start of a comment in the language.
     """
     targets = _match_regions(found, generated)
-    edits = (
-        _merge(region, targets.get(region.id), find_base)
-        for region in found
-        if is_edited(region) and not _has_same_text(region, targets.get(region.id))
-    )
-    return tuple(edits)
+    edits = (_merge(region, targets.get(region.id), find_base, comment) for region in found if is_edited(region))
+    return tuple(edit for edit in edits if edit is not None)
 
 
-def _merge(region: Region, target: Region | None, find_base: Callable[[str], str | None]) -> RegionEdit:
-    base = find_base(region.checksum)
-    merged = None
-    if target is not None and target.checksum == region.checksum:
-        base, merged = target.body, region.body
-    elif target is not None and base is not None:
-        merged = merge_lines(base, region.body, target.body)
+def _merge(
+    region: Region, target: Region | None, find_base: Callable[[str], str | None], comment: str
+) -> RegionEdit | None:
+    if target is not None and is_same_code(region.body, target.body, comment):
+        return None
+    is_current = target is not None and target.checksum == region.checksum
+    base = target.body if target is not None and is_current else find_base(region.checksum)
+    if base is not None and is_same_code(region.body, base, comment):
+        return None
+    merged = None if target is None or base is None else merge_lines(base, region.body, target.body)
     return RegionEdit(
         id=region.id,
         line=region.line,
@@ -99,7 +100,3 @@ def _match_regions(found: Iterable[Region], generated: Sequence[Region]) -> dict
 def _role(id_: str) -> str:
     """The part of an id that does not depend on the name of the state: "enter", "actions", "to.Kick"."""
     return id_.partition(".")[2]
-
-
-def _has_same_text(region: Region, target: Region | None) -> bool:
-    return target is not None and compute_checksum(region.body) == compute_checksum(target.body)
