@@ -110,11 +110,10 @@ class Repository:
         """Whether files differ from HEAD or are not tracked."""
         return bool(self._run("status", "--porcelain", "--ignore-submodules=all", "--", *paths).strip())
 
-    def log(self, paths: Sequence[str], *, limit: int | None = None) -> tuple[Commit, ...]:
+    def log(self, paths: Sequence[str], *, limit: int | None = None, all_branches: bool = False) -> tuple[Commit, ...]:
         """The commits that changed files, newest first."""
-        count = () if limit is None else (f"--max-count={limit}",)
-        output = self._run("log", "--format=%x1e%H%x1f%aI%x1f%an%x1f%s%x1f", *count, "HEAD", "--", *paths)
-        return _parse_log(output)
+        start = ("--all" if all_branches else "HEAD", *(() if limit is None else (f"--max-count={limit}",)))
+        return _parse_log(self._run("log", "--format=%x1e%H%x1f%aI%x1f%an%x1f%s%x1f", *start, "--", *paths))
 
     def log_file(self, path: str, *, limit: int) -> tuple[Commit, ...]:
         """The commits that changed a file, newest first, also those before it was renamed."""

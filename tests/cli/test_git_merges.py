@@ -11,7 +11,7 @@ import pytest
 from tests.cli.command_runner import vicode
 from tests.cli.git_folder import ENVIRONMENT, commit, git
 from vicode.model.design import Assign, Design, Guard, State, Stay, Transition
-from vicode.model.edits import add_state, remove_states, rename_state, update_state
+from vicode.model.edits import add_state, remove_states, rename_state, unique_name, update_state
 from vicode.store import find_conflicts, read_design, resolve_conflicts, save_design
 
 DESIGNS = Path(__file__).parents[2] / "designs" / "forward"
@@ -52,10 +52,16 @@ INNER_EDITS: tuple[StateEdit, ...] = (
     _edit(lambda state, chance, _: replace(state, requires=state.requires[1:], disabled=not state.disabled)),
 )
 OUTER_EDITS: tuple[StateEdit, ...] = (
-    lambda design, name, chance: rename_state(design, name, f"{name}{chance.randrange(9)}"),
+    lambda design, name, chance: rename_state(design, name, _unused_name(design, f"{name}{chance.randrange(9)}")),
     lambda design, name, chance: remove_states(design, [name]) if len(design.states) > 2 else design,
-    lambda design, name, chance: add_state(design, State(name=f"Added{chance.randrange(9)}", doc=name)),
+    lambda design, name, chance: add_state(
+        design, State(name=_unused_name(design, f"Added{chance.randrange(9)}"), doc=name)
+    ),
 )
+
+
+def _unused_name(design: Design, wanted: str) -> str:
+    return unique_name(wanted, {state.name for state in design.states})
 
 
 def edited(text: str, names: list[str], edits: tuple[StateEdit, ...], chance: random.Random) -> str:

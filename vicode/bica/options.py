@@ -32,6 +32,8 @@ def make_parser() -> argparse.ArgumentParser:
         help="what to do after an exception in a component (default: continue)",
     )
     add("--trace", metavar="FILE", help="write a trace to FILE: a header, one JSON line per iteration and a summary")
+    add("--design", metavar="HASH", help="hash of the design, for the header of the trace")
+    add("--revision", metavar="REV", help="git revision of the design, for the header of the trace")
     add("--stream", action="store_true", help="write JSON lines with snapshots of the world to standard output")
     add("--values", action="store_true", help="include outputs and variables in the JSON lines")
     return parser

@@ -70,7 +70,8 @@ def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[Root, _Reco
         trace = Path(options.trace).open(mode, encoding="utf-8") if options.trace else None  # noqa: SIM115 - by the writer
         writer = _RecordWriter(trace=trace, options=options)
         files.callback(writer.close_trace)
-        writer.write_trace(TRACE_HEADER)
+        origin = {"design": options.design, "revision": options.revision}
+        writer.write_trace({**TRACE_HEADER, **{name: value for name, value in origin.items() if value}})
         world = make_world(options.world, options.seed)
         with wrap_user_errors(f"cannot create {options.component}"):
             return _make_root(component_class, world, writer), writer

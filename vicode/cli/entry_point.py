@@ -23,6 +23,7 @@ COMMANDS = (
     "merge",
     "hook",
     "rename",
+    "show",
     "sample",
     "export",
     "import",

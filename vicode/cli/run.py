@@ -78,10 +78,12 @@ def run(args: argparse.Namespace) -> int:
     with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
         class_path = _generate(opened, component, Path(folder))
         if args.trace != "-":
-            return _run_process(_command(opened, class_path, folder, args), is_plain=args.plain)
+            return _run_process(_command(opened, (component, class_path), folder, args), is_plain=args.plain)
         with _duplicate_stdout() as descriptor, contextlib.redirect_stdout(sys.stderr):
             args.trace = f"/dev/fd/{descriptor}"
-            return _run_process(_command(opened, class_path, folder, args), is_plain=True, kept=(descriptor,))
+            return _run_process(
+                _command(opened, (component, class_path), folder, args), is_plain=True, kept=(descriptor,)
+            )
 
 
 @contextlib.contextmanager
@@ -136,7 +138,8 @@ def _find_edits(opened: LoadedProject, component: str) -> tuple[Finding, ...]:
     return tuple(describe_edits(certain, folder.as_posix()))
 
 
-def _command(opened: LoadedProject, class_path: str, folder: str, args: argparse.Namespace) -> list[str]:
+def _command(opened: LoadedProject, names: tuple[str, str], folder: str, args: argparse.Namespace) -> list[str]:
+    component, class_path = names
     # -P: files in the current folder must not shadow modules.
     command = [sys.executable, "-P", "-m", "vicode.bica", class_path, "--stream", "--path", str(Path(folder, "python"))]
     command += ["--path", str(opened.open_project.folder.resolve()), "--seed", str(args.seed)]
@@ -148,8 +151,26 @@ def _command(opened: LoadedProject, class_path: str, folder: str, args: argparse
     given = {"--seconds": seconds, "--ticks": args.ticks, "--tick-ms": args.tick_ms, "--trace": args.trace}
     command += [part for name, value in given.items() if value is not None for part in (name, str(value))]
     command += ["--on-error", args.on_error]
+    command += _origin(opened, component) if args.trace is not None else []
     flags = {"--values": args.values, "--real-time": args.real_time, "--until-done": args.until_done}
     return command + [name for name, is_given in flags.items() if is_given]
+
+
+def _origin(opened: LoadedProject, component: str) -> list[str]:
+    """The hash of the design and the git revision, so that the trace names what ran."""
+    from vicode.git import GitError, find_repository
+    from vicode.model.design_hash import hash_design
+
+    project = opened.open_project
+    options = ["--design", hash_design(project.project, component)]
+    try:
+        repository = find_repository(project.folder)
+        if repository.head is not None:
+            is_modified = repository.is_modified([repository.relative(project.folder)])
+            options += ["--revision", repository.head + ("-dirty" if is_modified else "")]
+    except GitError:
+        pass
+    return options
 
 
 def _run_process(command: list[str], *, is_plain: bool, kept: tuple[int, ...] = ()) -> int:
