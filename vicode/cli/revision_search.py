@@ -13,7 +13,7 @@ _SUFFIXES = (".yaml", ".yml")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FoundDesign:
-    """A design and the files of its project by path; `commit` is None for the work tree. Paths are in the repository."""
+    """A design and the files of its project, by path in the repository; `commit` is None for the work tree."""
 
     component: str
     path: str

@@ -15,12 +15,10 @@ _HASH = re.compile(r"[0-9a-f]{6,12}\Z")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "hash", metavar="HASH|TRACE", help="hash of a design, at least 6 digits; or a trace that has one"
-    )
+    parser.add_argument("hash", metavar="HASH|TRACE", help="hash of a design, at least 6 digits, or a trace with it")
     parser.add_argument("path", metavar="PATH", nargs="?", default=".", help="folder to search (default: .)")
     parser.add_argument(
-        "-o", "--out", metavar="OUT", help="write the design to this file, or its project to this folder"
+        "-o", "--out", metavar="OUT", help="write the design to a .yaml file, or its project to a folder"
     )
 
 
@@ -69,7 +67,8 @@ def _describe(found: "FoundDesign") -> str:
     if found.commit is None:
         return f"{found.component}, {found.path} in the work tree, not committed"
     commit = found.commit
-    return f"{found.component}, {found.path} in {commit.revision[:12]}, {commit.date[:10]}, {commit.author}: {commit.subject}"
+    place = f"{found.path} in {commit.revision[:12]}"
+    return f"{found.component}, {place}, {commit.date[:10]}, {commit.author}: {commit.subject}"
 
 
 def _write(found: "FoundDesign", out: Path) -> None:
