@@ -14,7 +14,7 @@ PYTHON = $(shell for name in python3 python3.14 python3.13 python3.12 python3.11
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help edit test fast check nightly versions bench gen clean chromium
+.PHONY: help edit test fast check nightly versions bench gen pictures clean chromium
 
 help:  ## list these commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-8s  %s\n", $$1, $$2}' Makefile
@@ -50,6 +50,9 @@ bench: $(VENV)/.ready-bench  ## measure against a hand-written machine and other
 
 gen: $(VENV)/.ready  ## write generated/ anew from designs/
 	@$(BIN)/vicode gen designs
+
+pictures: $(VENV)/.ready-test chromium  ## take docs/pictures anew from the editor
+	@$(BIN)/python -m tests.editor.take_pictures
 
 clean:  ## remove the environment and all caches
 	rm -rf $(VENV) build dist .hypothesis .import_linter_cache .mypy_cache .nicegui .pytest_cache .ruff_cache test-results

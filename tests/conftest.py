@@ -93,7 +93,7 @@ def chromium() -> Iterator[Browser]:
     """A headless Chromium; one that is missing fails the test, since a test left out proves nothing."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(
-            executable_path=_find_chromium(playwright), args=list(CHROMIUM_ARGUMENTS), timeout=60_000
+            executable_path=find_chromium(playwright), args=list(CHROMIUM_ARGUMENTS), timeout=60_000
         )
         if most_ms := os.environ.get("VICODE_LINE_MS"):
             _slow_down(browser, int(most_ms))
@@ -172,7 +172,7 @@ def opened_beside(page: Page) -> Page:
     return opening.value
 
 
-def _find_chromium(playwright: Playwright) -> str:
+def find_chromium(playwright: Playwright) -> str:
     for name in CHROMIUM_NAMES:
         if path := shutil.which(name):
             return path

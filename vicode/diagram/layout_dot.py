@@ -36,7 +36,7 @@ _NODE_GAP = 30.0
 _RANK_GAP = 70.0
 # Next to a label, 30 pixels of its edge remain; the canvas shortens labels to the available space.
 # Room for the border and the title of a frame.
-_CLUSTER_MARGIN = 42
+_CLUSTER_MARGIN = 52
 _LABEL_MARGIN, _MAX_RANK_GAP = 30.0, 110.0
 
 

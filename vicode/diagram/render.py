@@ -102,7 +102,7 @@ class _DiagramRenderer:
             PathShape(commands=outline, fill=pal.frame_fill(frame.color), stroke=pal.plate_line),
             TextShape(x=at[0], y=at[1], text=frame.label, fill=pal.muted, font=NAME_FONT),
         )
-        return ShapeGroup(title=frame.title, css_class="frame", shapes=shapes, key=frame.key)
+        return ShapeGroup(title=frame.title, css_class="frame", shapes=shapes)
 
     def node(self, node: DiagramNode, initial: Corner | None) -> ShapeGroup:
         drawers = {"state": self._state, "component": self._component, "common": self._common, "note": self._note}
