@@ -5,6 +5,7 @@ from pathlib import Path
 from playwright.sync_api import Page, expect
 
 from tests.editor.player_page import open_player, state
+from vicode.store import merge_file_texts
 
 
 def test_a_broken_file_is_mended_in_the_browser(editor: str, page: Page, project: Path) -> None:
@@ -48,3 +49,24 @@ def test_no_address_leads_to_another_file(editor: str, page: Page, console_error
         page.goto(f"{editor}broken/{path}")
         expect(page.locator(".cm-editor")).to_have_count(0)
     console_errors.clear()
+
+
+def test_merge_conflicts_are_resolved_by_taking_a_side(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "wave.yaml"
+    base = "vicode: 1\ncomponent: Wave\ninitial: Up\ndoc: waves\nstates:\n  Up:\n    doc: up\n"
+    ours, theirs = (base.replace("waves", side).replace("doc: up", f"doc: {side} up") for side in ("ours", "theirs"))
+    merged = merge_file_texts(base, ours, theirs)
+    assert merged is not None
+    file.write_text(merged.text)
+    page.goto(f"{editor}broken/forward/wave.yaml")
+    expect(page.get_by_role("heading", name="Conflict in description of the design")).to_be_visible()
+    expect(page.get_by_role("heading", name="Conflict in description of state Up")).to_be_visible()
+    expect(page.get_by_text("2 errors")).to_be_visible()
+
+    page.get_by_role("button", name="Take theirs").first.click()
+    expect(page.get_by_role("heading", name="Conflict in")).to_have_count(1)
+    page.get_by_role("button", name="Take ours").click()
+    expect(page.get_by_text("No errors. Save to open the design.")).to_be_visible()
+    page.get_by_role("button", name="Save").click()
+    expect(state(page, "Up")).to_be_visible()
+    assert file.read_text() == base.replace("waves", "theirs").replace("doc: up", "doc: ours up")

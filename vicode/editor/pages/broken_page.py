@@ -12,6 +12,7 @@ from vicode.editor.panels.code_editor import CodeEditorFactory
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.designs_list import DesignsList
+from vicode.editor.panels.merge_conflicts import MergeConflictList
 from vicode.editor.panels.texts import pluralize
 from vicode.editor.panels.toasts import show_toast
 from vicode.editor.panels.undo_bar import UndoBar
@@ -41,6 +42,7 @@ class BrokenPage:
             with ui.element("main").classes("design-view broken-view"):
                 self.title = ui.label(name).classes("dialog-title").props("role=heading aria-level=1")
                 self.note = ui.label().classes("small").props("role=status")
+                self.conflicts = MergeConflictList(lambda: str(self.editor.value or ""), self._replace_text)
                 self.editor = editors.create(language="YAML").classes("code-field broken-text")
                 self.code_assist = CodeAssist(self.editor, label=f"Text of {name}")
                 self.messages = ui.column().classes("field-messages broken-messages")
@@ -86,8 +88,13 @@ class BrokenPage:
         self.editor.set_value(self.disk_text)
         self._check()
 
+    def _replace_text(self, text: str) -> None:
+        self.editor.set_value(text)
+        self._check()
+
     def _check(self) -> ParsedText:
         text = str(self.editor.value or "")
+        self.conflicts.refresh()
         parsed = parse_text(text, self.name)
         self.code_assist.show_marks(text, parsed.marks)
         count = len(parsed.findings)
