@@ -26,6 +26,17 @@ def test_a_state_shows_the_machines_that_it_uses(editor: str, page: Page, projec
     assert file.read_text() == before
 
 
+def test_a_simulation_marks_the_active_state_inside(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    page.get_by_role("tab", name="Simulate").click()
+    page.keyboard.press("F10")
+    expect(page.locator('g.active[data-id="LookForBall"]')).to_be_visible()
+    component(page, "search_ball").click()
+    page.keyboard.press("e")
+    inside = page.locator(".inset-figure .node.active")
+    expect(inside).to_have_attribute("data-id", "LookAhead")
+
+
 def test_nothing_inside_hand_written_components_is_said(editor: str, page: Page) -> None:
     open_player(page, editor)
     select_state(page, "GetUp")

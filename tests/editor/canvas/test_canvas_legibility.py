@@ -3,6 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from playwright.sync_api import expect
+
 from tests.editor.canvas.conftest import CanvasDriver
 from tests.editor.canvas.legibility import forward_scenes, measure_legibility, random_scenes
 
@@ -23,6 +25,14 @@ def test_random_designs_have_few_overlaps(show: Show) -> None:
     assert labels > 400
     assert hidden / labels < 0.015
     assert sum(count.labels_on_labels for count in counts) == 0
+
+
+def test_all_names_are_enlarged_at_small_zooms(show: Show) -> None:
+    canvas = show(forward_scenes()["Player"])
+    canvas.page.evaluate("document.querySelector('.vicode-canvas').vicode.setView({ k: 0.4 })")
+    badge = canvas.page.locator("g.common")
+    expect(badge.locator(".large").first).to_be_visible()
+    expect(badge.locator(".name")).to_be_hidden()
 
 
 def test_parallel_edges_are_ordered_by_priority_from_top_to_bottom(show: Show) -> None:

@@ -58,6 +58,8 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._embedded_rev: int | None = None
         self._embedded_script = ""
         self.on_ready: Callable[[], None] = lambda: None
+        self.on_inside: Callable[[], None] = lambda: None
+        """Called when machines are shown in place, whose active states may be unknown."""
         self._active: tuple[list[str], int, list[str], dict[str, str]] = ([], -1, [], {})
         self._inside: dict[ItemRef, list[dict[str, Any]]] = {}
         self._breakpoints: list[dict[str, str]] = []
@@ -145,6 +147,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         if machines:
             self._inside[item] = list(machines)
         self._call("insets.show", item_json(item), list(machines))
+        self.on_inside()
 
     @property
     def shows_inside(self) -> bool:

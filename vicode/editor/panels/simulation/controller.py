@@ -64,6 +64,7 @@ class SimulationController:
         self._starting = asyncio.Lock()
         self._is_closed = False
         self._seq = 0
+        canvas.on_inside = self._show_active
         context.disconnects.subscribe(self.pause)
         context.closings.subscribe(self.close)
 
