@@ -38,6 +38,7 @@ __all__ = [
     "collect_components",
     "component_generator",
     "generate",
+    "list_component_paths",
     "list_origins",
     "list_outputs",
     "list_regions",
@@ -186,6 +187,18 @@ def list_outputs(
     for generator in _select_generators(project, languages):
         paths += generator.list_paths(plan_package(project, generator.reserved_modules), standalone=standalone)
     return tuple(sorted(paths))
+
+
+def list_component_paths(project: Project, component: str) -> tuple[str, ...]:
+    """List the files that contain code of one design; names alone decide, so designs may have errors."""
+    paths: list[str] = []
+    for generator in _select_generators(project, None):
+        package = plan_package(project, generator.reserved_modules)
+        shared = replace(package, modules={})
+        own = replace(package, modules={component: package.modules[component]})
+        others = generator.list_paths(shared, standalone=False)
+        paths += (path for path in generator.list_paths(own, standalone=False) if path not in others)
+    return tuple(paths)
 
 
 def python_class_path(project: Project, component: str) -> str:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 from vicode.findings import Finding, SourceLocation, get_rule
 from vicode.model.merge import contains_edits
@@ -10,6 +11,7 @@ from vicode.regions import ParsedRegions, Region, find_regions, get_comment_pref
 from vicode.sync.git_conflicts import split_sides
 from vicode.sync.region_merge import RegionEdit, merge_region_edits
 from vicode.sync.same_code import is_same_code
+from vicode.sync.taken import RegionKey, TakenEdit
 
 History = Callable[[str], Iterable[str]]
 """Returns the texts that were generated for a path before, the last one first."""
@@ -53,6 +55,7 @@ def find_file_edits(
     files: Iterable[OutputFile],
     history: History = lambda _path: (),
     *,
+    taken: Mapping[RegionKey, TakenEdit | None] = MappingProxyType({}),
     display_folder: str = "",
 ) -> tuple[FileEdits, ...]:
     """Find the edits that generation would overwrite, by file; files without edits are left out.
@@ -61,6 +64,7 @@ def find_file_edits(
         differences: The files on disk and their new texts.
         files: The files that are generated now.
         history: Returns earlier generated texts.
+        taken: The edits that the designs contain already.
         display_folder: The folder of the files as findings show it.
     """
     differences = tuple(differences)
@@ -69,6 +73,7 @@ def find_file_edits(
         components={file.path: file.component for file in files},
         added_regions=tuple(region for each in added for region in _regions(each.new or "", each.path)),
         history=history,
+        taken=taken,
         display_folder=display_folder,
     )
     edits = (finder.find(each) for each in differences if each.old is not None and each.old != each.new)
@@ -81,6 +86,7 @@ class _EditFinder:
     added_regions: Sequence[Region]
     """The regions of new files, which may be those of a component that was renamed."""
     history: History
+    taken: Mapping[RegionKey, TakenEdit | None]
     display_folder: str
 
     def find(self, difference: FileDiff) -> FileEdits:
@@ -104,7 +110,11 @@ class _EditFinder:
         targets = _regions(new, path) if new is not None else self._renamed_regions(parsed)
         base_texts = _BaseTexts(path, sides, self.history)
         regions = tuple(
-            edit for each in parsed for edit in merge_region_edits(each.regions, targets, base_texts.find, comment)
+            edit
+            for each in parsed
+            for edit in merge_region_edits(
+                each.regions, targets, base_texts.find, lambda region: self.taken.get((path, region)), comment=comment
+            )
         )
         # The statements of a merge conflict were generated in two branches.
         is_outside = len(sides) == 1 and self._is_edited_outside(path, old, new)

@@ -1,7 +1,7 @@
 """Plans what generation writes, with the edits of generated files taken over into the designs, and writes it."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.check import check_project
@@ -14,6 +14,7 @@ from vicode.sync.adopt import AdoptedEdit, Side, adopt_regions
 from vicode.sync.file_edits import FileEdits, find_file_edits
 from vicode.sync.findings import describe_conflict, describe_edits
 from vicode.sync.history import GeneratedHistory
+from vicode.sync.taken import TAKEN_FILE, RegionKey, TakenEdit, format_taken, read_taken, without_paths
 from vicode.transactions import STATE_FOLDER, complete_interrupted, replace_files
 
 
@@ -28,6 +29,7 @@ class GenerationInput:
         kept_paths: Paths of further generated files, which are not stale.
         may_delete: Whether files that no design generates are stale; they are not if a design cannot be read.
         history: Finds texts that were generated before.
+        taken: Edits that unsaved designs contain (None: no longer), in addition to those recorded in the folder.
     """
 
     project: Project
@@ -36,6 +38,7 @@ class GenerationInput:
     kept_paths: Sequence[str] = ()
     may_delete: bool = True
     history: GeneratedHistory
+    taken: Mapping[RegionKey, TakenEdit | None] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,7 +85,7 @@ def plan_generation(job: GenerationInput, *, adopt: bool = False, take: Side | N
         conflicts = (describe_conflict(file, region, path, shown) for file, region, path in adoption.conflicts)
         return replace(plan, findings=tuple(conflicts))
     project = _with_designs(job.project, adoption.designs)
-    errors = tuple(_new_errors(job.project, project, adoption.adopted, shown))
+    errors = tuple(find_new_errors(job.project, project, adoption.adopted, shown))
     if errors:
         return replace(plan, findings=errors)
     settled = {(file.path, region.id) for file in plan.edits for region in file.regions}
@@ -108,6 +111,8 @@ def write_generated(plan: GenerationPlan) -> None:
     copies = {f"{STATE_FOLDER}/generated/{path}": text for path, text in texts.items()}
     for file in plan.files:
         copies.setdefault(f"{STATE_FOLDER}/generated/{file.path}", file.text)
+    if taken := read_taken(plan.folder):
+        copies[TAKEN_FILE] = format_taken(without_paths(taken, (file.path for file in plan.files)))
     outdated = {path: text for path, text in copies.items() if _read(plan.folder / path) != text}
     if texts or outdated:
         replace_files(plan.folder, texts | outdated)
@@ -123,7 +128,8 @@ def _compare(job: GenerationInput, project: Project) -> GenerationPlan:
     compared = compare_files(files, job.folder, kept_paths=job.kept_paths, is_generated=has_header)
     ignored = {FileStatus.UNCHANGED} if job.may_delete else {FileStatus.UNCHANGED, FileStatus.STALE}
     differences = tuple(difference for difference in compared if difference.status not in ignored)
-    edits = find_file_edits(differences, files, job.history, display_folder=job.folder.as_posix())
+    taken = {**read_taken(job.folder), **job.taken}
+    edits = find_file_edits(differences, files, job.history, taken=taken, display_folder=job.folder.as_posix())
     return GenerationPlan(folder=job.folder, files=files, differences=differences, designs={}, edits=edits)
 
 
@@ -135,7 +141,7 @@ def _without(file: FileEdits, settled: set[tuple[str, str]]) -> FileEdits:
     return replace(file, regions=tuple(each for each in file.regions if (file.path, each.id) not in settled))
 
 
-def _new_errors(before: Project, after: Project, adopted: Iterable[AdoptedEdit], folder: str) -> Iterable[Finding]:
+def find_new_errors(before: Project, after: Project, adopted: Iterable[AdoptedEdit], folder: str) -> Iterable[Finding]:
     """The errors that edits bring into designs, located in the generated files."""
     edits = tuple(adopted)
     components = {edit.file.component for edit in edits}

@@ -4,8 +4,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from vicode.model.merge import merge_lines
-from vicode.regions import Region, is_edited
+from vicode.regions import Region, compute_checksum, is_edited
 from vicode.sync.same_code import is_same_code
+from vicode.sync.taken import TakenEdit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -14,6 +15,7 @@ class RegionEdit:
 
     Attributes:
         id: The region in the file, which begins at `line` and is indented by `indent`.
+        checksum: The checksum in its mark.
         target: The region generated from the same code now, "" if the design has no such code any more.
         file_text: The text in the file.
         design_text: The text generated now, "" without target.
@@ -22,6 +24,7 @@ class RegionEdit:
     """
 
     id: str
+    checksum: str
     line: int
     indent: str
     target: str
@@ -41,7 +44,12 @@ class RegionEdit:
 
 
 def merge_region_edits(
-    found: Sequence[Region], generated: Sequence[Region], find_base: Callable[[str], str | None], comment: str = "#"
+    found: Sequence[Region],
+    generated: Sequence[Region],
+    find_base: Callable[[str], str | None],
+    find_taken: Callable[[str], TakenEdit | None] = lambda _id: None,
+    *,
+    comment: str = "#",
 ) -> tuple[RegionEdit, ...]:
     """Return the edits in the regions of a file that the design does not have yet; layout alone is no edit.
 
@@ -49,25 +57,47 @@ def merge_region_edits(
         found: The regions of the file.
         generated: The regions generated now.
         find_base: Returns a text that was generated earlier by its checksum, None if it is unknown.
+        find_taken: Returns the edit of a region that the design contains already, by the id of the region.
         comment: The start of a comment in the language.
     """
     targets = _match_regions(found, generated)
-    edits = (_merge(region, targets.get(region.id), find_base, comment) for region in found if is_edited(region))
+    edits = []
+    for region in filter(is_edited, found):
+        target = targets.get(region.id)
+        taken = _applicable(find_taken(region.id), region, target)
+        edits.append(_merge(region, target, taken, find_base, comment))
     return tuple(edit for edit in edits if edit is not None)
 
 
+def _applicable(taken: TakenEdit | None, region: Region, target: Region | None) -> TakenEdit | None:
+    """A record of another generation does not apply, nor one of an edit that the design has lost since."""
+    if taken is None or taken.checksum != region.checksum:
+        return None
+    text = target.body if target else ""
+    is_lost = taken.design_text is not None and compute_checksum(taken.design_text) == compute_checksum(text)
+    return None if is_lost else taken
+
+
 def _merge(
-    region: Region, target: Region | None, find_base: Callable[[str], str | None], comment: str
+    region: Region,
+    target: Region | None,
+    taken: TakenEdit | None,
+    find_base: Callable[[str], str | None],
+    comment: str,
 ) -> RegionEdit | None:
     if target is not None and is_same_code(region.body, target.body, comment):
         return None
     is_current = target is not None and target.checksum == region.checksum
-    base = target.body if target is not None and is_current else find_base(region.checksum)
+    if taken is not None:
+        base: str | None = taken.file_text
+    else:
+        base = target.body if target is not None and is_current else find_base(region.checksum)
     if base is not None and is_same_code(region.body, base, comment):
         return None
     merged = None if target is None or base is None else merge_lines(base, region.body, target.body)
     return RegionEdit(
         id=region.id,
+        checksum=region.checksum,
         line=region.line,
         indent=region.indent,
         target=target.id if target else "",

@@ -1,5 +1,6 @@
 """An open design: the document that all windows share, and the session of one user on it."""
 
+import operator
 import time
 from collections import deque
 from collections.abc import Callable
@@ -9,6 +10,7 @@ from typing import Any
 
 from vicode.editor.session import texts
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
+from vicode.editor.session.outside_edits import OutsideEdits
 from vicode.editor.session.positions import keep_positions
 from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
 from vicode.editor.session.subscribers import Subscribers
@@ -76,9 +78,11 @@ class SharedDocument:
     rev: int = field(init=False, default=0)
     disk_conflict: DiskVersion | None = field(init=False, default=None)
     notice: ChangeNotice = field(init=False, default=ChangeNotice())
+    outside: OutsideEdits = field(init=False, default_factory=OutsideEdits)
+    """Edits of the generated code by other programs."""
     changes: Subscribers[["DocumentSession"]] = field(init=False, default_factory=Subscribers)
     """Called after every change with the session that made it."""
-    _drawn: tuple[Project, tuple[Finding, ...], Scene] | None = field(init=False, default=None)
+    _drawn: tuple[tuple[object, ...], Scene] | None = field(init=False, default=None)
     _recent_designs: dict[int, Design] = field(init=False, default_factory=dict)
     _differences: deque[tuple[Scene, Scene, dict[str, Any]]] = field(
         init=False, default_factory=lambda: deque(maxlen=8)
@@ -101,11 +105,12 @@ class SharedDocument:
 
     def scene(self, project: Project) -> Scene:
         """The scene of the canvas, cached for all windows."""
-        drawn = self._drawn
-        if drawn is None or drawn[0] is not project or drawn[1] is not self.findings or drawn[2]["rev"] != self.rev:
-            scene = make_scene(project, self.history.current.design, self.findings, self.rev)
-            self._drawn = drawn = (project, self.findings, scene)
-        return drawn[2]
+        marked = frozenset(item.id for item in self.outside.marked_items(self.history) if item.kind == "states")
+        key = (project, self.findings, self.rev, marked)
+        if self._drawn is None or not _is_same(self._drawn[0], key):
+            design = self.history.current.design
+            self._drawn = (key, make_scene(project, design, self.findings, self.rev, changed_outside=marked))
+        return self._drawn[1]
 
     def scene_diff(self, before: Scene, now: Scene) -> dict[str, Any]:
         """The difference of two scenes, cached for all windows that show the first."""
@@ -154,7 +159,9 @@ class SharedDocument:
             self.changes.notify(DocumentSession(self, DISK_USER))
 
     def _find(self) -> tuple[Finding, ...]:
-        return tuple(dict.fromkeys((*self.parse_findings, *self.check(self.history.current.design))))
+        return tuple(
+            dict.fromkeys((*self.parse_findings, *self.check(self.history.current.design), *self.outside.findings))
+        )
 
 
 @dataclass(eq=False)
@@ -227,6 +234,13 @@ class DocumentSession:
             return error
         outcome = self.history.redo(self.user_id, self.shared.clock())
         return self._adopt_history(outcome, texts.cannot_redo)
+
+    def undo_entry(self, entry_id: int) -> str:
+        """Undo one edit by any user; returns an error message if it conflicts with later edits."""
+        entry = self.history.entries.get(entry_id)
+        if entry is None or entry_id not in self.history.done_ids:
+            return ""
+        return self._adopt_history(self.history.undo_entry(entry, self.user_id, self.shared.clock()), texts.cannot_undo)
 
     def undo_compound(self, compound: CompoundEdit) -> str:
         """Undo an edit of several files, and record that if this history contains it; returns an error message."""
@@ -354,3 +368,9 @@ class DocumentSession:
             return describe_conflict(outcome.entry.label, user, place, blocking.label)
         self.shared.set_history(outcome, self)
         return ""
+
+
+def _is_same(before: tuple[object, ...], now: tuple[object, ...]) -> bool:
+    """Whether two cache keys are the same; comparing projects and findings by value would take long."""
+    *big, rev, marked = now
+    return all(map(operator.is_, before, big)) and before[len(big) :] == (rev, marked)

@@ -107,8 +107,10 @@ class UndoHistory:
     def undo(self, user_id: str, at_s: float = 0.0) -> "UndoHistory | UndoConflict":
         """Undo the user's latest edit: move to its parent, or revert it while keeping the later edits of others."""
         entry = self.next_undo(user_id)
-        if entry is None:
-            return self
+        return self if entry is None else self.undo_entry(entry, user_id, at_s)
+
+    def undo_entry(self, entry: HistoryEntry, user_id: str, at_s: float = 0.0) -> "UndoHistory | UndoConflict":
+        """Undo one edit on behalf of a user, who can redo it."""
         redo_stacks = {**self.redo_stacks, user_id: (*self.redo_stacks.get(user_id, ()), entry.id)}
         if entry.id == self.current_id:
             return replace(self, current_id=entry.parent, redo_stacks=redo_stacks)
@@ -138,6 +140,11 @@ class UndoHistory:
         label = texts.redo_label(entry.label)
         redone = HistoryEntry(user_id=user_id, label=label, at_s=at_s, design=merged.design)
         return replace(self._appended(redone), redo_stacks=redo_stacks)
+
+    @property
+    def done_ids(self) -> frozenset[int]:
+        """The ids of the entries on the current path that are not undone."""
+        return frozenset(entry.id for entry in self.path) - {entry.undone_id for entry in self.path}
 
     def next_undo(self, user_id: str) -> HistoryEntry | None:
         path = self.path[1:]

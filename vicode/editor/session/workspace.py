@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.check import check_design, check_project
-from vicode.editor.session import code_generation, texts
+from vicode.editor.session import code_generation, code_sync, texts
 from vicode.editor.session.code_generation import GenerationRequest, GenerationResult, PendingOutput
+from vicode.editor.session.code_sync import GeneratedPaths, file_signature
 from vicode.editor.session.document import DiskVersion, DocumentSession, FileTransaction, SharedDocument
 from vicode.editor.session.presence import DISK_USER, UserDirectory
 from vicode.findings import DesignPath, Finding
@@ -64,6 +65,7 @@ class Workspace:
     files: dict[str, Path] = field(init=False)
     removed_components: dict[str, str] = field(init=False, default_factory=dict)
     trashed_designs: dict[str, TrashedDesign] = field(init=False, default_factory=dict)
+    generated_paths: GeneratedPaths = field(init=False, default_factory=GeneratedPaths)
     _polled_s: float = field(init=False, default=0.0)
     _texts: dict[str, str] = field(init=False)
     _parse_findings: dict[str, tuple[Finding, ...]] = field(init=False)
@@ -84,6 +86,7 @@ class Workspace:
         if now_s - self._polled_s >= _POLL_INTERVAL_S:
             self._polled_s = now_s
             self.sync_from_disk()
+            code_sync.follow_generated_files(self)
 
     def sync_from_disk(self, transaction: FileTransaction | None = None) -> None:
         """Load the changes of other programs; where they conflict with unsaved edits, a user must resolve the conflict.
@@ -95,7 +98,7 @@ class Workspace:
             OSError: The folder no longer exists.
         """
         files = (*find_design_files(self.folder), *(self.folder / name for name in PROJECT_FILES))
-        seen = frozenset(map(_signature, files))
+        seen = frozenset(map(file_signature, files))
         if seen != self._seen:
             self._seen = seen
             self._apply_project(open_project(self.folder), transaction)
@@ -174,8 +177,10 @@ class Workspace:
             # Another program may write the file between the merge with its version and the replacement.
             with contextlib.suppress(FileChangedError):
                 self._merge_and_write(document, overwrite=overwrite)
-                return
-        self._merge_and_write(document, overwrite=overwrite)
+                break
+        else:
+            self._merge_and_write(document, overwrite=overwrite)
+        code_sync.save_records(self, document)
 
     def _merge_and_write(self, document: DocumentSession, *, overwrite: bool) -> None:
         text = _read(document.file)
@@ -390,11 +395,3 @@ def _read(file: Path) -> str | None:
 def _name_in(folder: Path, file: Path) -> str:
     path, root = file.resolve(), folder.resolve()
     return path.relative_to(root).as_posix() if path.is_relative_to(root) else file.name
-
-
-def _signature(file: Path) -> tuple[str, int, int]:
-    try:
-        status = file.stat()
-    except OSError:
-        return (str(file), 0, 0)
-    return (str(file), status.st_mtime_ns, status.st_size)

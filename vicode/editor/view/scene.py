@@ -1,7 +1,7 @@
 """The scene of a design: the items that the canvas draws, as JSON values with formatted texts."""
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Any
 
 from vicode.diagram.frames import drawn_frames, frame_padding
@@ -19,7 +19,14 @@ Scene = dict[str, Any]
 _Findings = dict[ItemRef, list[Finding]]
 
 
-def make_scene(project: Project, design: Design, findings: Iterable[Finding], rev: int) -> Scene:
+def make_scene(
+    project: Project,
+    design: Design,
+    findings: Iterable[Finding],
+    rev: int,
+    *,
+    changed_outside: Collection[str] = (),
+) -> Scene:
     """The scene as {"rev", "component", "doc", "common"}, and lists of states, transitions, components, links, frames
     and notes.
     """
@@ -33,7 +40,14 @@ def make_scene(project: Project, design: Design, findings: Iterable[Finding], re
         "rev": rev,
         "component": design.component,
         "doc": design.doc,
-        "states": [{**_state(design, state, by_item), **_at(layout.states[state.name])} for state in design.states],
+        "states": [
+            {
+                **_state(design, state, by_item),
+                **_at(layout.states[state.name]),
+                "outside": state.name in changed_outside,
+            }
+            for state in design.states
+        ],
         "transitions": list(_transitions(design, transitions, by_item)),
         "components": [
             {

@@ -1,0 +1,70 @@
+"""Remembers which edits of regions a design contains while their file was not generated again since.
+
+Without it, the mark of such a region still names the text from before the edit: a later change of the same lines in the
+design would look like a conflict.
+"""
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from vicode.transactions import STATE_FOLDER, replace_files
+
+TAKEN_FILE = f"{STATE_FOLDER}/taken.json"
+"""The file with the records, relative to the folder of generated files."""
+
+RegionKey = tuple[str, str]
+"""The path of a generated file and the id of a region in it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TakenEdit:
+    """An edit of a region that the design contains, or that a user decided against.
+
+    Attributes:
+        checksum: The checksum in the mark of the region.
+        file_text: The text of the region in the file.
+        design_text: The text of the design before, None if the user decided against the edit.
+    """
+
+    checksum: str
+    file_text: str
+    design_text: str | None
+
+
+def read_taken(folder: Path) -> dict[RegionKey, TakenEdit]:
+    """Read the records of a folder of generated files; empty if there are none or they cannot be read."""
+    try:
+        rows = json.loads((folder / TAKEN_FILE).read_text("utf-8"))
+        return {(str(path), str(region)): _read_edit(**record) for path, region, record in rows}
+    except (OSError, ValueError, TypeError):
+        return {}
+
+
+def _read_edit(*, checksum: object, file_text: object, design_text: object) -> TakenEdit:
+    before = None if design_text is None else str(design_text)
+    return TakenEdit(checksum=str(checksum), file_text=str(file_text), design_text=before)
+
+
+def format_taken(taken: Mapping[RegionKey, TakenEdit]) -> str:
+    return json.dumps([[*key, asdict(edit)] for key, edit in sorted(taken.items())], indent=1) + "\n"
+
+
+def without_paths(taken: Mapping[RegionKey, TakenEdit], paths: Iterable[str]) -> dict[RegionKey, TakenEdit]:
+    """The records of other files."""
+    dropped = set(paths)
+    return {key: edit for key, edit in taken.items() if key[0] not in dropped}
+
+
+def record_taken(folder: Path, changes: Mapping[RegionKey, TakenEdit | None]) -> None:
+    """Change the records of a folder of generated files; None removes a record.
+
+    Raises:
+        OSError: The records cannot be written.
+    """
+    before = read_taken(folder)
+    changed = {**before, **changes}
+    now = {key: edit for key, edit in changed.items() if edit is not None}
+    if now != before:
+        replace_files(folder, {TAKEN_FILE: format_taken(now)})
