@@ -1,9 +1,11 @@
 """Prints a syntax tree with its comments in the canonical format of `vicode xabsl format`."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import cast
 
 from vicode.xabsl import tree
 from vicode.xabsl.formatter import TokenFormatter
+from vicode.xabsl.lexer import Comment
 
 MAX_WIDTH = 110
 """Longer conditions and calls are broken into several lines."""
@@ -25,11 +27,58 @@ def print_file(file: tree.FileNode) -> str:
     return layout.text()
 
 
+def print_node(node: tree.SyntaxNode, comments: Mapping[int, Sequence[Comment]] | None = None) -> str:
+    """Print one node without indentation and without a final line break.
+
+    Args:
+        node: An option, a state, a parameter, a declaration, a decision, an action or an expression.
+        comments: The comments of the file that the node was parsed from; those inside the node are printed.
+    """
+    own = {
+        number - node.first_token: list(group)
+        for number, group in (comments or {}).items()
+        if node.first_token <= number <= node.last_token
+    }
+    layout = TokenFormatter(own, ())
+    _Printer(layout).node(node)
+    return layout.text().removesuffix("\n")
+
+
 class _Printer:
     """Prints syntax nodes; each method writes exactly the tokens of its node."""
 
     def __init__(self, layout: TokenFormatter) -> None:
         self.out = layout
+
+    def node(self, node: tree.SyntaxNode) -> None:
+        match node:
+            case tree.OptionNode() | tree.NamespaceNode() | tree.AgentNode():
+                self.item(node)
+            case tree.StateNode():
+                self._state(node)
+            case tree.GotoNode() | tree.StayNode() | tree.IfNode() | tree.BlockNode():
+                self._tree(node)
+            case tree.AssignmentNode() | tree.CallNode():
+                self._action(node)
+            case tree.ParameterNode():
+                self._parameter(node)
+            case tree.ConstantNode() | tree.EnumerationNode() | tree.SymbolNode() | tree.BehaviorNode():
+                self._declaration(node)
+            case _:
+                self._part(node)
+
+    def _part(self, node: tree.SyntaxNode) -> None:
+        match node:
+            case tree.DecisionNode():
+                self._decision(node)
+            case tree.ActionBlockNode():
+                self._actions(node)
+            case tree.ArgumentNode():
+                self._argument(node)
+            case tree.ArgumentListNode():
+                self._arguments(node)
+            case _:
+                self._expression(cast("tree.ExpressionNode", node), "")
 
     def item(self, item: tree.OptionNode | tree.NamespaceNode | tree.AgentNode) -> None:
         self._doc(item.doc)
@@ -170,17 +219,20 @@ class _Printer:
         self.out.write("action")
         self._open()
         for action in actions.actions:
-            if isinstance(action, tree.AssignmentNode):
-                self.out.write_on_new_line(action.symbol.text)
-                self.out.write("=")
-                self._expression(action.value, " ", breaks=self.out.column + len(_flat(action.value)) > MAX_WIDTH)
-            else:
-                self.out.write_on_new_line(action.name.text)
-                if action.kind:
-                    self.out.write(action.kind)
-                self._arguments(action.arguments, breaks=self.out.column + _length(action.arguments) > MAX_WIDTH)
-            self.out.write(";", "")
+            self._action(action)
         self.out.close_block("}")
+
+    def _action(self, action: tree.ActionNode) -> None:
+        if isinstance(action, tree.AssignmentNode):
+            self.out.write_on_new_line(action.symbol.text)
+            self.out.write("=")
+            self._expression(action.value, " ", breaks=self.out.column + len(_flat(action.value)) > MAX_WIDTH)
+        else:
+            self.out.write_on_new_line(action.name.text)
+            if action.kind:
+                self.out.write(action.kind)
+            self._arguments(action.arguments, breaks=self.out.column + _length(action.arguments) > MAX_WIDTH)
+        self.out.write(";", "")
 
     def _arguments(self, arguments: tree.ArgumentListNode, *, breaks: bool = False) -> None:
         self.out.write("(", "")
@@ -189,11 +241,8 @@ class _Printer:
             if number:
                 self.out.write(",", "")
             if breaks:
-                self.out.write_on_new_line(argument.name.text)
-            else:
-                self.out.write(argument.name.text, " " if number else "")
-            self.out.write("=")
-            self._expression(argument.value, " ")
+                self.out.end_line()
+            self._argument(argument, " " if number and not breaks else "")
         if arguments.has_trailing_comma:
             self.out.write(",", "")
         self.out.depth -= 1
@@ -201,6 +250,11 @@ class _Printer:
             self.out.write_on_new_line(")")
         else:
             self.out.write(")", "")
+
+    def _argument(self, argument: tree.ArgumentNode, gap: str = "") -> None:
+        self.out.write(argument.name.text, gap)
+        self.out.write("=")
+        self._expression(argument.value, " ")
 
     def _expression(self, node: tree.ExpressionNode, gap: str, *, breaks: bool = False) -> None:
         """Write an expression; `gap` precedes its first token. With `breaks`, lines start with && and ||."""

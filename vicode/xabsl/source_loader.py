@@ -13,6 +13,9 @@ from vicode.xabsl.tree import AgentNode
 ReadText = Callable[[Path], str]
 ParseText = Callable[[str, str], ParsedFile]
 _EXTENSIONS = (".xabsl", ".yabsl")
+_UNDEFINED = (0x81, 0x8D, 0x8F, 0x90, 0x9D)
+_WINDOWS_1252 = {byte: bytes([byte]).decode("cp1252") for byte in range(0x80, 0xA0) if byte not in _UNDEFINED}
+"""The characters of Windows-1252 by their bytes, where it differs from latin-1."""
 
 
 _AGENT = re.compile(r"^[ \t]*agent\s+\w+\s*\(", re.MULTILINE)
@@ -48,11 +51,29 @@ def read_text(path: Path) -> str:
     Raises:
         OSError: The file cannot be read.
     """
-    data = path.read_bytes()
+    return decode_text(path.read_bytes())
+
+
+def decode_text(data: bytes) -> str:
+    """Decode the content of a file; `encode_text` returns the same bytes."""
     try:
         return data.decode("utf-8")
     except UnicodeDecodeError:
-        return data.decode("cp1252", errors="replace")
+        # Unlike the codec, latin-1 maps every byte to a character.
+        return data.decode("latin-1").translate(_WINDOWS_1252)
+
+
+def encode_text(text: str, old: bytes) -> bytes:
+    """Encode a text in the encoding of the old content of its file.
+
+    Raises:
+        UnicodeEncodeError: The encoding does not have a character of the text.
+    """
+    try:
+        old.decode("utf-8")
+        return text.encode("utf-8")
+    except UnicodeDecodeError:
+        return text.translate({ord(char): byte for byte, char in _WINDOWS_1252.items()}).encode("latin-1")
 
 
 def find_agent_files(folder: Path, *, recursive: bool = True) -> Iterator[Path]:

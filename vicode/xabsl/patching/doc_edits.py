@@ -1,0 +1,83 @@
+"""Edits descriptions and comments word by word, so that their lines and markers stay."""
+
+import re
+from collections.abc import Sequence
+from difflib import SequenceMatcher
+from itertools import pairwise
+
+from vicode.xabsl.patching.file_edits import FileEdits
+
+_MARKERS = re.compile(r"/\*+|\*+/|//+|^[ \t]*\*+(?=\s|$)", re.MULTILINE)
+
+Span = tuple[int, int]
+
+
+def edit_words(file: FileEdits, spans: Sequence[Span], before: str, after: str) -> None:
+    """Change the words of comments; if their text is not `before`, the comments are replaced.
+
+    Args:
+        file: The file.
+        spans: The start and end of each comment.
+        before: The text of the comments, without line breaks and markers.
+        after: The new text.
+    """
+    words = [word for start, end in spans for word in _words(file.text, start, end)]
+    if [file.text[start:end] for start, end in words] != before.split() or not words or not after.split():
+        _replace(file, spans, after)
+        return
+    new = after.split()
+    for tag, first, last, new_first, new_last in SequenceMatcher(
+        None, before.split(), new, autojunk=False
+    ).get_opcodes():
+        text = " ".join(new[new_first:new_last])
+        if tag == "insert":
+            at = words[first - 1][1] if first else words[0][0]
+            file.insert(at, f" {text}" if first else f"{text} ")
+        elif tag == "replace":
+            _replace_words(file, words[first:last], text)
+        elif tag == "delete":
+            _delete_words(file, words, first, last)
+
+
+def _words(text: str, start: int, end: int) -> list[Span]:
+    inner = text[start:end]
+    plain = _MARKERS.sub(lambda match: " " * len(match[0]), inner)
+    return [(start + match.start(), start + match.end()) for match in re.finditer(r"\S+", plain)]
+
+
+def _replace_words(file: FileEdits, words: Sequence[Span], text: str) -> None:
+    """Replace words; those on following lines are removed."""
+    file.replace(*words[0], text)
+    for (_, end), (start, stop) in pairwise(words):
+        between = file.text[end:start]
+        file.delete(start if "\n" in between else end, stop)
+
+
+def _delete_words(file: FileEdits, words: Sequence[Span], first: int, last: int) -> None:
+    for index in range(first, last):
+        start, end = words[index]
+        if index and "\n" not in file.text[words[index - 1][1] : start]:
+            start = words[index - 1][1]
+        elif index + 1 < len(words) and "\n" not in file.text[end : words[index + 1][0]]:
+            end = words[index + 1][0]
+        file.delete(start, end)
+
+
+def _replace(file: FileEdits, spans: Sequence[Span], after: str) -> None:
+    text = " ".join(after.split())
+    for index, (start, end) in enumerate(spans):
+        if index or not text:
+            _remove_line(file, start, end)
+        else:
+            opening = re.match(r"/\*\*|/\*|//", file.text[start:])
+            mark = opening[0] if opening else "//"
+            file.overwrite(start, end, f"{mark} {text}" + (" */" if mark != "//" else ""))
+
+
+def _remove_line(file: FileEdits, start: int, end: int) -> None:
+    line = file.text.rfind("\n", 0, start) + 1
+    newline = file.text.find("\n", end)
+    if newline >= 0 and not file.text[line:start].strip() and not file.text[end:newline].strip():
+        file.delete(line, newline + 1)
+    else:
+        file.delete(start, end)

@@ -1,0 +1,175 @@
+"""Matches the items of two versions of a list, and edits the list in the original text."""
+
+import re
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+
+from vicode.xabsl import tree
+from vicode.xabsl.patching.file_edits import FileEdits
+
+_MIN_SIMILARITY = 0.5
+_BLANK_LINE_BEFORE = re.compile(r"\n[ \t\r]*\n\Z")
+_BLANK_LINE_OR_END = re.compile(r"[ \t]*(?:\r?\n|\}|\Z)")
+Match = int | None
+"""The index of the old item that a new item continues; None for an added item."""
+
+
+def match_items(
+    old: Sequence[Hashable], new: Sequence[Hashable], similarity: Callable[[int, int], float]
+) -> list[Match]:
+    """For each new item the matching old one: equal items in order, equal items that moved, then similar ones.
+
+    Args:
+        old: The keys of the old items.
+        new: The keys of the new items.
+        similarity: The similarity of an old and a new item, from 0 to 1.
+    """
+    matches: list[Match] = [None] * len(new)
+    for block in SequenceMatcher(None, old, new, autojunk=False).get_matching_blocks():
+        matches[block.b : block.b + block.size] = range(block.a, block.a + block.size)
+    for index, key in enumerate(new):
+        if matches[index] is None:
+            matches[index] = next((at for at, other in enumerate(old) if other == key and at not in matches), None)
+    left = [at for at in range(len(old)) if at not in matches]
+    added = [index for index, match in enumerate(matches) if match is None]
+    scored = [(-similarity(at, index), abs(at - index), at, index) for at in left for index in added]
+    for score, _distance, at, index in sorted(scored):
+        if -score >= _MIN_SIMILARITY and at not in matches and matches[index] is None:
+            matches[index] = at
+    return matches
+
+
+def text_similarity(old: str, new: str) -> float:
+    """The share of words that two texts have in common."""
+    return SequenceMatcher(None, old.split(), new.split(), autojunk=False).ratio()
+
+
+def unmoved(matches: Sequence[Match]) -> set[int]:
+    """The old items of a longest sequence that keeps its order."""
+    chains: list[list[int]] = [[]]
+    for match in matches:
+        if match is not None:
+            before = [chain for chain in chains if not chain or chain[-1] < match]
+            chains.append([*max(before, key=len), match])
+    longest = max(chains, key=len)
+    return set(longest)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ListStyle:
+    """Where a list stands in a file.
+
+    Attributes:
+        opening: The token before the first item, which starts the list.
+        indent: The indentation of an item.
+        unit: One level of indentation.
+        has_blank_lines: Whether a blank line precedes each added item.
+    """
+
+    opening: int
+    indent: str
+    unit: str = "  "
+    has_blank_lines: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class _Chunk:
+    """The range of an item, in whole lines or within a line."""
+
+    start: int
+    end: int
+    is_lines: bool
+
+
+def edit_list(
+    file: FileEdits, items: Sequence[tree.SyntaxNode], matches: Sequence[Match], added: Sequence[str], style: ListStyle
+) -> None:
+    """Remove, move and add items; matched items keep their text, with the edits in it.
+
+    Args:
+        file: The file of the list.
+        items: The original items.
+        matches: The original item of each new item.
+        added: The text of each new item, empty if it is matched.
+        style: Where the list stands.
+    """
+    chunks = [_chunk(file, item) for item in items]
+    kept = unmoved(matches)
+    texts = [
+        _Text(file.read(chunks[match].start, chunks[match].end), chunks[match].is_lines)
+        if match is not None
+        else _Text(style.indent + text, is_lines=True)
+        for match, text in zip(matches, added, strict=True)
+    ]
+    for index in range(len(items)):
+        if index not in kept:
+            _remove(file, chunks[index])
+    if not items:
+        if texts:
+            _fill_empty_list(file, texts, style)
+        return
+    previous: Match = None
+    for match, text in zip(matches, texts, strict=True):
+        if match is not None and match in kept:
+            previous = match
+        else:
+            _insert(file, chunks, previous, text, style)
+
+
+@dataclass(frozen=True, slots=True)
+class _Text:
+    """The text of an item; with `is_lines` it starts with its indentation."""
+
+    text: str
+    is_lines: bool
+
+
+def _chunk(file: FileEdits, item: tree.SyntaxNode) -> _Chunk:
+    start = file.start_with_comments(item.first_token)
+    is_lines = file.is_first_in_line(file.start(item.first_token))
+    return _Chunk(start, file.end_with_comment(item.last_token), is_lines)
+
+
+def _remove(file: FileEdits, chunk: _Chunk) -> None:
+    text, start, end = file.text, chunk.start, chunk.end
+    if not chunk.is_lines:
+        start = len(text[:start].rstrip(" \t"))
+    elif not text[end:].split("\n", 1)[0].strip():
+        newline = text.find("\n", end)
+        end = len(text) if newline < 0 else newline + 1
+        blank = _BLANK_LINE_BEFORE.search(text[:start])
+        if blank and _BLANK_LINE_OR_END.match(text, end):
+            start = blank.start() + 1
+    file.delete(start, end)
+
+
+def _insert(file: FileEdits, chunks: Sequence[_Chunk], previous: Match, text: _Text, style: ListStyle) -> None:
+    position = chunks[previous].end if previous is not None else file.end_with_comment(style.opening)
+    plain = text.text.replace("\r\n", "\n")
+    if not chunks[0].is_lines:
+        gap = "" if file.text[position - 1] == "(" else " "
+        file.insert(position, gap + plain.strip())
+        return
+    lines = plain if text.is_lines else style.indent + plain.strip()
+    if previous is None and style.opening < 0:
+        file.insert(chunks[0].start, lines + "\n")
+    elif previous is not None:
+        file.insert(position, ("\n\n" if style.has_blank_lines else "\n") + lines)
+    else:
+        # The first item keeps the blank lines and separators above it.
+        file.insert(position, "\n" + lines + ("\n" if style.has_blank_lines else ""))
+
+
+def _fill_empty_list(file: FileEdits, texts: Sequence[_Text], style: ListStyle) -> None:
+    lines = ("\n\n" if style.has_blank_lines else "\n").join(text.text for text in texts)
+    closing, kind = file.start(style.opening + 1), file.tokens.kinds[style.opening + 1]
+    if kind == ")":
+        file.insert(file.end(style.opening), " ".join(text.text.strip() for text in texts))
+    elif kind != "}":
+        file.insert(file.end_with_comment(style.opening), f"\n{lines}\n")
+    elif file.is_first_in_line(closing):
+        file.insert(file.text.rfind("\n", 0, closing) + 1, lines + "\n")
+    else:
+        start = len(file.text[:closing].rstrip(" \t"))
+        file.replace(start, closing, f"\n{lines}\n{file.indent_at(file.start(style.opening))}")
