@@ -22,12 +22,12 @@ _PENDING = "pending"
 _JOURNAL = "journal.json"
 
 
-def replace_files(root: Path, texts: Mapping[str, str | None]) -> None:
+def replace_files(root: Path, texts: Mapping[str, str | bytes | None]) -> None:
     """Write or delete (None) files below a folder, all of them or none; symbolic links are followed.
 
     Args:
         root: The folder; it is created.
-        texts: The new texts by path relative to `root`.
+        texts: The new texts, or contents, by path relative to `root`.
 
     Raises:
         OSError: A file cannot be written; the error names it, and all files are unchanged.
@@ -48,9 +48,14 @@ def replace_files(root: Path, texts: Mapping[str, str | None]) -> None:
         _complete(root, state)
 
 
+def is_interrupted(root: Path) -> bool:
+    """Whether a killed program left a replacement below a folder."""
+    return (root / STATE_FOLDER / _PENDING).is_dir()
+
+
 def complete_interrupted(root: Path) -> None:
     """Complete the replacement that a killed program began below a folder, or drop what it had only prepared."""
-    if (root / STATE_FOLDER / _PENDING).is_dir():
+    if is_interrupted(root):
         with _lock(root) as state:
             _complete(root, state)
 
@@ -73,7 +78,7 @@ def _lock(root: Path) -> Iterator[Path]:
 
 
 def _write_pending(
-    pending: Path, texts: Mapping[str, str | None], targets: Mapping[str, Path]
+    pending: Path, texts: Mapping[str, str | bytes | None], targets: Mapping[str, Path]
 ) -> dict[str, str | None]:
     """Write the new texts; return the journal: the names in `pending` (None to delete) by path."""
     pending.mkdir()

@@ -7,6 +7,7 @@ import pytest
 
 from tests.xabsl.xabsl_cases import CASES
 from vicode.cli.entry_point import main
+from vicode.cli.import_record import RECORD_FILE
 from vicode.store import open_project
 
 PROGRAM = CASES / "programs" / "p1"
@@ -39,6 +40,8 @@ def test_nothing_that_is_there_is_lost(tmp_path: Path, capsys: pytest.CaptureFix
     assert main(["import", str(PROGRAM / "agents.xabsl"), "--out", str(out), "--name", "Best"]) == 0
     (out / "project.yaml").write_text("vicode: 1\nproject: Mine\n")
     (out / "robot.py").write_text("# filled in\n")
+    # Without the record of the import, its changes cannot be merged.
+    (out / RECORD_FILE).unlink()
     before = {path: path.read_bytes() for path in out.rglob("*.yaml")}
     assert main(["import", str(PROGRAM / "agents.xabsl"), "--out", str(out)]) == 1
     assert "would be overwritten; use --force" in capsys.readouterr().err

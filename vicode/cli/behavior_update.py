@@ -10,8 +10,8 @@ from vicode.model.project import Project
 from vicode.model.xabsl.names import component_name, unqualified_name
 from vicode.xabsl.compiler import CompileResult, compile_source
 from vicode.xabsl.patching.differences import find_differences
-from vicode.xabsl.patching.file_edits import PatchError
 from vicode.xabsl.patching.program_patch import FileTexts, ProgramVersion, patch_program
+from vicode.xabsl.patching.source_edits import PatchError
 from vicode.xabsl.source_loader import ProgramSource, ReadText, load_source
 
 _FOLDER = Path("/generated")

@@ -1,4 +1,4 @@
-"""Import an XABSL behavior as a project of designs."""
+"""Import an XABSL behavior as a project of designs, or merge its changes into them."""
 
 import argparse
 import sys
@@ -10,8 +10,10 @@ from vicode.cli.console import count_findings
 from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings
 
 if TYPE_CHECKING:
+    from vicode.cli.import_record import ImportRecord
     from vicode.importers import ImportResult
     from vicode.model.project import Project
+    from vicode.xabsl.source_loader import ProgramSource
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -20,11 +22,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--out", metavar="DIR", type=Path, required=True, help="project folder to create, such as designs/NAME"
     )
     parser.add_argument("--name", help="project name (default: the name of the folder)")
-    parser.add_argument("--force", action="store_true", help="overwrite existing designs")
+    parser.add_argument("--force", action="store_true", help="overwrite existing designs instead of merging")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the designs; return 1 if the behavior has errors or files would be overwritten."""
+    """Write the designs; return 1 if the behavior has errors, files would be overwritten, or there are conflicts."""
+    from vicode.cli.import_record import RECORD_FILE, format_record, read_record
     from vicode.findings import Severity
     from vicode.importers import import_behavior, render_robot_class
     from vicode.store.documents import default_project_name
@@ -37,19 +40,49 @@ def run(args: argparse.Namespace) -> int:
         print(f"nothing written: {count_findings(compiled.findings)}", file=sys.stderr)
         return 1
     imported = import_behavior(source, compiled, args.name or default_project_name(args.out.resolve().name))
+    record = None if args.force else read_record(args.out)
+    if record is not None:
+        return _merge(args.out, record, source, args.name)
     texts = _texts(replace(imported, project=_with_layout(imported.project)))
     there = [path for path in texts if (args.out / path).exists()]
     if there and not args.force:
         more = f" and {len(there) - 1} more" if len(there) > 1 else ""
         print(f"vicode: {args.out / there[0]}{more} would be overwritten; use --force", file=sys.stderr)
         return 1
-    _write(args.out, texts)
+    _write(args.out, {**texts, RECORD_FILE: format_record(args.out, source)})
     robot = args.out / "robot.py"
     # Edited by hand: never overwritten.
     if not robot.exists():
         _write(args.out, {robot.name: render_robot_class(imported.project)})
     print(_summary(imported, args.out))
     return 0
+
+
+def _merge(folder: Path, record: "ImportRecord", source: "ProgramSource", name: str | None) -> int:
+    """Merge the changes of a behavior since its last import into the designs."""
+    from vicode.cli.import_merge import merge_import
+    from vicode.cli.import_record import RECORD_FILE, format_record
+    from vicode.importers import import_behavior
+    from vicode.store import open_project
+    from vicode.transactions import replace_files
+    from vicode.xabsl.compiler import compile_source
+
+    known = open_project(folder).project.name
+    versions = []
+    for version, title in ((record.source(), known), (source, name or known)):
+        compiled = compile_source(version)
+        if compiled.program is None:
+            raise OSError(f"the record of the import of {folder} does not compile; import again with --force")
+        versions.append(_texts(import_behavior(version, compiled, title)))
+    merge = merge_import(folder, *versions)
+    replace_files(folder, {**merge.texts, RECORD_FILE: format_record(folder, source)})
+    for path, text in sorted(merge.texts.items()):
+        print(f"{'deleted' if text is None else 'merged'} {(folder / path).as_posix()}")
+    if not merge.texts and not merge.conflicts:
+        print(f"{folder.as_posix()}: no changes")
+    for conflict in merge.conflicts:
+        print(f"vicode: {(folder / conflict).as_posix()}", file=sys.stderr)
+    return int(bool(merge.conflicts))
 
 
 def _with_layout(project: "Project") -> "Project":

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from vicode.cli import xabsl_update
 from vicode.cli.console import count_findings, describe_os_error, print_findings
 from vicode.cli.xabsl_behavior import compile_behavior, print_behavior_findings, with_display_paths
 
@@ -24,6 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ("compile", _add_compile, _compile),
         ("run", _add_run, _run),
         ("format", _add_format, _format),
+        ("update", xabsl_update.add_arguments, _update),
         ("lsp", _add_lsp, _lsp),
     ):
         summary = (act.__doc__ or "").split("\n")[0]
@@ -178,6 +180,11 @@ def _format(args: argparse.Namespace) -> int:
             if not args.check:
                 write_atomically(path, result.formatted)
     return code
+
+
+def _update(args: argparse.Namespace) -> int:
+    """Write the edits of imported designs back to the files of the behavior; everything else stays as it is."""
+    return xabsl_update.run(args)
 
 
 def _add_lsp(parser: argparse.ArgumentParser) -> None:

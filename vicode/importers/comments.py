@@ -17,6 +17,18 @@ def comment_text(comments: Iterable[Comment]) -> str:
     return "\n".join(_plain(comment.text) for comment in comments).strip()
 
 
+def group_comments(comments: Iterable[Comment]) -> list[list[Comment]]:
+    """Group comments: consecutive lines form one text, a block comment is a separate one."""
+    groups: list[list[Comment]] = []
+    for comment in comments:
+        is_line = comment.text.startswith("//")
+        if groups and is_line and not comment.after_blank_line and groups[-1][-1].text.startswith("//"):
+            groups[-1].append(comment)
+        else:
+            groups.append([comment])
+    return groups
+
+
 def looks_like_code(text: str) -> bool:
     """Whether a comment contains commented-out code."""
     return any(sign in text for sign in ";{}") or "goto " in text

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from vicode.findings import DesignPath
-from vicode.importers.comments import Anchor, comment_text, looks_like_code, place_comments
+from vicode.importers.comments import Anchor, comment_text, group_comments, looks_like_code, place_comments
 from vicode.importers.declarations import ImportedDeclarations, PlacedComment, convert_declaration
 from vicode.importers.expressions import ExpressionTranslator
 from vicode.importers.names import DesignNames, xabsl_name_or_empty
@@ -142,12 +142,16 @@ class OptionImporter:
         )
 
     def _leading_comment(self, state: tree.StateNode) -> str:
-        """Take the comments directly before a state as its doc, unless they contain code."""
-        comments = self._comments.get(state.first_token, ())
-        text = comment_text([comment for comment in comments if comment.own_line])
-        if not text or looks_like_code(text):
-            return ""
-        self._comments[state.first_token] = [comment for comment in comments if not comment.own_line]
+        """Take the comments directly before a state as its doc, up to a comment that contains code."""
+        comments = self._comments.get(state.first_token, [])
+        taken: list[Comment] = []
+        for group in reversed(group_comments([comment for comment in comments if comment.own_line])):
+            if looks_like_code(comment_text(group)):
+                break
+            taken = [*group, *taken]
+        text = comment_text(taken)
+        if text:
+            self._comments[state.first_token] = comments[: len(comments) - len(taken)]
         return text
 
     # Decisions

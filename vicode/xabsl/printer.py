@@ -1,7 +1,6 @@
 """Prints a syntax tree with its comments in the canonical format of `vicode xabsl format`."""
 
-from collections.abc import Mapping, Sequence
-from typing import cast
+from collections.abc import Callable, Mapping, Sequence
 
 from vicode.xabsl import tree
 from vicode.xabsl.formatter import TokenFormatter
@@ -51,34 +50,21 @@ class _Printer:
         self.out = layout
 
     def node(self, node: tree.SyntaxNode) -> None:
-        match node:
-            case tree.OptionNode() | tree.NamespaceNode() | tree.AgentNode():
-                self.item(node)
-            case tree.StateNode():
-                self._state(node)
-            case tree.GotoNode() | tree.StayNode() | tree.IfNode() | tree.BlockNode():
-                self._tree(node)
-            case tree.AssignmentNode() | tree.CallNode():
-                self._action(node)
-            case tree.ParameterNode():
-                self._parameter(node)
-            case tree.ConstantNode() | tree.EnumerationNode() | tree.SymbolNode() | tree.BehaviorNode():
-                self._declaration(node)
-            case _:
-                self._part(node)
-
-    def _part(self, node: tree.SyntaxNode) -> None:
-        match node:
-            case tree.DecisionNode():
-                self._decision(node)
-            case tree.ActionBlockNode():
-                self._actions(node)
-            case tree.ArgumentNode():
-                self._argument(node)
-            case tree.ArgumentListNode():
-                self._arguments(node)
-            case _:
-                self._expression(cast("tree.ExpressionNode", node), "")
+        writers: dict[type, Callable[..., None]] = {
+            **dict.fromkeys((tree.OptionNode, tree.NamespaceNode, tree.AgentNode), self.item),
+            **dict.fromkeys((tree.GotoNode, tree.StayNode, tree.IfNode, tree.BlockNode), self._tree),
+            **dict.fromkeys((tree.AssignmentNode, tree.CallNode), self._action),
+            **dict.fromkeys(
+                (tree.ConstantNode, tree.EnumerationNode, tree.SymbolNode, tree.BehaviorNode), self._declaration
+            ),
+            tree.StateNode: self._state,
+            tree.DecisionNode: self._decision,
+            tree.ActionBlockNode: self._actions,
+            tree.ParameterNode: self._parameter,
+            tree.ArgumentNode: self._argument,
+            tree.ArgumentListNode: self._arguments,
+        }
+        writers.get(type(node), self._expression)(node)
 
     def item(self, item: tree.OptionNode | tree.NamespaceNode | tree.AgentNode) -> None:
         self._doc(item.doc)
@@ -256,7 +242,7 @@ class _Printer:
         self.out.write("=")
         self._expression(argument.value, " ")
 
-    def _expression(self, node: tree.ExpressionNode, gap: str, *, breaks: bool = False) -> None:
+    def _expression(self, node: tree.ExpressionNode, gap: str = "", *, breaks: bool = False) -> None:
         """Write an expression; `gap` precedes its first token. With `breaks`, lines start with && and ||."""
         match node:
             case tree.NumberNode(text=text) | tree.KeywordNode(text=text) | tree.ReferenceNode(name=text):

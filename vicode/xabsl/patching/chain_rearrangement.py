@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from vicode.xabsl import tree
 from vicode.xabsl.patching.decision_chains import Chain, doc_tokens, else_token
-from vicode.xabsl.patching.file_edits import FileEdits
 from vicode.xabsl.patching.list_edits import Match
+from vicode.xabsl.patching.source_edits import SourceEdits
 from vicode.xabsl.tokens import DOC
 
 
@@ -22,7 +22,7 @@ class ChainRearrangement:
         added: The text of each added test from its `if`; empty for the others.
     """
 
-    file: FileEdits
+    file: SourceEdits
     old: Chain
     after: Chain
     matches: Sequence[Match]

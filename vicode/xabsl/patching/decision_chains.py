@@ -3,12 +3,12 @@
 from dataclasses import dataclass, replace
 
 from vicode.xabsl import tree
-from vicode.xabsl.patching.file_edits import FileEdits
+from vicode.xabsl.patching.source_edits import SourceEdits
 from vicode.xabsl.tokens import DOC
 
 
 @dataclass(frozen=True, slots=True)
-class Branch:
+class ChainBranch:
     """An `if` of a chain or its last `else`; `outer` includes the braces around it, `doc` that before its `else`."""
 
     node: tree.DecisionTreeNode
@@ -26,9 +26,9 @@ class Chain:
     """A decision tree: its tests, and the branches with their descriptions. An open chain has no last `else`."""
 
     tests: list[tree.IfNode]
-    branches: list[Branch]
+    branches: list[ChainBranch]
 
-    def indent(self, file: FileEdits) -> str:
+    def indent(self, file: SourceEdits) -> str:
         """The indentation of the first test."""
         return file.indent_at(file.start(self.tests[0].first_token))
 
@@ -37,20 +37,20 @@ class Chain:
         return len(self.branches) == len(self.tests)
 
 
-def else_token(file: FileEdits, first: int) -> int | None:
+def else_token(file: SourceEdits, first: int) -> int | None:
     """The `else` directly before a token."""
     return first - 1 if first and file.tokens.kinds[first - 1] == "else" else None
 
 
 def read_chain(node: tree.DecisionTreeNode, else_doc: str) -> Chain:
     tests: list[tree.IfNode] = []
-    branches: list[Branch] = []
+    branches: list[ChainBranch] = []
     current: tree.DecisionTreeNode | None = node
     while current is not None:
         outer = current
         while isinstance(current, tree.BlockNode):
             current = current.inner
-        branches.append(Branch(current, outer, else_doc))
+        branches.append(ChainBranch(current, outer, else_doc))
         if not isinstance(current, tree.IfNode):
             break
         tests.append(current)
@@ -58,7 +58,7 @@ def read_chain(node: tree.DecisionTreeNode, else_doc: str) -> Chain:
     return Chain(tests, branches)
 
 
-def doc_tokens(file: FileEdits, branch: Branch, *, own: bool = True) -> list[int]:
+def doc_tokens(file: SourceEdits, branch: ChainBranch, *, own: bool = True) -> list[int]:
     """The tokens of the descriptions of a branch: before its `else`, and with `own` before its `if`."""
     kinds, first = file.tokens.kinds, branch.outer.first_token
     found = []

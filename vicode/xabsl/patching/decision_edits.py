@@ -5,11 +5,11 @@ from dataclasses import replace
 from vicode.xabsl import tree
 from vicode.xabsl.lexer import Comment
 from vicode.xabsl.patching.chain_rearrangement import ChainRearrangement
-from vicode.xabsl.patching.decision_chains import Branch, Chain, doc_tokens, else_token, read_chain, test_alone
+from vicode.xabsl.patching.decision_chains import Chain, ChainBranch, doc_tokens, else_token, read_chain, test_alone
 from vicode.xabsl.patching.doc_edits import edit_words
 from vicode.xabsl.patching.expression_edits import edit_expression
-from vicode.xabsl.patching.file_edits import FileEdits, indented
 from vicode.xabsl.patching.list_edits import match_items, text_similarity, unmoved
+from vicode.xabsl.patching.source_edits import SourceEdits, indented
 from vicode.xabsl.printer import print_node
 
 
@@ -22,7 +22,7 @@ class DecisionEdits:
         comments: The comments of the file of the new trees.
     """
 
-    def __init__(self, file: FileEdits, unit: str, comments: dict[int, list[Comment]]) -> None:
+    def __init__(self, file: SourceEdits, unit: str, comments: dict[int, list[Comment]]) -> None:
         self.file, self.unit, self.comments = file, unit, comments
 
     def edit(
@@ -126,7 +126,7 @@ class DecisionEdits:
         edit_expression(self.file, old.tests[match].condition, was.condition, now.condition)
         self.edit(old.tests[match].then, was.then, now.then)
 
-    def _edit_doc(self, old: Branch, before: Branch, after: Branch) -> None:
+    def _edit_doc(self, old: ChainBranch, before: ChainBranch, after: ChainBranch) -> None:
         if before.doc == after.doc:
             return
         file = self.file

@@ -5,15 +5,15 @@ from dataclasses import replace
 
 from vicode.xabsl import tree
 from vicode.xabsl.patching.doc_edits import edit_words
-from vicode.xabsl.patching.file_edits import FileEdits, indented
 from vicode.xabsl.patching.list_edits import ListStyle, Match, edit_list
+from vicode.xabsl.patching.source_edits import SourceEdits, indented
 from vicode.xabsl.printer import print_node
 from vicode.xabsl.tokens import DOC
 
 Parameters = Sequence[tree.ParameterNode]
 
 
-def edit_doc(file: FileEdits, old: tree.SyntaxNode, before: str, after: str) -> None:
+def edit_doc(file: SourceEdits, old: tree.SyntaxNode, before: str, after: str) -> None:
     """Change the description before an item."""
     if before == after:
         return
@@ -33,7 +33,7 @@ def edit_doc(file: FileEdits, old: tree.SyntaxNode, before: str, after: str) -> 
 
 
 def edit_parameters(
-    file: FileEdits, old: Parameters, versions: tuple[Parameters, Parameters], style: ListStyle
+    file: SourceEdits, old: Parameters, versions: tuple[Parameters, Parameters], style: ListStyle
 ) -> None:
     """Change a list of parameters; `versions` are those before and after the change."""
     before, after = versions
@@ -57,7 +57,7 @@ def edit_parameters(
 
 
 def _edit_parameter(
-    file: FileEdits, old: tree.ParameterNode, before: tree.ParameterNode, after: tree.ParameterNode
+    file: SourceEdits, old: tree.ParameterNode, before: tree.ParameterNode, after: tree.ParameterNode
 ) -> None:
     if before == after:
         return
@@ -67,7 +67,7 @@ def _edit_parameter(
 
 
 def edit_declaration(
-    file: FileEdits, old: tree.DeclarationNode, before: tree.DeclarationNode, after: tree.DeclarationNode
+    file: SourceEdits, old: tree.DeclarationNode, before: tree.DeclarationNode, after: tree.DeclarationNode
 ) -> None:
     """Change a declaration."""
     if before == after:
@@ -88,7 +88,7 @@ def edit_declaration(
             file.replace(_head_start(file, old), file.end(old.last_token), _without_doc(after))
 
 
-def _edit_symbol(file: FileEdits, old: tree.SymbolNode, before: tree.SymbolNode, after: tree.SymbolNode) -> None:
+def _edit_symbol(file: SourceEdits, old: tree.SymbolNode, before: tree.SymbolNode, after: tree.SymbolNode) -> None:
     if before.parameters is None or after.parameters is None or old.parameters is None:
         if before.parameters != after.parameters:
             file.replace(_head_start(file, old), file.end(old.last_token), _without_doc(after))
@@ -104,7 +104,7 @@ def _edit_symbol(file: FileEdits, old: tree.SymbolNode, before: tree.SymbolNode,
 
 
 def _replace_constant(
-    file: FileEdits, old: tree.ConstantNode, before: tree.ConstantNode, after: tree.ConstantNode
+    file: SourceEdits, old: tree.ConstantNode, before: tree.ConstantNode, after: tree.ConstantNode
 ) -> None:
     # The name is followed by =, an optional sign, the number and an optional unit.
     number = old.name.last_token + 2
@@ -116,7 +116,7 @@ def _replace_constant(
 
 
 def _edit_enumeration(
-    file: FileEdits, old: tree.EnumerationNode, before: tree.EnumerationNode, after: tree.EnumerationNode
+    file: SourceEdits, old: tree.EnumerationNode, before: tree.EnumerationNode, after: tree.EnumerationNode
 ) -> None:
     if before.is_internal != after.is_internal:
         name = old.name.last_token
@@ -133,7 +133,7 @@ def _edit_enumeration(
     _edit_elements(file, old.elements, new_names)
 
 
-def _edit_elements(file: FileEdits, old: Sequence[tree.NameNode], names: Sequence[str]) -> None:
+def _edit_elements(file: SourceEdits, old: Sequence[tree.NameNode], names: Sequence[str]) -> None:
     """Remove and add elements with the commas beside them."""
     known = {item.text: item for item in old}
     first = next(index for index, item in enumerate(old) if item.text in names)
@@ -154,7 +154,7 @@ def _edit_elements(file: FileEdits, old: Sequence[tree.NameNode], names: Sequenc
             file.insert(file.end(previous.last_token), f",{gap}{name}")
 
 
-def edit_agent(file: FileEdits, old: tree.AgentNode, before: tree.AgentNode, after: tree.AgentNode) -> None:
+def edit_agent(file: SourceEdits, old: tree.AgentNode, before: tree.AgentNode, after: tree.AgentNode) -> None:
     """Change the description, title and root of an agent."""
     edit_doc(file, old, before.doc, after.doc)
     if before.title != after.title:
@@ -165,7 +165,7 @@ def edit_agent(file: FileEdits, old: tree.AgentNode, before: tree.AgentNode, aft
 
 
 def edit_declarations(
-    file: FileEdits,
+    file: SourceEdits,
     old: tree.NamespaceNode,
     known: Mapping[int, tuple[tree.DeclarationNode, tree.DeclarationNode]],
     new: Sequence[tree.DeclarationNode | int],
@@ -190,7 +190,7 @@ def edit_declarations(
 
 
 def _style(
-    file: FileEdits, old: tree.SyntaxNode, opening: int, items: Sequence[tree.SyntaxNode] | None = None
+    file: SourceEdits, old: tree.SyntaxNode, opening: int, items: Sequence[tree.SyntaxNode] | None = None
 ) -> ListStyle:
     outer = file.indent_at(file.start(old.first_token))
     starts = [
@@ -200,7 +200,7 @@ def _style(
     return ListStyle(opening=opening, indent=indent, unit=indent.removeprefix(outer) or "  ")
 
 
-def _head_start(file: FileEdits, node: tree.SyntaxNode) -> int:
+def _head_start(file: SourceEdits, node: tree.SyntaxNode) -> int:
     """The start of an item after its description."""
     return file.start(node.first_token + (file.tokens.kinds[node.first_token] == DOC))
 

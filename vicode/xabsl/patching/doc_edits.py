@@ -5,14 +5,14 @@ from collections.abc import Sequence
 from difflib import SequenceMatcher
 from itertools import pairwise
 
-from vicode.xabsl.patching.file_edits import FileEdits
+from vicode.xabsl.patching.source_edits import SourceEdits
 
 _MARKERS = re.compile(r"/\*+|\*+/|//+|^[ \t]*\*+(?=\s|$)", re.MULTILINE)
 
 Span = tuple[int, int]
 
 
-def edit_words(file: FileEdits, spans: Sequence[Span], before: str, after: str) -> None:
+def edit_words(file: SourceEdits, spans: Sequence[Span], before: str, after: str) -> None:
     """Change the words of comments; if their text is not `before`, the comments are replaced.
 
     Args:
@@ -39,13 +39,22 @@ def edit_words(file: FileEdits, spans: Sequence[Span], before: str, after: str) 
             _delete_words(file, words, first, last)
 
 
+def last_spans_with_words(file: SourceEdits, spans: Sequence[Span], text: str) -> Sequence[Span]:
+    """The last ones of several comments that together have this text; empty if there are none."""
+    for first in reversed(range(len(spans))):
+        words = (file.text[start:end] for span in spans[first:] for start, end in _words(file.text, *span))
+        if list(words) == text.split():
+            return spans[first:]
+    return ()
+
+
 def _words(text: str, start: int, end: int) -> list[Span]:
     inner = text[start:end]
     plain = _MARKERS.sub(lambda match: " " * len(match[0]), inner)
     return [(start + match.start(), start + match.end()) for match in re.finditer(r"\S+", plain)]
 
 
-def _replace_words(file: FileEdits, words: Sequence[Span], text: str) -> None:
+def _replace_words(file: SourceEdits, words: Sequence[Span], text: str) -> None:
     """Replace words; those on following lines are removed."""
     file.replace(*words[0], text)
     for (_, end), (start, stop) in pairwise(words):
@@ -53,7 +62,7 @@ def _replace_words(file: FileEdits, words: Sequence[Span], text: str) -> None:
         file.delete(start if "\n" in between else end, stop)
 
 
-def _delete_words(file: FileEdits, words: Sequence[Span], first: int, last: int) -> None:
+def _delete_words(file: SourceEdits, words: Sequence[Span], first: int, last: int) -> None:
     for index in range(first, last):
         start, end = words[index]
         if index and "\n" not in file.text[words[index - 1][1] : start]:
@@ -63,7 +72,7 @@ def _delete_words(file: FileEdits, words: Sequence[Span], first: int, last: int)
         file.delete(start, end)
 
 
-def _replace(file: FileEdits, spans: Sequence[Span], after: str) -> None:
+def _replace(file: SourceEdits, spans: Sequence[Span], after: str) -> None:
     text = " ".join(after.split())
     for index, (start, end) in enumerate(spans):
         if index or not text:
@@ -74,7 +83,7 @@ def _replace(file: FileEdits, spans: Sequence[Span], after: str) -> None:
             file.overwrite(start, end, f"{mark} {text}" + (" */" if mark != "//" else ""))
 
 
-def _remove_line(file: FileEdits, start: int, end: int) -> None:
+def _remove_line(file: SourceEdits, start: int, end: int) -> None:
     line = file.text.rfind("\n", 0, start) + 1
     newline = file.text.find("\n", end)
     if newline >= 0 and not file.text[line:start].strip() and not file.text[end:newline].strip():

@@ -2,17 +2,18 @@
 
 from collections.abc import Sequence
 from dataclasses import fields, replace
+from typing import Any
 
 from vicode.xabsl import tree
-from vicode.xabsl.patching.file_edits import FileEdits
 from vicode.xabsl.patching.list_edits import match_items, text_similarity, unmoved
+from vicode.xabsl.patching.source_edits import SourceEdits
 from vicode.xabsl.printer import print_node
 
 Expression = tree.ExpressionNode
 _COMPARISONS = frozenset(("<", "<=", ">", ">=", "==", "!="))
 
 
-def edit_expression(file: FileEdits, old: Expression, before: Expression, after: Expression) -> None:
+def edit_expression(file: SourceEdits, old: Expression, before: Expression, after: Expression) -> None:
     """Change an expression.
 
     Args:
@@ -45,7 +46,7 @@ def _text_around(before: Expression, after: Expression, *, keeps_parentheses: bo
             return tree.ReferenceNode(_HOLE)
         if not keeps_parentheses and isinstance(node, tree.ParenthesizedNode) and _inner(node) == inner:
             return tree.ReferenceNode(_HOLE)
-        changes = {}
+        changes: dict[str, Any] = {}
         for each in fields(node):
             value = getattr(node, each.name)
             if isinstance(value, tree.SyntaxNode):
@@ -58,7 +59,7 @@ def _text_around(before: Expression, after: Expression, *, keeps_parentheses: bo
     return (first, last) if hole and _HOLE not in last and (first or last) else None
 
 
-def with_comments(file: FileEdits, old: tree.SyntaxNode, text: str) -> str:
+def with_comments(file: SourceEdits, old: tree.SyntaxNode, text: str) -> str:
     """Append the comments of a replaced expression to its new text."""
     found = file.comments_between(file.start(old.first_token), file.end(old.last_token))
     blocks = (f"/* {each[2:].strip()} */" if each.startswith("//") else each for each in found)
@@ -71,7 +72,7 @@ def _inner(node: Expression) -> Expression:
     return node
 
 
-def _edit_parts(file: FileEdits, old: Expression, before: Expression, after: Expression) -> bool:
+def _edit_parts(file: SourceEdits, old: Expression, before: Expression, after: Expression) -> bool:
     """Edit the operands of an expression; return whether that was possible."""
     match old, before, after:
         case tree.BinaryNode(), tree.BinaryNode(), tree.BinaryNode():
@@ -98,14 +99,14 @@ def _edit_parts(file: FileEdits, old: Expression, before: Expression, after: Exp
 
 
 def _edit_pairs(
-    file: FileEdits, old: Sequence[Expression], before: Sequence[Expression], after: Sequence[Expression]
+    file: SourceEdits, old: Sequence[Expression], before: Sequence[Expression], after: Sequence[Expression]
 ) -> bool:
     for parts in zip(old, before, after, strict=True):
         edit_expression(file, *parts)
     return True
 
 
-def _edit_binary(file: FileEdits, old: tree.BinaryNode, before: tree.BinaryNode, after: tree.BinaryNode) -> bool:
+def _edit_binary(file: SourceEdits, old: tree.BinaryNode, before: tree.BinaryNode, after: tree.BinaryNode) -> bool:
     if before.operator == after.operator:
         return _edit_pairs(file, [old.left, old.right], [before.left, before.right], [after.left, after.right])
     are_comparisons = {before.operator, after.operator} <= _COMPARISONS
@@ -122,7 +123,7 @@ def _operands(node: Expression, operator: str) -> list[Expression]:
     return [node]
 
 
-def _edit_operands(file: FileEdits, old: tree.BinaryNode, before: tree.BinaryNode, after: tree.BinaryNode) -> bool:
+def _edit_operands(file: SourceEdits, old: tree.BinaryNode, before: tree.BinaryNode, after: tree.BinaryNode) -> bool:
     """Edit the operands of a chain of && or ||."""
     sign = old.operator
     olds, befores, afters = _operands(old, sign), _operands(before, sign), _operands(after, sign)
@@ -144,7 +145,7 @@ def _edit_operands(file: FileEdits, old: tree.BinaryNode, before: tree.BinaryNod
     return True
 
 
-def _remove_items(file: FileEdits, olds: Sequence[tree.SyntaxNode], kept: set[int]) -> None:
+def _remove_items(file: SourceEdits, olds: Sequence[tree.SyntaxNode], kept: set[int]) -> None:
     """Remove items with one of the operators or commas beside them."""
     first = min(kept)
     if first:
@@ -155,7 +156,7 @@ def _remove_items(file: FileEdits, olds: Sequence[tree.SyntaxNode], kept: set[in
 
 
 def _insert_operands(
-    file: FileEdits, olds: Sequence[Expression], matches: Sequence[int | None], texts: Sequence[str], sign: str
+    file: SourceEdits, olds: Sequence[Expression], matches: Sequence[int | None], texts: Sequence[str], sign: str
 ) -> None:
     previous: int | None = None
     for match, text in zip(matches, texts, strict=True):
@@ -168,7 +169,7 @@ def _insert_operands(
 
 
 def edit_arguments(
-    file: FileEdits, old: tree.ArgumentListNode, before: tree.ArgumentListNode, after: tree.ArgumentListNode
+    file: SourceEdits, old: tree.ArgumentListNode, before: tree.ArgumentListNode, after: tree.ArgumentListNode
 ) -> bool:
     """Edit the arguments of a call by name; return whether that was possible."""
     olds = {item.name.text: item for item in old.items}

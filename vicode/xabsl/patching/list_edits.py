@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from difflib import SequenceMatcher
 
 from vicode.xabsl import tree
-from vicode.xabsl.patching.file_edits import FileEdits
+from vicode.xabsl.patching.source_edits import SourceEdits
 
 _MIN_SIMILARITY = 0.5
 _BLANK_LINE_BEFORE = re.compile(r"\n[ \t\r]*\n\Z")
@@ -83,7 +83,11 @@ class _Chunk:
 
 
 def edit_list(
-    file: FileEdits, items: Sequence[tree.SyntaxNode], matches: Sequence[Match], added: Sequence[str], style: ListStyle
+    file: SourceEdits,
+    items: Sequence[tree.SyntaxNode],
+    matches: Sequence[Match],
+    added: Sequence[str],
+    style: ListStyle,
 ) -> None:
     """Remove, move and add items; matched items keep their text, with the edits in it.
 
@@ -125,13 +129,13 @@ class _Text:
     is_lines: bool
 
 
-def _chunk(file: FileEdits, item: tree.SyntaxNode) -> _Chunk:
+def _chunk(file: SourceEdits, item: tree.SyntaxNode) -> _Chunk:
     start = file.start_with_comments(item.first_token)
     is_lines = file.is_first_in_line(file.start(item.first_token))
     return _Chunk(start, file.end_with_comment(item.last_token), is_lines)
 
 
-def _remove(file: FileEdits, chunk: _Chunk) -> None:
+def _remove(file: SourceEdits, chunk: _Chunk) -> None:
     text, start, end = file.text, chunk.start, chunk.end
     if not chunk.is_lines:
         start = len(text[:start].rstrip(" \t"))
@@ -144,7 +148,7 @@ def _remove(file: FileEdits, chunk: _Chunk) -> None:
     file.delete(start, end)
 
 
-def _insert(file: FileEdits, chunks: Sequence[_Chunk], previous: Match, text: _Text, style: ListStyle) -> None:
+def _insert(file: SourceEdits, chunks: Sequence[_Chunk], previous: Match, text: _Text, style: ListStyle) -> None:
     position = chunks[previous].end if previous is not None else file.end_with_comment(style.opening)
     plain = text.text.replace("\r\n", "\n")
     if not chunks[0].is_lines:
@@ -161,7 +165,7 @@ def _insert(file: FileEdits, chunks: Sequence[_Chunk], previous: Match, text: _T
         file.insert(position, "\n" + lines + ("\n" if style.has_blank_lines else ""))
 
 
-def _fill_empty_list(file: FileEdits, texts: Sequence[_Text], style: ListStyle) -> None:
+def _fill_empty_list(file: SourceEdits, texts: Sequence[_Text], style: ListStyle) -> None:
     lines = ("\n\n" if style.has_blank_lines else "\n").join(text.text for text in texts)
     closing, kind = file.start(style.opening + 1), file.tokens.kinds[style.opening + 1]
     if kind == ")":

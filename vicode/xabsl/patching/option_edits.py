@@ -8,13 +8,14 @@ from vicode.xabsl.lexer import Comment
 from vicode.xabsl.parser import ParsedFile
 from vicode.xabsl.patching.decision_edits import DecisionEdits
 from vicode.xabsl.patching.declaration_edits import edit_doc, edit_parameters
-from vicode.xabsl.patching.doc_edits import edit_words
+from vicode.xabsl.patching.doc_edits import edit_words, last_spans_with_words
 from vicode.xabsl.patching.expression_edits import edit_arguments, edit_expression
-from vicode.xabsl.patching.file_edits import FileEdits, indented
 from vicode.xabsl.patching.list_edits import ListStyle, edit_list, match_items, text_similarity
+from vicode.xabsl.patching.source_edits import SourceEdits, indented
 from vicode.xabsl.printer import print_node
 
 _DEFAULT_UNIT = "  "
+_NO_ACTIONS = tree.ActionBlockNode([])
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,13 +36,13 @@ class OptionVersion:
         return " ".join(" ".join(line.removeprefix("//") for line in lines).split())
 
 
-def edit_option(file: FileEdits, old: tree.OptionNode, before: OptionVersion, after: OptionVersion) -> None:
+def edit_option(file: SourceEdits, old: tree.OptionNode, before: OptionVersion, after: OptionVersion) -> None:
     """Change an option; `before` is the original in the form of `after`."""
     _OptionEdits(file, old, before, after).run()
 
 
 class _OptionEdits:
-    def __init__(self, file: FileEdits, old: tree.OptionNode, before: OptionVersion, after: OptionVersion) -> None:
+    def __init__(self, file: SourceEdits, old: tree.OptionNode, before: OptionVersion, after: OptionVersion) -> None:
         self.file, self.old, self.before, self.after = file, old, before, after
         self.indent, self.unit = _indentation(file, old)
         self.decisions = DecisionEdits(file, self.unit, {key: [*each] for key, each in after.comments.items()})
@@ -57,25 +58,34 @@ class _OptionEdits:
 
     def _edit_common(self) -> None:
         old, before, after = self.old, self.before.option, self.after.option
-        decisions = old.common_decision, before.common_decision, after.common_decision
-        if None not in decisions:
-            self.decisions.edit(*decisions)  # type: ignore[arg-type]
-        elif after.common_decision is None and old.common_decision is not None:
-            node = old.common_decision
-            self._remove_block(node.first_token - 3, node.last_token + 1)
-        elif after.common_decision is not None:
-            inner = self.decisions.print(after.common_decision).replace("\n", "\n  ")
-            first = old.common_actions.first_token - 2 if old.common_actions else old.states[0].first_token
-            self._add_block(first, f"common decision {{\n  {inner}\n}}")
-        actions = old.common_actions, before.common_actions, after.common_actions
-        if None not in actions:
-            self._edit_actions(*actions)  # type: ignore[arg-type]
-        elif after.common_actions is None and old.common_actions is not None:
+        if before.common_decision != after.common_decision:
+            self._edit_common_decision(old.common_decision, before.common_decision, after.common_decision)
+        if before.common_actions == after.common_actions:
+            return
+        if after.common_actions is None:
+            assert old.common_actions is not None
             self._remove_block(old.common_actions.first_token - 2, old.common_actions.last_token)
-        elif after.common_actions is not None:
-            self._add_block(
-                old.states[0].first_token, f"common {print_node(after.common_actions, self.after.comments)}"
-            )
+        elif old.common_actions is None:
+            text = print_node(after.common_actions, self.after.comments)
+            self._add_block(old.states[0].first_token, f"common {text}")
+        else:
+            self._edit_actions(old.common_actions, before.common_actions or _NO_ACTIONS, after.common_actions)
+
+    def _edit_common_decision(
+        self,
+        old: tree.DecisionTreeNode | None,
+        before: tree.DecisionTreeNode | None,
+        after: tree.DecisionTreeNode | None,
+    ) -> None:
+        if old is not None and before is not None and after is not None:
+            self.decisions.edit(old, before, after)
+        elif old is not None:
+            self._remove_block(old.first_token - 3, old.last_token + 1)
+        elif after is not None:
+            inner = self.decisions.print(after).replace("\n", "\n  ")
+            actions = self.old.common_actions
+            first = actions.first_token - 2 if actions else self.old.states[0].first_token
+            self._add_block(first, f"common decision {{\n  {inner}\n}}")
 
     def _remove_block(self, first: int, last: int) -> None:
         """Remove a block with the line break after it."""
@@ -137,8 +147,9 @@ class _OptionEdits:
         file, first = self.file, old.first_token
         start, end = file.end_with_comment(first - 1), file.start(first)
         spans = [span for span in file.comment_spans(start, end) if file.is_first_in_line(span[0])]
-        if spans and was:
-            edit_words(file, spans, was, now)
+        doc_spans = last_spans_with_words(file, spans, was)
+        if doc_spans:
+            edit_words(file, doc_spans, was, now)
             return
         lines = print_node(after, self.after.comments).split("\n")
         comments = "".join(f"{self.indent}{line}\n" for line in lines if line.startswith("//"))
@@ -253,7 +264,7 @@ def _similarity(old: tree.ActionNode, new: tree.ActionNode) -> float:
     return 0.5 * (old_name == new_name) + 0.5 * text_similarity(print_node(old), print_node(new))
 
 
-def _indentation(file: FileEdits, option: tree.OptionNode) -> tuple[str, str]:
+def _indentation(file: SourceEdits, option: tree.OptionNode) -> tuple[str, str]:
     """The indentation of states and of one level."""
     for state in option.states:
         first = state.decision.first_token if state.decision else state.actions.first_token - 1

@@ -11,11 +11,11 @@ from vicode.xabsl.compiler import CompileResult
 from vicode.xabsl.lexer import Comment
 from vicode.xabsl.parser import ParsedFile, parse
 from vicode.xabsl.patching.declaration_edits import edit_agent, edit_declarations, edit_doc
-from vicode.xabsl.patching.file_edits import FileEdits, PatchError
 from vicode.xabsl.patching.list_edits import ListStyle, Match, edit_list
 from vicode.xabsl.patching.option_edits import OptionVersion, edit_option
 from vicode.xabsl.patching.program_items import DeclaredItem, Key, agents, declarations, iter_items, namespaces, options
 from vicode.xabsl.patching.renames import find_renames, rename
+from vicode.xabsl.patching.source_edits import PatchError, SourceEdits
 from vicode.xabsl.printer import print_file, print_node
 from vicode.xabsl.source_loader import ProgramSource
 
@@ -73,7 +73,7 @@ def _with_texts(source: ProgramSource, texts: Mapping[Path, str]) -> ProgramSour
 class _ProgramPatch:
     def __init__(self, old: ProgramSource, before: ProgramSource, after: ProgramVersion) -> None:
         self.old, self.before, self.after = old, before, after
-        self.files = {path: FileEdits(parsed) for path, parsed in old.files.items()}
+        self.files = {path: SourceEdits(parsed) for path, parsed in old.files.items()}
         self.added: dict[Path, str] = {}
         self.removed: list[Path] = []
 

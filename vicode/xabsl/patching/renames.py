@@ -7,8 +7,8 @@ from pathlib import Path
 from vicode.xabsl import tree
 from vicode.xabsl.compiler import CompileResult
 from vicode.xabsl.lexer import Tokens
-from vicode.xabsl.patching.file_edits import FileEdits
 from vicode.xabsl.patching.list_edits import text_similarity
+from vicode.xabsl.patching.source_edits import SourceEdits
 from vicode.xabsl.printer import print_node
 from vicode.xabsl.source_loader import ProgramSource
 from vicode.xabsl.symbol_table import Definition, SymbolTable
@@ -146,7 +146,7 @@ def rename(source: ProgramSource, compiled: CompileResult, renames: Renames) -> 
         uses.setdefault(id(tokens), []).append((token, definition))
     texts = {}
     for path, parsed in source.files.items():
-        file = FileEdits(parsed)
+        file = SourceEdits(parsed)
         for token, definition in dict.fromkeys(uses.get(id(parsed.tokens), ())):
             word = parsed.tokens.texts[token]
             qualifier = definition.enum if definition.role == "element" and word != definition.name else ""

@@ -26,7 +26,7 @@ class _Edit:
 
 
 @dataclass(slots=True)
-class FileEdits:
+class SourceEdits:
     """Collects edits of a parsed file. Positions are offsets in the original text; edits do not overlap."""
 
     parsed: ParsedFile

@@ -1,0 +1,85 @@
+"""Merges a changed behavior into its designs: the base is the behavior as it was imported before."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from vicode.model.design import Design
+from vicode.store import merge_file_texts, read_design
+
+_PROJECT_FILE = "project.yaml"
+
+
+@dataclass(slots=True)
+class ImportMerge:
+    """The files to write (None to delete) by path relative to the project, and the conflicts."""
+
+    texts: dict[str, str | None] = field(default_factory=dict)
+    conflicts: list[str] = field(default_factory=list)
+
+
+def merge_import(folder: Path, base: Mapping[str, str], theirs: Mapping[str, str]) -> ImportMerge:
+    """Merge the changes of a behavior into the files of a project.
+
+    Args:
+        folder: The folder of the project.
+        base: The files that an import of the old behavior writes.
+        theirs: The files that an import of the new behavior writes.
+
+    Raises:
+        OSError: A file cannot be read, or has errors.
+    """
+    merge = ImportMerge()
+    for path in {**base, **theirs}:
+        old, new, ours = base.get(path), theirs.get(path), _read(folder / path)
+        if new in (old, ours):
+            continue
+        if new is None:
+            _remove(merge, path, old or "", ours or "")
+        elif ours is None:
+            if old is None:
+                merge.texts[path] = new
+            else:
+                merge.conflicts.append(f"{path}: deleted here, changed in the behavior")
+        else:
+            _merge_file(merge, path, (old or "", ours, new), folder)
+    return merge
+
+
+def _merge_file(merge: ImportMerge, path: str, texts: tuple[str, str, str], folder: Path) -> None:
+    merged = merge_file_texts(*texts, is_project_file=path == _PROJECT_FILE)
+    if merged is None:
+        raise OSError(f"{folder / path} has errors, so it cannot be merged; correct them ('vicode check')")
+    if merged.text != texts[1]:
+        merge.texts[path] = merged.text
+    merge.conflicts += [f"{path}: conflict in {name}" for name in merged.conflicts]
+
+
+def _remove(merge: ImportMerge, path: str, base: str, ours: str) -> None:
+    """Delete a design whose option was removed, unless it was edited."""
+    if ours and _content(ours) == _content(base):
+        merge.texts[path] = None
+    elif ours:
+        merge.conflicts.append(f"{path}: changed here, deleted in the behavior")
+
+
+def _content(text: str) -> Design | None:
+    """A design without its layout."""
+    design = read_design(text).design
+    if design is None:
+        return None
+    return replace(
+        design,
+        states=tuple(replace(state, at=None, color="") for state in design.states),
+        uses=tuple(replace(use, at=None) for use in design.uses),
+        common=replace(design.common, at=None),
+    )
+
+
+def _read(path: Path) -> str | None:
+    try:
+        return path.read_text("utf-8")
+    except FileNotFoundError:
+        return None
+    except UnicodeDecodeError as error:
+        raise OSError(f"{path} is not UTF-8") from error
