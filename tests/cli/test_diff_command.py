@@ -103,6 +103,27 @@ def test_json(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
     ]
 
 
+def test_a_diagram_and_a_page(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(repository, "lamp", FASTER)
+    assert vicode("diff", "--svg", "diff.svg", "--html", "diff.html") == 1
+    assert capsys.readouterr().out == f"lamp.yaml:\n{EXPECTED}"
+    svg, page = ((repository / name).read_text(encoding="utf-8") for name in ("diff.svg", "diff.html"))
+    assert EXPECTED.strip() in svg
+    assert "<svg" in page
+    assert '<li><b class="changed">~</b> time Dark → Lit: pause → 0.05</li>' in page
+    assert vicode("diff", "--svg", "dark.svg", "--dark") == 1
+    assert (repository / "dark.svg").read_text(encoding="utf-8") != svg
+
+
+def test_a_diagram_shows_one_design(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert vicode("diff", "--svg", "diff.svg") == 2
+    write(repository, "lamp", FASTER)
+    write(repository, "bulb", BULB.replace("final", "disabled"))
+    assert vicode("diff", "--svg", "diff.svg") == 2
+    assert capsys.readouterr().err.endswith("2 designs differ: bulb.yaml, lamp.yaml\n")
+    assert vicode("diff", "--html", "diff.html") == 1
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -9,6 +9,7 @@ from vicode.cli.console import print_findings
 
 if TYPE_CHECKING:
     from vicode.cli.diff_inputs import FileVersion, VersionPair
+    from vicode.cli.file_differences import FileDifference
 
 _EXTERNAL_ARGUMENTS = 7
 
@@ -21,6 +22,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="two files or folders; or git revisions (default: HEAD and the work tree) and paths",
     )
     parser.add_argument("--json", action="store_true", help="print the changes as JSON")
+    parser.add_argument("--svg", metavar="FILE", help="write the diagram of one design with marked changes")
+    parser.add_argument("--dark", action="store_true", help="use dark colors in the SVG")
+    parser.add_argument("--html", metavar="FILE", help="write a page with words and diagrams")
     # git calls a diff driver with: path, old file, old hash, old mode, new file, new hash, new mode.
     parser.add_argument("--external", action="store_true", help=argparse.SUPPRESS)
     parser.epilog = "Exit codes: 0 no differences, 1 differences, 2 the command could not run."
@@ -38,9 +42,22 @@ def run(args: argparse.Namespace) -> int:
         print(json.dumps({"files": [difference.to_json() for difference in differences]}, ensure_ascii=False, indent=2))
     else:
         print("".join(line + "\n" for difference in differences for line in difference.lines()), end="")
+    _write_pictures(differences, args)
     findings = [finding for difference in differences for finding in difference.errors]
     print_findings(findings, to_stderr=True)
     return 2 if findings else int(any(difference.is_different for difference in differences))
+
+
+def _write_pictures(differences: "list[FileDifference]", args: argparse.Namespace) -> None:
+    if not (args.svg or args.html):
+        return
+    from vicode.cli.diff_pictures import format_page, format_svg
+    from vicode.output import write_atomically
+
+    if args.svg:
+        write_atomically(Path(args.svg), format_svg(differences, dark=args.dark))
+    if args.html:
+        write_atomically(Path(args.html), format_page(differences))
 
 
 def _run_external(items: list[str]) -> int:

@@ -47,6 +47,11 @@ def css_variable_palette() -> ColorPalette:
     )
 
 
+def palette_variables(palette: ColorPalette) -> dict[str, str]:
+    """The values of the variables of `css_variable_palette`, without the leading dashes."""
+    return {f"drawn-{name.replace('_', '-')}": getattr(palette, name) for name in ColorPalette.__dataclass_fields__}
+
+
 LIGHT = ColorPalette(
     paper="#f8fafc",
     text="#18212f",

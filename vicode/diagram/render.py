@@ -1,7 +1,8 @@
 """Renders a diagram with the shapes, icons and colors of the canvas."""
 
 import math
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
+from types import MappingProxyType
 
 from vicode.diagram.diagram_model import FRAME_TITLE_INSET, Diagram, DiagramEdge, DiagramNode, FrameBox, build_diagram
 from vicode.diagram.edge_curves import HEX_SLANT, point_on_curve
@@ -9,6 +10,7 @@ from vicode.diagram.edge_labels import PADDING, EdgeLabel
 from vicode.diagram.edge_routing import EdgeRoute, route_edges
 from vicode.diagram.frames import TITLE_HEIGHT
 from vicode.diagram.initial_marker import Corner, initial_corner, marker_rect
+from vicode.diagram.marks import Mark
 from vicode.diagram.node_geometry import NOTE_LINE_HEIGHT, NOTE_PADDING, Size, note_lines
 from vicode.diagram.palettes import LIGHT, ColorPalette
 from vicode.diagram.primitives import (
@@ -27,6 +29,7 @@ from vicode.diagram.text_metrics import LABEL_FONT, NAME_FONT, SMALL_FONT, Font,
 from vicode.diagram.transition_labels import GuardKind
 from vicode.model.design import Design, Point
 
+NO_MARKS: Mapping[str, Mark] = MappingProxyType({})
 _MARGIN = 24.0
 _ARROWHEAD_LENGTH = 10.0
 # Sample points of a curve, enough to find its bounds within two pixels.
@@ -63,19 +66,29 @@ def render_design(
     return render_diagram(diagram, title=design.component, doc=design.doc, palette=palette)
 
 
-def render_diagram(diagram: Diagram, *, title: str, doc: str = "", palette: ColorPalette = LIGHT) -> VectorImage:
-    """Render a diagram: frames at the back, links below transitions, labels on top."""
+def render_diagram(
+    diagram: Diagram,
+    *,
+    title: str,
+    doc: str = "",
+    palette: ColorPalette = LIGHT,
+    marks: Mapping[str, Mark] = NO_MARKS,
+) -> VectorImage:
+    """Render a diagram: frames at the back, links below transitions, labels on top; `marks` by key of the element."""
     routes = route_edges(diagram)
     corners = {node.key: initial_corner(node, diagram, routes) for node in diagram.nodes if node.initial}
-    artist = _DiagramRenderer(palette)
+    artist = _DiagramRenderer(palette, marks)
+    outlines = tuple(artist.outlines(diagram.nodes))
     groups = (
         *(artist.frame(frame) for frame in diagram.frames),
+        *(outline for _rect, outline in outlines),
         *(artist.edge(route) for route in routes if route.edge.edge_type != "transition"),
         *(artist.edge(route) for route in routes if route.edge.edge_type == "transition"),
         *(artist.node(node, corners.get(node.key)) for node in diagram.nodes),
         *(artist.label(route.label, route) for route in routes if route.label),
+        *artist.signs(diagram.nodes, routes),
     )
-    left, top, right, bottom = _bounds(diagram, routes, corners)
+    left, top, right, bottom = _bounds(diagram, routes, corners, [rect for rect, _outline in outlines])
     return VectorImage(
         title=title,
         doc=doc,
@@ -89,8 +102,35 @@ def render_diagram(diagram: Diagram, *, title: str, doc: str = "", palette: Colo
 
 
 class _DiagramRenderer:
-    def __init__(self, palette: ColorPalette) -> None:
-        self.palette = palette
+    def __init__(self, palette: ColorPalette, marks: Mapping[str, Mark] = NO_MARKS) -> None:
+        self.palette, self.plain, self.marks = palette, palette, marks
+
+    def outlines(self, nodes: Iterable[DiagramNode]) -> Iterable[tuple[Rect, ShapeGroup]]:
+        """The former places of moved nodes."""
+        for node in nodes:
+            mark = self.marks.get(node.key)
+            outline = mark.outline_group(Rect.from_center(node.center, node.size)) if mark else None
+            if mark is not None and mark.moved_from is not None and outline is not None:
+                yield Rect.from_center(mark.moved_from, node.size), outline
+
+    def signs(self, nodes: Iterable[DiagramNode], routes: Iterable[EdgeRoute]) -> Iterable[ShapeGroup]:
+        """The signs of marked elements: at the corner of a node, at the label or the middle of an edge."""
+        places = [
+            (node.key, (node.center[0] - node.size.width / 2, node.center[1] - node.size.height / 2)) for node in nodes
+        ]
+        for route in routes:
+            x, y = route.label_position if route.label else point_on_curve(route.curve, 0.5)
+            half = route.label.size.width / 2 if route.label else 0
+            places.append((route.edge.key, (x - half - 1, y - 9 if half else y)))
+        return [self.marks[key].sign_group(at, self.plain) for key, at in places if key in self.marks]
+
+    def _marked(self, key: str, draw: Callable[[], ShapeGroup]) -> ShapeGroup:
+        """An element, drawn with the colors of its mark."""
+        mark = self.marks.get(key)
+        self.palette = self.plain if mark is None else mark.tint(self.plain)
+        group = draw() if mark is None else mark.emphasize(draw())
+        self.palette = self.plain
+        return group
 
     def frame(self, frame: FrameBox) -> ShapeGroup:
         pal, rect = self.palette, frame.rect
@@ -105,13 +145,22 @@ class _DiagramRenderer:
         return ShapeGroup(title=frame.title, css_class="frame", shapes=shapes)
 
     def node(self, node: DiagramNode, initial: Corner | None) -> ShapeGroup:
+        return self._marked(node.key, lambda: self._node(node, initial))
+
+    def edge(self, route: EdgeRoute) -> ShapeGroup:
+        return self._marked(route.edge.key, lambda: self._edge(route))
+
+    def label(self, label: EdgeLabel | None, route: EdgeRoute) -> ShapeGroup:
+        return self._marked(route.edge.key, lambda: self._label(label, route))
+
+    def _node(self, node: DiagramNode, initial: Corner | None) -> ShapeGroup:
         drawers = {"state": self._state, "component": self._component, "common": self._common, "note": self._note}
         shapes = tuple(drawers[node.node_type](node))
         if initial:
             shapes += tuple(self._initial_marker(node, initial))
         return ShapeGroup(title=node.title, css_class=node.node_type, shapes=shapes, href=node.href, key=node.key)
 
-    def edge(self, route: EdgeRoute) -> ShapeGroup:
+    def _edge(self, route: EdgeRoute) -> ShapeGroup:
         pal, edge, ends = self.palette, route.edge, (route.edge.source, route.edge.target)
         tip, base = _arrowhead(route.curve)
         shaft = curve_path((*route.curve[:6], *base))
@@ -136,7 +185,7 @@ class _DiagramRenderer:
             is_decorative=is_echo,
         )
 
-    def label(self, label: EdgeLabel | None, route: EdgeRoute) -> ShapeGroup:
+    def _label(self, label: EdgeLabel | None, route: EdgeRoute) -> ShapeGroup:
         assert label is not None
         pal, (x, y) = self.palette, route.label_position
         plate = PathShape(
@@ -288,7 +337,7 @@ def _arrowhead(of: CubicBezier) -> tuple[tuple[tuple[str, tuple[float, ...]], ..
 
 
 def _bounds(
-    diagram: Diagram, routes: Iterable[EdgeRoute], corners: Mapping[str, Corner]
+    diagram: Diagram, routes: Iterable[EdgeRoute], corners: Mapping[str, Corner], outlines: Iterable[Rect]
 ) -> tuple[float, float, float, float]:
     """The bounds of everything, including labels and curves."""
     xs: list[float] = []
@@ -299,9 +348,9 @@ def _bounds(
             rects.append(marker_rect(node, corners[node.key]))
         xs += [x for rect in rects for x in (rect.left, rect.right)]
         ys += [y for rect in rects for y in (rect.top, rect.bottom)]
-    for frame in diagram.frames:
-        xs += [frame.rect.left, frame.rect.right]
-        ys += [frame.rect.top, frame.rect.bottom]
+    for rect in (*(frame.rect for frame in diagram.frames), *outlines):
+        xs += [rect.left, rect.right]
+        ys += [rect.top, rect.bottom]
     for route in routes:
         for step in range(_SAMPLES + 1):
             x, y = point_on_curve(route.curve, step / _SAMPLES)

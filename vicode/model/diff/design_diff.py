@@ -74,6 +74,11 @@ def diff_designs(old: Design, new: Design) -> tuple[Change, ...]:
     return (*changes, *renames, *_diff_content(old, new))
 
 
+def rename_like(old: Design, new: Design) -> Design:
+    """The old version with the states and uses that were renamed under their new names."""
+    return _apply_renames(old, new)[0]
+
+
 def _apply_renames(old: Design, new: Design) -> tuple[Design, list[Change]]:
     renames: list[Change] = []
     for section, kind, find, rename in (
