@@ -1,11 +1,11 @@
 """Edits of a generated file are read back as edits of its design; what is not understood is a patch."""
 
-import subprocess
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from tests.sync.patches import apply_patch
 from vicode.generators import component_generator
 from vicode.model.design import Design, RunCode
 from vicode.model.project import Project
@@ -43,14 +43,6 @@ def edited_player(*replacements: Replacement) -> str:
 
 def interpret(edited: str) -> Interpretation:
     return interpret_edits(FORWARD, "Player", generated=PLAYER, edited=edited)
-
-
-def apply_patch(text: str, patch: str, folder: Path) -> str:
-    """Apply a patch with the program `git`."""
-    (folder / "Player").write_text(text, encoding="utf-8")
-    (folder / "edit.patch").write_text(patch, encoding="utf-8")
-    subprocess.run(["git", "apply", "--unidiff-zero", "edit.patch"], cwd=folder, check=True)
-    return (folder / "Player").read_text(encoding="utf-8")
 
 
 KICKER_CALL = "        self._call(self.kicker, kick=self.kick, side=self.side)\n"

@@ -128,9 +128,9 @@ class _Splitter:
             case ast.If():
                 yield from self._if(node, depth, scope, "if")
             case ast.Expr(value=ast.Call(func=ast.Name(id=name), args=[ast.Constant(value=str(id_))])) if (
-                name == _REGION_CALL
+                name == _REGION_CALL and node.lineno in self._region_ends
             ):
-                yield self._item(REGION, node, depth, scope, id_, last=self._region_ends.get(node.lineno, 0))
+                yield self._item(REGION, node, depth, scope, id_, last=self._region_ends[node.lineno])
             case ast.Import() | ast.ImportFrom():
                 yield self._item(IMPORT, node, depth, scope, ast.unparse(node))
             case _:

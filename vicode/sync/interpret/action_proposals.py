@@ -26,7 +26,6 @@ def propose_actions(context: EditContext, change: CodeChange) -> Iterator[Design
             yield from _changed_values(context, place, change)
     elif change.added:
         yield from _added_actions(context, place, change.added)
-        yield from _added_code(context, place, change.added)
     else:
         yield from _removed_actions(context, place)
 
@@ -135,7 +134,11 @@ def _insert_behind_modulation(context: EditContext, place: Place, action: Action
         )
 
 
-def _added_code(context: EditContext, place: Place, added: tuple[CodeItem, ...]) -> Iterator[Design]:
+def propose_action_code(context: EditContext, change: CodeChange) -> Iterator[Design]:
+    """Propose hand-written code for added statements."""
+    place, added = context.place_of(change.item.scope), change.added
+    if place is None or place.phase == "decisions" or not added or change.removed:
+        return
     if any(item.kind == REGION for item in added) or all(item.kind == COMMENT for item in added):
         return
     if not _is_movable(context, added):

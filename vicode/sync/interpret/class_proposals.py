@@ -29,8 +29,6 @@ def propose_class_edits(context: EditContext, change: CodeChange) -> Iterator[De
         yield from _defaults(context, change)
     elif not method and change.item.scope:
         yield from _settings(context, change)
-    if change.added and not change.removed and REGION not in kinds:
-        yield from _added_code(context, change.added)
 
 
 def _docs(context: EditContext, change: CodeChange) -> Iterator[Design]:
@@ -195,21 +193,30 @@ def _settings(context: EditContext, change: CodeChange) -> Iterator[Design]:
         yield replace(context.design, resume=False)
 
 
-def _added_code(context: EditContext, added: tuple[CodeItem, ...]) -> Iterator[Design]:
+def propose_class_code(context: EditContext, change: CodeChange) -> Iterator[Design]:
     """Propose code of the class or the module: definitions and assignments, behind or before the code that is there."""
+    added = change.added
+    if change.removed or any(item.kind == REGION for item in added) or _is_generated_name(context, change):
+        return
     definitions = [item for item in added if item.kind == CODE]
     first = next((item for item in added if item.kind != COMMENT), None)
     if first is None or not definitions:
         return
     text = textwrap.dedent(context.source_of(added)).strip("\n") + "\n"
-    depth = 1 if isinstance(first.node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef) else 0
-    level = first.depth
-    if level == 0:
-        for code in _extended(context.design.module, text, separator="\n\n" if depth else ""):
+    if first.depth == 0:
+        is_definition = isinstance(first.node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
+        for code in _extended(context.design.module, text, separator="\n\n" if is_definition else ""):
             yield replace(context.design, module=code)
-    elif level == 1:
+    elif first.depth == 1:
         for code in _extended(context.design.members, text, separator="\n"):
             yield replace(context.design, members=code)
+
+
+def _is_generated_name(context: EditContext, change: CodeChange) -> bool:
+    """Whether a method has a name that the generator gives: it is a part of a state."""
+    scope = change.item.scope
+    is_code = method_name(scope).startswith(("_when_", "_do_", "_decide_", "_act_"))
+    return is_code or context.place_of(scope) is not None
 
 
 def _extended(code: Code, text: str, *, separator: str) -> Iterator[Code]:

@@ -20,6 +20,7 @@ def find_changes(old: NormalForm, new: NormalForm) -> Iterator[CodeChange]:
         yield from _pairs(removed, added)
         whole.append(CodeChange(removed=removed, added=added))
     for change in whole:
+        yield change
         yield from _runs(change)
 
 
@@ -46,8 +47,10 @@ def _runs(change: CodeChange) -> Iterator[CodeChange]:
         if not items:
             continue
         parts = [items]
-        parts += [tuple(group) for _owner, group in groupby(items, key=_definition_of)]
+        owned = [tuple(group) for _owner, group in groupby(items, key=_definition_of)]
+        parts += [*owned, *(group[1:] for group in owned if isinstance(group[0].node, ast.FunctionDef) and group[1:])]
         parts += _statements(items)
+        parts += [(item,) for item in items]
         for part in dict.fromkeys(parts):
             yield CodeChange(added=part) if is_added else CodeChange(removed=part)
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from difflib import SequenceMatcher
 
-from vicode.model.design import Design, Guard, Stay, Transition
+from vicode.model.design import DecisionGroup, Design, Guard, Stay, Transition
 from vicode.model.edits import remove_decisions, replace_decision, update_decisions
 from vicode.model.traversal import LocatedDecision
 from vicode.sync.code_items import CODE, COMMENT, DOCSTRING, CodeItem, docstring_text
@@ -23,7 +23,8 @@ def propose_decisions(context: EditContext, change: CodeChange) -> Iterator[Desi
         yield from _docs(context, place, change)
     elif change.removed and change.added:
         yield from _changed_guards(context, place, change)
-        yield from _changed_targets(context, place, change)
+        yield from _changed_outcomes(context, place, change)
+        yield from _added_or_removed_guards(context, place, change)
     elif change.added:
         yield from _added_decisions(context, place, change.added)
     else:
@@ -65,14 +66,37 @@ def _changed_guards(context: EditContext, place: Place, change: CodeChange) -> I
             yield replace_decision(context.design, located.path, decision)
 
 
-def _changed_targets(context: EditContext, place: Place, change: CodeChange) -> Iterator[Design]:
-    old, new = _target_of(change.removed[0]), _target_of(change.added[0])
+def _added_or_removed_guards(context: EditContext, place: Place, change: CodeChange) -> Iterator[Design]:
+    """Propose a guard for a decision that had none, or the reverse."""
+    was, now = (next((item.node for item in items if isinstance(item.node, ast.If)), None) for items in change.sides)
+    if (was is None) == (now is None):
+        return
+    guard = Guard()
+    if now is not None:
+        read = context.reader.read_guard(now.test)
+        guard = read.as_guard(guard, context.reader.read(read.when) if read.when is not None else "")
+    for located in context.decisions_in(place):
+        if located.decision.guard.is_empty == (now is not None):
+            yield replace_decision(context.design, located.path, replace(located.decision, guard=guard))
+
+
+def _changed_outcomes(context: EditContext, place: Place, change: CodeChange) -> Iterator[Design]:
+    """Propose another target of a transition, or a transition in place of a stay."""
+    old, new = _outcome_of(change.removed[0]), _outcome_of(change.added[0])
     if old is None or new is None:
         return
     for located in context.decisions_in(place):
-        if isinstance(located.decision, Transition) and located.decision.to == old[0]:
-            decision = replace(located.decision, to=new[0], id=new[1] or located.decision.id)
-            yield replace_decision(context.design, located.path, decision)
+        decision = located.decision
+        if isinstance(decision, DecisionGroup) or _shown_target(decision, place) != _shown_target(old, place):
+            continue
+        kept = replace(new, guard=decision.guard, doc=decision.doc, id=new.id or decision.id)
+        yield replace_decision(context.design, located.path, kept)
+
+
+def _shown_target(decision: Transition | Stay, place: Place) -> str:
+    """Return the target in generated code, where a transition to the same state is a stay."""
+    to = decision.to if isinstance(decision, Transition) else ""
+    return "" if to == place.source else to
 
 
 def _added_decisions(context: EditContext, place: Place, added: tuple[CodeItem, ...]) -> Iterator[Design]:

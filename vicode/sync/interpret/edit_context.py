@@ -24,6 +24,10 @@ class CodeChange:
     added: tuple[CodeItem, ...] = ()
 
     @property
+    def sides(self) -> tuple[tuple[CodeItem, ...], tuple[CodeItem, ...]]:
+        return self.removed, self.added
+
+    @property
     def item(self) -> CodeItem:
         return (self.added or self.removed)[0]
 

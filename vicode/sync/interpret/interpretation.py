@@ -14,8 +14,8 @@ from vicode.generators import component_generator
 from vicode.model.design import Design
 from vicode.model.diff import Change, ChangeKind, describe_change, diff_designs
 from vicode.model.project import Project
-from vicode.sync.interpret.action_proposals import propose_actions
-from vicode.sync.interpret.class_proposals import propose_class_edits, with_imports
+from vicode.sync.interpret.action_proposals import propose_action_code, propose_actions
+from vicode.sync.interpret.class_proposals import propose_class_code, propose_class_edits, with_imports
 from vicode.sync.interpret.code_changes import find_changes
 from vicode.sync.interpret.decision_proposals import propose_decisions
 from vicode.sync.interpret.edit_context import CodeChange, EditContext
@@ -118,7 +118,9 @@ class _Search:
                 continue
             parts = map_parts(self._parts, mapping)
             form = build_normal_form(text, parts, is_generated=True)
-            edited = map_words(self._edited, mapping)
+            # Where a new name is also an old one, as after a swap, the person must have changed every use.
+            is_ambiguous = not mapping.keys().isdisjoint(mapping.values())
+            edited = self._edited if is_ambiguous else map_words(self._edited, mapping)
             target = build_normal_form(edited, parts, is_generated=False)
             if build_normal_form(map_words(self._text, mapping), parts, is_generated=True).keys != form.keys:
                 continue
@@ -134,18 +136,24 @@ class _Search:
         total = distance(self._form.keys, self._target.keys)
         context = self._context()
         seen = {self.design}
-        for change in find_changes(self._form, self._target):
-            for design in _propose(context, change):
-                if design in seen:
-                    continue
-                seen.add(design)
-                result = self._generate(design)
-                if result is None or not self._is_between(result[1], total) or self._has_new_errors(design):
-                    continue
-                self._accept(design, change.item.first if change.added else self._first_difference())
-                self._text, self._form = result
-                return True
+        for proposers in _PROPOSERS:
+            for change in find_changes(self._form, self._target):
+                for design in (design for propose in proposers for design in propose(context, change)):
+                    if design in seen:
+                        continue
+                    seen.add(design)
+                    if self._try(design, change, total):
+                        return True
         return False
+
+    def _try(self, design: Design, change: CodeChange, total: int) -> bool:
+        """Accept a proposal if its code contains nothing but what the person wrote."""
+        result = self._generate(design)
+        if result is None or not self._is_between(result[1], total) or self._has_new_errors(design):
+            return False
+        self._accept(design, change.item.first if change.added else self._first_difference())
+        self._text, self._form = result
+        return True
 
     def _is_between(self, form: NormalForm, total: int) -> bool:
         """Whether a form is a part of the way from the generated text to the edited one."""
@@ -241,13 +249,9 @@ def _describe(change: Change) -> str:
     return f"{attribute}: {new or '(none)'}"
 
 
-_PROPOSERS: tuple[Callable[[EditContext, CodeChange], Iterator[Design]], ...] = (
-    propose_decisions,
-    propose_actions,
-    propose_class_edits,
+_Proposer = Callable[[EditContext, CodeChange], Iterator[Design]]
+_PROPOSERS: tuple[tuple[_Proposer, ...], ...] = (
+    (propose_decisions, propose_actions, propose_class_edits),
+    (propose_action_code, propose_class_code),
 )
-
-
-def _propose(context: EditContext, change: CodeChange) -> Iterator[Design]:
-    for propose in _PROPOSERS:
-        yield from propose(context, change)
+"""Hand-written code is the last way to explain a statement."""

@@ -1,12 +1,13 @@
 """Writes what was not understood as a patch of the generated text."""
 
 import ast
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher, unified_diff
 
 from vicode.regions import find_regions
-from vicode.sync.code_items import IMPORT, CodeItem, imported_names
+from vicode.sync.code_items import COMMENT, DOCSTRING, IMPORT, REGION, CodeItem, imported_names
 from vicode.sync.interpret.normal_form import GeneratedParts, NormalForm, build_normal_form
 
 _Imports = frozenset[tuple[str, str, str]]
@@ -100,23 +101,31 @@ class LeftoverWriter:
         return self.generated_form.imports - frozenset(shown)
 
     def _edited_lines(self, item: CodeItem) -> list[str]:
+        """Return the lines of an item of the edited file, with the indentation of generated code."""
         margin = " " * 4 * item.depth
         blank = [""] * item.blank_lines
         lines = self.edited.split("\n")[item.first - 1 : item.last] if item.first else []
-        is_indented = all(line.startswith(margin) or not line.strip() for line in lines)
-        if lines and is_indented and not lines[0][len(margin) :].startswith((" ", "\t")):
+        indent = lines[0][: len(lines[0]) - len(lines[0].lstrip())] if lines else ""
+        if lines and indent == margin:
             return [*blank, *lines]
+        if item.kind == REGION:
+            return [*blank, *(margin + line.removeprefix(indent) for line in lines)]
         comments = "".join(f"  {comment}" for comment in item.comments)
-        code = f"# {item.code}" if item.node is None and item.code != "else:" else item.code
-        if isinstance(item.node, ast.Expr):
+        code = f"# {item.code}" if item.kind == COMMENT else item.code
+        if item.kind == DOCSTRING and item.node is not None:
             code = ast.unparse(item.node)
         return [*blank, *(margin + line for line in f"{code}{comments}".split("\n"))]
 
 
 def make_patch(old: str, new: str, file: str) -> str:
     """Return a unified diff; empty if the texts are equal."""
-    pieces = unified_diff(old.splitlines(keepends=True), new.splitlines(keepends=True), f"a/{file}", f"b/{file}")
+    pieces = unified_diff(_lines(old), _lines(new), f"a/{file}", f"b/{file}")
     return "".join(piece if piece.endswith("\n") else f"{piece}\n\\ No newline at end of file\n" for piece in pieces)
+
+
+def _lines(text: str) -> list[str]:
+    """Split at line feeds only, as programs that apply patches do."""
+    return [line for line in re.split(r"(?<=\n)", text) if line]
 
 
 def _is_top_level_import(item: CodeItem) -> bool:
