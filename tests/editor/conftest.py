@@ -66,10 +66,24 @@ def other(first_page_of_other: Page) -> Iterator[Page]:
 
 @contextmanager
 def started_editor(
-    folder: Path, storage: Path, options: tuple[str, ...] = ("--no-tour",), *, is_trusted: bool = True
+    folder: Path,
+    storage: Path,
+    options: tuple[str, ...] = ("--no-tour",),
+    *,
+    is_trusted: bool = True,
+    autosave_s: float = 3600,
 ) -> Iterator[str]:
-    """An editor on a folder of projects; its URL. The tour is left out, as it would stand in the way of other tests."""
-    environment = {**_environment(), "NICEGUI_STORAGE_PATH": str(storage), "VICODE_STATE": str(storage / "state")}
+    """An editor on a folder of projects; its URL.
+
+    The tour is left out, as it would stand in the way of other tests, and nothing is saved by itself: what is unsaved
+    stays so until the test has looked at it.
+    """
+    environment = {
+        **_environment(),
+        "NICEGUI_STORAGE_PATH": str(storage),
+        "VICODE_STATE": str(storage / "state"),
+        "VICODE_AUTOSAVE_S": str(autosave_s),
+    }
     (storage / "state").mkdir(parents=True, exist_ok=True)
     if is_trusted:
         (storage / "state" / "trusted").write_text(f"{folder.resolve()}\n")

@@ -5,7 +5,7 @@ from pathlib import Path
 from playwright.sync_api import Page, expect
 
 from tests.editor.conftest import started_editor
-from tests.editor.player_page import open_player, select_state
+from tests.editor.player_page import open_player, select_state, wait_for_another
 
 expect.set_options(timeout=20_000)
 
@@ -105,20 +105,16 @@ def test_what_does_not_touch_is_merged_and_said(editor: str, page: Page, project
     expect(page.get_by_text("Unsaved changes")).to_be_visible()
 
 
-def test_a_project_saves_by_itself_when_asked_to(editor: str, page: Page, project: Path) -> None:
-    open_player(page, editor)
-    page.keyboard.press("Control+k")
-    page.keyboard.type("toggle autosave")
-    page.keyboard.press("Enter")
-    expect(page.get_by_text("Saved · Autosave on")).to_be_visible()
-    select_state(page, "Kick")
-    type_doc(page, "saved by itself")
-    expect(page.get_by_text("Saved · Autosave on")).to_be_visible()
-    for _attempt in range(200):
-        if "saved by itself" in (project / "forward" / "player.yaml").read_text():
-            break
-        page.wait_for_timeout(50)
-    assert "saved by itself" in (project / "forward" / "player.yaml").read_text()
+def test_designs_are_saved_by_themselves_as_project_yaml_is(project: Path, tmp_path: Path, page: Page) -> None:
+    file = project / "forward" / "player.yaml"
+    with started_editor(project, tmp_path / "storage", autosave_s=0.2) as url:
+        open_player(page, url)
+        select_state(page, "Kick")
+        before = file.stat().st_ino
+        type_doc(page, "saved by itself")
+        wait_for_another(page, file, before)
+        expect(page.get_by_text("Saved", exact=True)).to_be_visible()
+    assert "saved by itself" in file.read_text()
 
 
 def test_the_history_leads_to_any_point_by_mouse_and_keys(editor: str, page: Page) -> None:

@@ -151,9 +151,9 @@ def test_what_is_asked_before_the_page_can_speak_is_done_when_it_can(editor: str
     expect(state(page, "LookForBall")).to_be_visible()
     page.get_by_role("button", name="Table").click()
     page.keyboard.press("Control+k")
-    page.keyboard.type("toggle auto")
+    page.keyboard.type("show or hide li")
     page.evaluate("window.maySpeak = true")
-    expect(page.get_by_role("option", name="Toggle autosave")).to_be_visible()
+    expect(page.get_by_role("option", name="Show or hide links")).to_be_visible()
     page.keyboard.press("Escape")
     expect(page.get_by_role("treegrid")).to_be_visible()
 

@@ -109,10 +109,12 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
 
 
 def _start_autosave(library: "Library") -> "AutosaveService":
-    from vicode.editor.session.autosave import AutosaveService
+    from vicode.editor.session.autosave import DELAY_VARIABLE, AutosaveService
     from vicode.editor.session.recovery import open_recovery_store
 
-    autosave = AutosaveService(library, open_recovery_store())
+    # For tests: a design that nobody saves stays unsaved.
+    delay_s = float(os.environ.get(DELAY_VARIABLE, "1"))
+    autosave = AutosaveService(library, open_recovery_store(), delay_s)
     # A second Ctrl-C skips the shutdown of the server.
     atexit.register(autosave.close)
     return autosave

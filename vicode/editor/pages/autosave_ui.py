@@ -53,7 +53,6 @@ class AutosaveControls:
 
     def commands(self) -> tuple[Command, ...]:
         return (
-            Command("autosave", "Toggle autosave", self.toggle_autosave, MenuGroup.DESIGN, icon="update"),
             Command(
                 "conflict",
                 "Resolve conflict with the file on disk",
@@ -62,17 +61,6 @@ class AutosaveControls:
                 icon="difference",
             ),
         )
-
-    def toggle_autosave(self) -> None:
-        """Switch autosave of this project for all users."""
-        workspace = self.context.workspace
-        if self.autosave is None:
-            workspace.autosave = not workspace.autosave
-        else:
-            self.autosave.set_autosave(workspace, is_on=not workspace.autosave)
-        text = texts.autosave_switched(workspace.project.name, is_on=workspace.autosave)
-        self.context.show_toast(text, "info")
-        self.context.notify_subscribers()
 
     def resolve_conflict(self) -> None:
         if self.context.document.shared.disk_conflict is None:

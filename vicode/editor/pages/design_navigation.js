@@ -36,7 +36,7 @@
   };
 
   document.addEventListener("click", (event) => {
-    const link = event.target.closest?.("a[href]");
+    const link = event.target.closest?.('a[href]:not([href^="#"])');
     const isPlain = !event.defaultPrevented && !event.button && !(event.ctrlKey || event.metaKey || event.shiftKey || event.altKey);
     if (!link || !isPlain || link.target || !isDesign(link.pathname ?? "")) return;
     event.preventDefault();

@@ -64,10 +64,6 @@ def unreadable(reason: object) -> str:
     return f"Cannot read the file: {reason}"
 
 
-def autosave_switched(project: str, *, is_on: bool) -> str:
-    return f"Autosave {'on' if is_on else 'off'} for {project}"
-
-
 def already_used(component: str, alias: str) -> str:
     return f"{component} is already used as {alias}"
 

@@ -56,8 +56,7 @@ class Header:
         document = self.context.document
         if document.shared.disk_conflict is not None:
             return "Conflict: file changed on disk", "is-conflicting"
-        autosave = " · Autosave on" if self.context.workspace.autosave else ""
-        more = autosave + (texts.ALSO_OPEN_ELSEWHERE if self.context.workspace.has_other_editor else "")
+        more = texts.ALSO_OPEN_ELSEWHERE if self.context.workspace.has_other_editor else ""
         return (f"Saved{more}", "") if document.is_saved else (f"Unsaved changes{more}", "is-unsaved")
 
     def refresh(self) -> None:

@@ -28,7 +28,7 @@ STEPS = (
     TourStep(
         title="A state machine",
         text="Boxes are states; arrows are transitions, labeled with their guards. This tour takes two minutes. "
-        "You can undo all changes, and nothing is saved until you save.",
+        "You can undo all changes; what you edit is saved by itself.",
         target=".design-view",
     ),
     TourStep(

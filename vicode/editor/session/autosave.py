@@ -17,32 +17,23 @@ from vicode.editor.session.workspace import DiskConflictError, Workspace
 from vicode.model.merge import merge_designs
 from vicode.store import read_design
 
+DELAY_VARIABLE = "VICODE_AUTOSAVE_S"
 _AUTOSAVE_DELAY_S = 1.0
 _EDITOR_CHECK_INTERVAL_S = 2.0
 
 
 @dataclass(eq=False)
 class AutosaveService:
-    """Journals and autosaves all open designs of a library."""
+    """Journals and saves all open designs of a library; a design is saved `delay_s` seconds after its last edit."""
 
     library: Library
     recovery: RecoveryStore
+    delay_s: float = _AUTOSAVE_DELAY_S
     clock: Callable[[], float] = time.time
 
     def __post_init__(self) -> None:
-        """Restore the autosave setting of each project from the last server."""
         self._open_folders = OpenFolders(self.recovery.folder / "open")
         self._editors_checked_s = 0.0
-        noted = self.recovery.autosaved_projects
-        for workspace in self.library.workspaces:
-            workspace.autosave = str(workspace.folder.resolve()) in noted
-
-    def set_autosave(self, workspace: Workspace, *, is_on: bool) -> None:
-        """Switch autosave of a project; the setting outlives the server."""
-        workspace.autosave = is_on
-        # If the setting cannot be written it lasts as long as this server.
-        with contextlib.suppress(OSError):
-            self.recovery.set_autosave(workspace.folder, is_on=is_on)
 
     def pending_snapshots(self) -> list[JournalSnapshot]:
         """The journals that must be written now."""
@@ -52,11 +43,12 @@ class AutosaveService:
         )
         return [snapshot for snapshot in found if snapshot is not None]
 
-    def save_idle_documents(self, idle_s: float = _AUTOSAVE_DELAY_S) -> None:
-        """Save the designs of projects with autosave that have not changed for `idle_s` seconds."""
+    def save_idle_documents(self, idle_s: float | None = None) -> None:
+        """Save the designs that have not changed for `idle_s` seconds, by default `delay_s`."""
+        wanted_s = self.delay_s if idle_s is None else idle_s
         for workspace, document in self._open_documents():
-            is_idle = self.clock() - document.history.current.at_s > idle_s
-            if not workspace.autosave or document.is_saved or document.shared.disk_conflict or not is_idle:
+            is_idle = self.clock() - document.history.current.at_s > wanted_s
+            if document.is_saved or document.shared.disk_conflict or not is_idle:
                 continue
             try:
                 workspace.save(document)

@@ -19,7 +19,6 @@ from vicode.output import write_atomically
 from vicode.store import save_design
 
 STATE_VARIABLE = "VICODE_STATE"
-_AUTOSAVED = "autosaved"
 _MAX_JOURNAL_BYTES = 20_000_000
 _MAX_JOURNALS = 200
 
@@ -132,24 +131,6 @@ class RecoveryStore:
         """Release the lock; journals of unsaved designs stay for recovery."""
         self._lock.close()
         self._remove_if_empty(self._own_folder)
-
-    @property
-    def autosaved_projects(self) -> frozenset[str]:
-        try:
-            return frozenset((self.folder / _AUTOSAVED).read_text(encoding="utf-8").splitlines())
-        except (OSError, UnicodeDecodeError):
-            return frozenset()
-
-    def set_autosave(self, project: Path, *, is_on: bool) -> None:
-        """Store the autosave setting of a project.
-
-        Raises:
-            OSError: The setting cannot be written.
-        """
-        own = frozenset({str(project.resolve())})
-        known = self.autosaved_projects
-        projects = known | own if is_on else known - own
-        write_atomically(self.folder / _AUTOSAVED, "".join(f"{project}\n" for project in sorted(projects)))
 
     def _write(self, snapshot: JournalSnapshot) -> None:
         file = self._own_folder / _name(snapshot.project, snapshot.component)

@@ -54,8 +54,6 @@ class Workspace:
     folder: Path
     key: str
     users: UserDirectory = field(default_factory=UserDirectory)
-    autosave: bool = False
-    """Whether designs are saved automatically a second after their last edit."""
     is_trusted: bool = False
     """Whether a user said that the code of the folder may run."""
     has_other_editor: bool = False
