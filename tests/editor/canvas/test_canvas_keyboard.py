@@ -65,6 +65,18 @@ def test_t_connects_to_the_state_clicked_next(canvas: CanvasDriver) -> None:
     expect(canvas.page.locator(".message")).to_be_hidden()
 
 
+def test_keys_after_a_connection_are_for_it(canvas: CanvasDriver) -> None:
+    canvas.click(canvas.at("states", "GiveUp"))
+    canvas.press("t")
+    canvas.page.keyboard.type("FollowB")
+    # The second Enter is pressed before Python has selected the transition; here, it selects another one.
+    canvas.press("Enter", "Enter")
+    assert canvas.wait_for_gesture("connect")["target"] == "FollowBall"
+    canvas.call("select", [{"of": "transitions", "id": "LookForBall/0"}])
+    assert canvas.wait_for_gesture("open") == {"item": {"of": "transitions", "id": "LookForBall/0"}}
+    expect(canvas.page.locator("input.rename")).to_be_hidden()
+
+
 def test_escape_clears_the_selection(canvas: CanvasDriver) -> None:
     canvas.click(canvas.at("states", "GiveUp"))
     canvas.press("Escape")

@@ -83,8 +83,8 @@ class Canvas {
 
   /** Selection by Python; ignored if the user has changed the selection since the one that Python acknowledges by `seq`. */
   select(items, seq = this.clientSeq) {
-    if (seq !== this.clientSeq) return;
-    this.selection.set(items.map(({ of, id }) => keyOf(of, id)), { quiet: true });
+    if (seq === this.clientSeq) this.selection.set(items.map(({ of, id }) => keyOf(of, id)), { quiet: true });
+    this.keyboard.release();
   }
 
   centre(of, id) {

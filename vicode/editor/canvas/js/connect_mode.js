@@ -1,4 +1,5 @@
 // Connecting without holding a button: a click on the target ends it, or keys choose a target and Enter confirms.
+import { ConnectDrag } from "./connect_drags.js";
 import { nearestInDirection } from "./keyboard_navigation.js";
 import { chooseTarget, confirmTarget } from "./strings.js";
 
@@ -34,11 +35,13 @@ export class ConnectMode {
     this.gesture.end();
   }
 
-  /** Connects to the node chosen by keys, or to the start node if none is chosen. */
+  /** Connects to the node chosen by keys, or to the start node if none is chosen; returns whether something is created. */
   finish() {
     const target = this.canvas.scene.nodes.get(this.aimed ?? this.from);
     this.gesture.cancel();
-    if (target && this.gesture.accepts(target)) this.gesture.connectTo(target);
+    if (!target || !this.gesture.accepts(target)) return false;
+    this.gesture.connectTo(target);
+    return this.gesture instanceof ConnectDrag;
   }
 
   cancel() {

@@ -78,7 +78,7 @@ export class PointerGestures {
   finishConnect() {
     const { connectMode } = this;
     this.connectMode = null;
-    connectMode.finish();
+    if (connectMode.finish()) this.canvas.keyboard.hold();
     this.canvas.showMessage("");
     this.canvas.afterGesture();
   }

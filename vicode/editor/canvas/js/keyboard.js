@@ -1,10 +1,12 @@
 // Converts key events to shortcuts such as "Ctrl+Shift+Z" and runs their commands. Other keys are left to the page.
 
 const MODIFIER_ORDER = ["Ctrl", "Alt", "Shift"];
+const MAX_HOLD_MS = 3000;
 
 export class Keyboard {
   constructor(canvas) {
     this.canvas = canvas;
+    this.held = null;
     const { stage } = canvas;
     this.onPageKey = (event) => this.#pageKey(event);
     stage.addEventListener("keydown", (event) => this.#down(event));
@@ -19,6 +21,20 @@ export class Keyboard {
 
   dispose() {
     document.removeEventListener("keydown", this.onPageKey);
+  }
+
+  /** Holds keys until Python has selected what a gesture created: they are for that, and not for the old selection. */
+  hold() {
+    const held = (this.held = []);
+    setTimeout(() => this.held === held && this.release(), MAX_HOLD_MS);
+  }
+
+  release() {
+    const held = this.held ?? [];
+    this.held = null;
+    for (const { key, code, shiftKey } of held) {
+      this.canvas.stage.dispatchEvent(new KeyboardEvent("keydown", { key, code, shiftKey, bubbles: true, composed: true, cancelable: true }));
+    }
   }
 
   /** Keys pressed while no element of the page has the focus are handled by the canvas. */
@@ -38,6 +54,7 @@ export class Keyboard {
   #take(event) {
     const { gestures, commands } = this.canvas;
     const chord = chordOf(event);
+    if (this.held && !event.ctrlKey && !event.altKey && !event.metaKey) return this.held.push(event);
     if (chord === "Space") return this.#space(true);
     if (gestures.connectMode && /^[\p{L}\p{N}_]$/u.test(event.key) && !/Ctrl|Alt/.test(chord)) return gestures.connectMode.aimByName(event.key);
     return commands.runShortcut(chord);
