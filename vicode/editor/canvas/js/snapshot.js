@@ -97,8 +97,11 @@ export class Snapshot {
     const offset = offsetOf(group);
     pen.translate(offset.x, offset.y);
     for (const element of group.children) {
+      if (element.tagName === "title") continue;
+      const style = this.#styleOf(element, context);
+      if (style.isHidden) continue;
       if (element.tagName === "g") this.#drawGroup(pen, element, `${context} ${element.getAttribute("class")}`);
-      else if (element.tagName !== "title") this.#drawShape(pen, element, this.#styleOf(element, context));
+      else this.#drawShape(pen, element, style);
     }
     pen.translate(-offset.x, -offset.y);
   }
@@ -109,9 +112,10 @@ export class Snapshot {
     else drawPath(pen, pathOf(element), style);
   }
 
-  /** Returns the style of an element, cached by its classes. */
+  /** Returns the style of an element, cached by its classes and the level of detail, which hides some. */
   #styleOf(element, context) {
-    const name = `${context}|${element.tagName} ${element.getAttribute("class")}`;
+    const level = this.painter.svgRoots[0].parentNode.className;
+    const name = `${level} ${context}|${element.tagName} ${element.getAttribute("class")}`;
     if (!this.styles.has(name)) this.styles.set(name, readStyle(getComputedStyle(element), this.colours));
     return this.styles.get(name);
   }
@@ -122,6 +126,7 @@ function readStyle(style, colours) {
   const plain = (value) => (value.startsWith("url(") ? colours("faint") : value);
   const paint = (value) => (value === "none" || value === "rgba(0, 0, 0, 0)" ? null : plain(value));
   return {
+    isHidden: style.display === "none",
     fill: paint(style.fill),
     fillOpacity: Number(style.fillOpacity),
     stroke: paint(style.stroke),
