@@ -142,11 +142,12 @@ class OptionImporter:
         )
 
     def _leading_comment(self, state: tree.StateNode) -> str:
-        """Take the comments directly before a state as its doc, up to a comment that contains code."""
+        """Take the comments directly before a state as its doc, up to a separator or a comment that contains code."""
         comments = self._comments.get(state.first_token, [])
         taken: list[Comment] = []
         for group in reversed(group_comments([comment for comment in comments if comment.own_line])):
-            if looks_like_code(comment_text(group)):
+            text = comment_text(group)
+            if looks_like_code(text) or not any(char.isalnum() for char in text):
                 break
             taken = [*group, *taken]
         text = comment_text(taken)

@@ -85,13 +85,10 @@ class ChainRearrangement:
         file, old = self.file, self.old
         last_first = max((index for index in self.removed if self._is_first(index)), default=-1)
         if last_first >= 0:
-            start, end = (
-                file.start(old.tests[0].first_token),
-                file.start(old.branches[last_first + 1].outer.first_token),
-            )
+            end = file.start(old.branches[last_first + 1].outer.first_token)
             # The comments above the next test stay.
             above = file.comments_between(file.end_with_comment(old.tests[last_first].then.last_token), end)
-            file.overwrite(start, end, "".join(f"{comment}\n{self._indent()}" for comment in above))
+            file.overwrite(self._front(), end, "".join(f"{comment}\n{self._indent()}" for comment in above))
         for index in self.removed:
             if index > last_first:
                 start = file.end_with_comment(old.tests[index - 1].then.last_token)
@@ -105,14 +102,28 @@ class ChainRearrangement:
             if match is not None and match in self.kept:
                 previous = match
             elif previous is None:
-                start = file.start(old.tests[0].first_token)
-                gap = "\n" + self._indent() if not self._is_same_line() or "//" in body.split("\n")[-1] else " "
-                file.insert(start, f"{above}{body}{gap}else ")
+                self._insert_first(above + body)
             else:
                 position = file.end_with_comment(old.tests[previous].then.last_token)
                 has_comment = position != file.end(old.tests[previous].then.last_token)
                 is_line = bool(above) or has_comment or not self._is_same_line()
                 file.insert(position, f"\n{self._indent()}{above}else {body}" if is_line else f" else {body}")
+
+    def _insert_first(self, text: str) -> None:
+        file, front, start = self.file, self._front(), self.file.start(self.old.tests[0].first_token)
+        gap = " " if self._is_same_line() and "//" not in text.rsplit("\n", maxsplit=1)[-1] else "\n" + self._indent()
+        if front == start or 0 in self.removed:
+            file.insert(front, f"{text}{gap}else ")
+        else:
+            # The comments of the next test are between both.
+            file.insert(front, f"{text}\n{self._indent()}")
+            file.insert(start, "else ")
+
+    def _front(self) -> int:
+        """The start of the first test with the comments directly above it."""
+        file, first = self.file, self.old.tests[0].first_token
+        line = file.start_with_comments(first)
+        return line + len(file.indent_at(line)) if line < file.start(first) else line
 
     def _is_same_line(self) -> bool:
         """Whether `else` follows the closing brace in the same line."""

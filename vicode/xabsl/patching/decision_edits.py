@@ -65,8 +65,10 @@ class DecisionEdits:
     def _edit_chain(self, old: Chain, before: Chain, after: Chain) -> bool:
         if len(old.tests) != len(before.tests) or old.is_open != before.is_open or before.is_open != after.is_open:
             return False
-        if not old.tests or not after.tests:
+        if not old.tests:
             return self._edit_leaf(old, before, after)
+        if not after.tests and isinstance(old.branches[-1].outer, tree.BlockNode):
+            return False
         keys = [
             (print_node(test_alone(test)), branch.doc)
             for test, branch in zip(before.tests, before.branches, strict=False)

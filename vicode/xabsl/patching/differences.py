@@ -1,6 +1,7 @@
 """Compares two versions of a program: everything but comments inside options, and the order of declarations."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from vicode.xabsl import tree
 from vicode.xabsl.patching.option_edits import OptionVersion
@@ -50,8 +51,15 @@ def _compare_options(one: OptionVersion, other: OptionVersion) -> Iterator[tuple
         yield name, ""
         return
     for old, new in zip(first.states, second.states, strict=True):
-        if old != new or one.doc_of(old) != other.doc_of(new):
+        if _normal(old) != _normal(new) or one.doc_of(old) != other.doc_of(new):
             yield name, old.name.text
+
+
+def _normal(state: tree.StateNode) -> tree.StateNode:
+    """A state without a decision that only stays, which is the default."""
+    decision = state.decision
+    is_default = decision is not None and isinstance(decision.tree, tree.StayNode) and not decision.else_doc
+    return replace(state, decision=None) if is_default else state
 
 
 def _names(option: tree.OptionNode) -> list[str]:

@@ -7,8 +7,6 @@ from itertools import pairwise
 
 from vicode.xabsl.patching.source_edits import SourceEdits
 
-_MARKERS = re.compile(r"/\*+|\*+/|//+|^[ \t]*\*+(?=\s|$)", re.MULTILINE)
-
 Span = tuple[int, int]
 
 
@@ -49,9 +47,28 @@ def last_spans_with_words(file: SourceEdits, spans: Sequence[Span], text: str) -
 
 
 def _words(text: str, start: int, end: int) -> list[Span]:
+    """The words of a comment without its markers, as an import reads them."""
     inner = text[start:end]
-    plain = _MARKERS.sub(lambda match: " " * len(match[0]), inner)
-    return [(start + match.start(), start + match.end()) for match in re.finditer(r"\S+", plain)]
+    if inner.startswith("//"):
+        first, last = start + len(inner) - len(inner.lstrip("/")), end
+    elif inner.startswith("/**") and not inner.startswith("/***"):
+        first, last = start + 3, end - 2
+    else:
+        stripped = inner[2:-2].rstrip("*")
+        first, last = end - 2 - len(inner[2:-2].lstrip("*")), start + 2 + len(stripped)
+        lines = text[first:last].split("\n")[1:]
+        if all(not line.strip() or line.strip().startswith("*") for line in lines):
+            return [span for span in _spans(text, first, last) if not _is_marker(text, *span)]
+    return _spans(text, first, last)
+
+
+def _spans(text: str, start: int, end: int) -> list[Span]:
+    return [match.span() for match in re.compile(r"\S+").finditer(text, start, end)]
+
+
+def _is_marker(text: str, start: int, end: int) -> bool:
+    """Whether a word is the asterisk at the start of a line of a comment."""
+    return text[start:end] == "*" and not text[text.rfind("\n", 0, start) + 1 : start].strip()
 
 
 def _replace_words(file: SourceEdits, words: Sequence[Span], text: str) -> None:

@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 from typing import Any
 
 from vicode.xabsl import tree
-from vicode.xabsl.patching.list_edits import match_items, text_similarity, unmoved
+from vicode.xabsl.patching.list_edits import Match, match_items, text_similarity, unmoved
 from vicode.xabsl.patching.source_edits import SourceEdits
 from vicode.xabsl.printer import print_node
 
@@ -141,7 +141,7 @@ def _edit_operands(file: SourceEdits, old: tree.BinaryNode, before: tree.BinaryN
         if match is not None:
             edit_expression(file, olds[match], befores[match], after_operand)
     _remove_items(file, olds, kept)
-    _insert_operands(file, olds, matches, new_keys, sign)
+    _insert_items(file, olds, matches, new_keys, f" {sign} ")
     return True
 
 
@@ -155,17 +155,17 @@ def _remove_items(file: SourceEdits, olds: Sequence[tree.SyntaxNode], kept: set[
             file.delete(file.end(olds[index - 1].last_token), file.end(olds[index].last_token))
 
 
-def _insert_operands(
-    file: SourceEdits, olds: Sequence[Expression], matches: Sequence[int | None], texts: Sequence[str], sign: str
+def _insert_items(
+    file: SourceEdits, olds: Sequence[tree.SyntaxNode], matches: Sequence[Match], texts: Sequence[str], separator: str
 ) -> None:
-    previous: int | None = None
+    previous: Match = None
     for match, text in zip(matches, texts, strict=True):
         if match is not None:
             previous = match
         elif previous is None:
-            file.insert(file.start(olds[0].first_token), f"{text} {sign} ")
+            file.insert(file.start(olds[0].first_token), text + separator)
         else:
-            file.insert(file.end(olds[previous].last_token), f" {sign} {text}")
+            file.insert(file.end(olds[previous].last_token), separator + text)
 
 
 def edit_arguments(
@@ -175,15 +175,14 @@ def edit_arguments(
     olds = {item.name.text: item for item in old.items}
     befores = {item.name.text: item for item in before.items}
     afters = {item.name.text: item for item in after.items}
-    added = [name for name in afters if name not in befores]
     kept = [name for name in befores if name in afters]
     is_possible = list(olds) == list(befores) and [name for name in afters if name in befores] == kept
-    if not is_possible or len(afters) != len(after.items) or list(afters) != [*kept, *added] or not kept:
+    if not is_possible or len(afters) != len(after.items) or not kept:
         return False
     for name in kept:
         edit_expression(file, olds[name].value, befores[name].value, afters[name].value)
     names = list(olds)
-    _remove_items(file, old.items, {index for index, name in enumerate(names) if name in afters})
-    for name in added:
-        file.insert(file.end(olds[kept[-1]].last_token), f", {print_node(afters[name])}")
+    _remove_items(file, old.items, {names.index(name) for name in kept})
+    matches = [names.index(name) if name in olds else None for name in afters]
+    _insert_items(file, old.items, matches, [print_node(item) for item in after.items], ", ")
     return True

@@ -98,7 +98,7 @@ def edit_list(
         added: The text of each new item, empty if it is matched.
         style: Where the list stands.
     """
-    chunks = [_chunk(file, item) for item in items]
+    chunks = [_chunk(file, item.first_token, item.last_token) for item in items]
     kept = unmoved(matches)
     texts = [
         _Text(file.read(chunks[match].start, chunks[match].end), chunks[match].is_lines)
@@ -129,10 +129,14 @@ class _Text:
     is_lines: bool
 
 
-def _chunk(file: SourceEdits, item: tree.SyntaxNode) -> _Chunk:
-    start = file.start_with_comments(item.first_token)
-    is_lines = file.is_first_in_line(file.start(item.first_token))
-    return _Chunk(start, file.end_with_comment(item.last_token), is_lines)
+def remove_item(file: SourceEdits, first: int, last: int) -> None:
+    """Remove the tokens of an item, with the comments and one of the blank lines around it."""
+    _remove(file, _chunk(file, first, last))
+
+
+def _chunk(file: SourceEdits, first: int, last: int) -> _Chunk:
+    start = file.start_with_comments(first)
+    return _Chunk(start, file.end_with_comment(last), file.is_first_in_line(file.start(first)))
 
 
 def _remove(file: SourceEdits, chunk: _Chunk) -> None:

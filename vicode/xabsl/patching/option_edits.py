@@ -10,7 +10,7 @@ from vicode.xabsl.patching.decision_edits import DecisionEdits
 from vicode.xabsl.patching.declaration_edits import edit_doc, edit_parameters
 from vicode.xabsl.patching.doc_edits import edit_words, last_spans_with_words
 from vicode.xabsl.patching.expression_edits import edit_arguments, edit_expression
-from vicode.xabsl.patching.list_edits import ListStyle, edit_list, match_items, text_similarity
+from vicode.xabsl.patching.list_edits import ListStyle, edit_list, match_items, remove_item, text_similarity
 from vicode.xabsl.patching.source_edits import SourceEdits, indented
 from vicode.xabsl.printer import print_node
 
@@ -64,7 +64,7 @@ class _OptionEdits:
             return
         if after.common_actions is None:
             assert old.common_actions is not None
-            self._remove_block(old.common_actions.first_token - 2, old.common_actions.last_token)
+            remove_item(self.file, old.common_actions.first_token - 2, old.common_actions.last_token)
         elif old.common_actions is None:
             text = print_node(after.common_actions, self.after.comments)
             self._add_block(old.states[0].first_token, f"common {text}")
@@ -80,20 +80,12 @@ class _OptionEdits:
         if old is not None and before is not None and after is not None:
             self.decisions.edit(old, before, after)
         elif old is not None:
-            self._remove_block(old.first_token - 3, old.last_token + 1)
+            remove_item(self.file, old.first_token - 3, old.last_token + 1)
         elif after is not None:
             inner = self.decisions.print(after).replace("\n", "\n  ")
             actions = self.old.common_actions
             first = actions.first_token - 2 if actions else self.old.states[0].first_token
             self._add_block(first, f"common decision {{\n  {inner}\n}}")
-
-    def _remove_block(self, first: int, last: int) -> None:
-        """Remove a block with the line break after it."""
-        file = self.file
-        end = file.end_with_comment(last)
-        newline = file.text.find("\n", end)
-        start = file.start_with_comments(first)
-        file.delete(start, newline + 1 if file.is_first_in_line(start) and newline >= 0 else end)
 
     def _add_block(self, first: int, text: str) -> None:
         """Add a block in its own lines before the item that starts with the token `first`."""
@@ -134,6 +126,8 @@ class _OptionEdits:
 
     def _edit_state(self, old: tree.StateNode, before: tree.StateNode, after: tree.StateNode) -> None:
         self._edit_state_doc(old, before, after)
+        if old.decision is not None and self._has_common_changed():
+            self._edit_else(old.decision)
         if before == after:
             return
         self._edit_head(old, before, after)
@@ -182,21 +176,27 @@ class _OptionEdits:
             # `action` is the token before the brace of the actions.
             self._insert_before(old.actions.first_token - 1, lines, self._inner(old))
         elif was is not None and now is None:
-            self._remove_block(was.first_token, was.last_token)
+            remove_item(self.file, was.first_token, was.last_token)
         elif was is not None and now is not None:
-            self._edit_else(was, now)
             if before.decision is None:
                 self.decisions.replace(was.tree, now.tree)
             else:
                 docs = was.else_doc, before.decision.else_doc, now.else_doc
                 self.decisions.edit(was.tree, before.decision.tree, now.tree, docs)
 
-    def _edit_else(self, old: tree.DecisionNode, after: tree.DecisionNode) -> None:
+    def _has_common_changed(self) -> bool:
+        """Whether the common decision is added or removed."""
+        commons = self.before.option.common_decision, self.after.option.common_decision
+        return (commons[0] is None) != (commons[1] is None)
+
+    def _edit_else(self, old: tree.DecisionNode) -> None:
+        """Add or remove the `else` that follows a common decision."""
         file, first = self.file, old.tree.first_token
-        if after.begins_with_else and not old.begins_with_else:
+        if self.after.option.common_decision is None:
+            if old.begins_with_else:
+                file.delete(file.start(first - 1), file.start(first))
+        elif not old.begins_with_else:
             file.insert(file.start(first), "else ")
-        elif old.begins_with_else and not after.begins_with_else:
-            file.delete(file.start(first - 1), file.start(first))
 
     def _inner(self, state: tree.StateNode) -> str:
         return self.file.indent_at(self.file.start(state.first_token)) + self.unit
