@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 
 from vicode.cli.file_differences import FileDifference
-from vicode.diagram.diff_diagram import DARK_DIFF, LIGHT_DIFF, DiffColors, css_variable_diff, render_diff
-from vicode.diagram.palettes import palette_variables
+from vicode.diagram.diff_diagram import DARK_DIFF, LIGHT_DIFF, css_variable_diff, diff_variables, render_diff
 from vicode.diagram.svg import write_svg
 from vicode.model.design import Design
 from vicode.model.diff import ChangeKind, describe_change
@@ -42,8 +41,8 @@ def format_page(differences: Sequence[FileDifference]) -> str:
         title="Differences of designs",
         files=files,
         kinds=[str(kind) for kind in ChangeKind],
-        light=_variables(LIGHT_DIFF),
-        dark=_variables(DARK_DIFF),
+        light=diff_variables(LIGHT_DIFF),
+        dark=diff_variables(DARK_DIFF),
     )
 
 
@@ -67,7 +66,3 @@ def _designs(difference: FileDifference) -> tuple[Design, Design] | None:
         return None
     empty = Design(component=present.component)
     return old or empty, new or empty
-
-
-def _variables(colors: DiffColors) -> dict[str, str]:
-    return palette_variables(colors.palette) | {f"diff-{kind}": color for kind, color in colors.kinds.items()}

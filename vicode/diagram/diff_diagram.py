@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from vicode.diagram.diagram_model import build_diagram
 from vicode.diagram.marks import SIGN_RADIUS, Mark
-from vicode.diagram.palettes import DARK, LIGHT, ColorPalette, css_variable_palette
+from vicode.diagram.palettes import DARK, LIGHT, ColorPalette, css_variable_palette, palette_variables
 from vicode.diagram.primitives import ShapeGroup, TextShape, VectorImage
 from vicode.diagram.render import render_diagram
 from vicode.diagram.text_metrics import LABEL_FONT, text_width
@@ -60,6 +60,11 @@ DARK_DIFF = DiffColors(
 def css_variable_diff() -> DiffColors:
     """Colors that the style sheet of the page defines: those of the diagram, and `--diff-added` and so on."""
     return DiffColors(palette=css_variable_palette(), kinds={kind: f"var(--diff-{kind})" for kind in ChangeKind})
+
+
+def diff_variables(colors: DiffColors) -> dict[str, str]:
+    """The values of the variables of `css_variable_diff`, without the leading dashes."""
+    return palette_variables(colors.palette) | {f"diff-{kind}": color for kind, color in colors.kinds.items()}
 
 
 def render_diff(old: Design, new: Design, colors: DiffColors = LIGHT_DIFF) -> VectorImage:

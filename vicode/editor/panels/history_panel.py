@@ -6,6 +6,7 @@ from collections.abc import Callable
 from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
+from vicode.editor.panels.revisions_dialog import show_revisions
 from vicode.editor.panels.texts import history_jump_warning
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
@@ -28,6 +29,9 @@ class HistoryPanel:
         self.limit = _PAGE
         self.shown: dict[int, HistoryRow] = {}
         self.rows: dict[int, ui.element] = {}
+        ui.button("Compare with git revision…", icon="history", on_click=self._show_revisions).props(
+            "flat dense no-caps"
+        ).classes("revisions-button")
         self.list = ui.element("div").classes("history-list").props('role="group" aria-label="History"')
         self.list.on("keydown", js_handler=_WALK)
         self.more = ui.button("Show older steps", on_click=self._show_more).props("flat dense no-caps")
@@ -48,6 +52,9 @@ class HistoryPanel:
                     self._style_row(self.rows[id_], line)
         self.shown = lines
         self.more.set_visibility(len(history.entries) > len(lines))
+
+    async def _show_revisions(self) -> None:
+        await show_revisions(self.context)
 
     def _row(self, line: HistoryRow) -> ui.element:
         step, users = line.entry, self.context.document.shared.users

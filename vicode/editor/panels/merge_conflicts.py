@@ -4,7 +4,6 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.widgets import primary_button
 from vicode.store import TextConflict, find_conflicts, resolve_conflicts
 
 
@@ -42,7 +41,9 @@ class MergeConflictList:
         with ui.element("div").classes("conflict-side is-text"):
             with ui.row().classes("conflict-head"):
                 ui.label(side.capitalize()).classes("conflict-title")
-                primary_button(f"Take {side}", lambda: self._take(index, takes_theirs=takes_theirs))
+                ui.button(f"Take {side}", on_click=lambda: self._take(index, takes_theirs=takes_theirs)).props(
+                    "outline dense no-caps"
+                )
             for line in texts[0].splitlines() or ["(nothing)"]:
                 ui.label(line or " ").classes("conflict-line mono" + ("" if line in other else " differs"))
 
