@@ -82,7 +82,7 @@ def test_an_edit_that_was_undone_is_not_taken_in_again(
     assert "math" in str(player.design.module)
     # It is lacking nevertheless, which a simulation must not hide.
     assert [edit.name for edit in player.shared.outside.waiting] == ["WatchBall.enter"]
-    assert code_sync.find_waiting(workspace, "Player") == (player,)
+    assert code_sync.find_lacking(workspace, "Player") == (player,)
     assert not workspace.generate(player).is_complete
 
 
@@ -187,7 +187,7 @@ def test_edits_wait_while_the_design_has_errors(workspace: Workspace, player: Do
 
 
 def test_used_designs_are_opened_for_their_edits(workspace: Workspace, player: DocumentSession) -> None:
-    assert code_sync.find_waiting(workspace, "Player") == ()
+    assert code_sync.find_lacking(workspace, "Player") == ()
     assert len(workspace.documents) == 1
 
 

@@ -6,6 +6,7 @@ import time
 from nicegui import app, run
 
 from vicode.editor.pages import texts
+from vicode.editor.panels.code_choices import ask_to_resolve_code
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.window_context import WindowContext
@@ -55,7 +56,7 @@ class AutosaveControls:
         return (
             Command(
                 "conflict",
-                "Resolve conflict with the file on disk",
+                "Resolve conflict with files on disk",
                 self.resolve_conflict,
                 MenuGroup.DESIGN,
                 icon="difference",
@@ -63,9 +64,13 @@ class AutosaveControls:
         )
 
     def resolve_conflict(self) -> None:
-        if self.context.document.shared.disk_conflict is None:
+        shared = self.context.document.shared
+        if shared.disk_conflict is not None:
+            ask_to_resolve_conflict(self.context)
+        elif shared.outside.waiting:
+            ask_to_resolve_code(self.context)
+        else:
             self.context.show_toast(texts.NO_CONFLICT, "info")
-        ask_to_resolve_conflict(self.context)
 
     def refresh(self) -> None:
         """Show new notices: merges from disk, jumps in the history."""

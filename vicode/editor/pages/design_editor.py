@@ -9,6 +9,7 @@ from vicode.editor.pages.autosave_ui import AutosaveControls
 from vicode.editor.pages.design_view import DesignView
 from vicode.editor.pages.docs_preview import docs_command
 from vicode.editor.pages.navigation import Navigator
+from vicode.editor.pages.outside_edit_notices import OutsideEditNotices
 from vicode.editor.pages.page_commands import PageCommands
 from vicode.editor.pages.presence import PresenceSync
 from vicode.editor.pages.side_panels import SidePanels, SideTabs
@@ -101,6 +102,7 @@ class DesignEditor:
         canvas = self.view.canvas_controller.canvas
         self.side_panels = SidePanels(context, canvas, findings, window.tabs)
         self.autosave = AutosaveControls(context, window.autosave)
+        self.outside_edits = OutsideEditNotices(context)
         with window.overlay:
             self.tour = Tour(context, lambda: self.view.is_table_shown, starts_automatically=window.starts_tour)
         self.navigator = Navigator(context, window.palette.open, trail)
@@ -191,5 +193,5 @@ class DesignEditor:
                 self.context.notify_subscribers()
 
     def _refresh(self) -> None:
-        for panel in (self.view, self.header, self.side_panels, self.autosave, self.tour):
+        for panel in (self.view, self.header, self.side_panels, self.autosave, self.outside_edits, self.tour):
             panel.refresh()

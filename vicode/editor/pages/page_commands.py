@@ -13,7 +13,7 @@ from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.texts import SAVED, not_saved
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import DiskConflictError, DocumentSession, apply_edit
+from vicode.editor.session import DiskConflictError, DocumentSession, apply_edit, code_sync
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.gestures import DisableGesture
 
@@ -51,6 +51,8 @@ class PageCommands:
             # A design may have a temporary state that no file can hold: two declarations with one name.
             context.show_toast(not_saved(context.document.file.name, error_reason(error)), "negative")
             return False
+        context.document.shared.outside.unmark()
+        context.notify_subscribers()
         context.show_toast(SAVED, "positive")
         return True
 
@@ -63,6 +65,8 @@ class PageCommands:
 
     def generate_code(self) -> None:
         """Save, show the changes of the generated files, and write them."""
+        # Edits of the generated code are taken in before the design is saved.
+        code_sync.find_lacking(self.context.workspace, self.context.design.component)
         if self.context.document.is_saved or self.save():
             self.context.run_in_background(self._write_code(), "generate")
 
@@ -91,7 +95,7 @@ class PageCommands:
         if prepared is None:
             return
         if prepared.changes and (prepared.manual_edits or not await is_confirmation_disabled()):
-            confirm_writing(prepared, context.design.component, self._write_answered)
+            confirm_writing(context, prepared, self._write_answered)
         else:
             await self._write(is_forced=False)
 

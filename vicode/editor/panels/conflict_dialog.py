@@ -7,6 +7,7 @@ from nicegui import ui
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
+from vicode.editor.panels.side_choice import ChoiceSide, side_choice
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DiskConflictError
@@ -84,27 +85,14 @@ def _ask_for_choices(prompt: _ConflictPrompt) -> None:
 
 def _conflict(conflict: Conflict, chosen: dict[DesignPath, str]) -> None:
     """Show both values of a conflict; a click selects one."""
-    texts = {"mine": describe_value(conflict.ours), "theirs": describe_value(conflict.theirs)}
+    values = {"mine": conflict.ours, "theirs": conflict.theirs}
+    sides = {side: ChoiceSide(title=title, text=describe_value(values[side])) for side, title in _SIDES}
+
+    def choose(side: str) -> None:
+        chosen[conflict.path] = side
+
     ui.label(describe_path(conflict.path)).classes("conflict-place")
-    buttons: dict[str, ui.element] = {}
-
-    def choose(side: str) -> Callable[[], None]:
-        def handle_click() -> None:
-            chosen[conflict.path] = side
-            for name, button in buttons.items():
-                button.props(f'aria-pressed="{str(name == side).lower()}"')
-
-        return handle_click
-
-    with ui.element("div").classes("conflict-sides"):
-        for side, title in _SIDES:
-            other = set(texts["theirs" if side == "mine" else "mine"].splitlines())
-            with ui.element("button").classes("conflict-side").props('type="button"') as button:
-                ui.label(title).classes("conflict-title")
-                for line in texts[side].splitlines():
-                    ui.label(line or " ").classes("conflict-line mono" + ("" if line in other else " differs"))
-            buttons[side] = button.on("click", choose(side))
-    choose("mine")()
+    side_choice(sides, choose)("mine")
 
 
 def _resolve(prompt: _ConflictPrompt, theirs_at: list[DesignPath] | tuple[()], message: str) -> None:

@@ -1,4 +1,4 @@
-"""Confirmation before code is written: new, changed and manually edited files with their differences."""
+"""Confirmation before code is written: the files with their differences, and what to do with edits of them."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -7,8 +7,10 @@ from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.diff_view import diff_view
+from vicode.editor.panels.edits_to_take_over import EditsToTakeOver
 from vicode.editor.panels.texts import files_to_write
 from vicode.editor.panels.widgets import primary_button
+from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.code_generation import PendingOutput
 from vicode.output import FileDiff, FileStatus
 
@@ -29,35 +31,37 @@ async def is_confirmation_disabled() -> bool:
         return False
 
 
-def confirm_writing(prepared: PendingOutput, component: str, write: Callable[[bool], None]) -> None:
-    """Show the changes. On confirmation, `write` is called with whether edited files must be backed up.
+def confirm_writing(context: WindowContext, prepared: PendingOutput, write: Callable[[bool], None]) -> None:
+    """Show the changes, and what to do with edits of the files. On confirmation, what the user takes over is saved.
 
-    The files of the open component come first.
+    The files of the open component come first. `write` is called with whether edited files must be backed up.
     """
-    changes = tuple(
-        sorted(prepared.changes, key=lambda each: _normalize_name(Path(each.path).stem) != _normalize_name(component))
-    )
+    name = _normalize_name(context.design.component)
+    changes = tuple(sorted(prepared.changes, key=lambda each: _normalize_name(Path(each.path).stem) != name))
     with titled_dialog("Write the generated code?", "generate-dialog") as dialog:
+        edits = EditsToTakeOver(context, prepared) if prepared.manual_edits else None
         ui.label(files_to_write(len(changes), prepared.folder.name, prepared.unchanged)).classes("small")
         with ui.element("div").classes("generate-files"):
             _files(prepared, changes)
         if prepared.skipped:
             ui.label(prepared.skipped).classes("field-finding")
-        for path, findings in prepared.manual_edits.items():
-            for finding in findings[:3]:
-                ui.label(f"{path}: {finding.message}").classes("field-finding")
         skip_confirmation = ui.checkbox("Don't ask again in this browser").props("dense")
 
-        def confirm() -> None:
+        def confirm(*, overwrites: bool) -> None:
             if skip_confirmation.value:
                 ui.run_javascript(f'localStorage.setItem("{_KEY}", "yes")')
             dialog.close()
-            write(bool(prepared.manual_edits))
+            if overwrites or edits is None or edits.take_over():
+                write(overwrites or (edits is not None and edits.has_rest))
 
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-            label = "Back up edited files and write" if prepared.manual_edits else "Write"
-            primary_button(label, confirm).props("autofocus")
+            if edits is None:
+                primary_button("Write", lambda: confirm(overwrites=False)).props("autofocus")
+            else:
+                ui.button("Overwrite", on_click=lambda: confirm(overwrites=True)).props("flat no-caps")
+                edits.enable(primary_button("Take over and write", lambda: confirm(overwrites=False)))
+
     dialog.on("hide", dialog.delete)
 
 

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from nicegui import ui
 
 from vicode.editor.panels import texts
+from vicode.editor.panels.code_choices import ask_to_resolve_code
 from vicode.editor.panels.command import Command
 from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.fields import set_enabled
@@ -26,9 +27,7 @@ class Header:
         ui.link("vicode", "/").classes("brand").props('aria-label="vicode, all designs"')
         self._breadcrumbs = ui.element("nav").classes("crumbs").props('aria-label="Breadcrumb"')
         self.save_status = ui.label().classes("saved").props('role="status"')
-        self.conflict_button = ui.button("Resolve…", on_click=lambda: ask_to_resolve_conflict(self.context)).props(
-            "flat dense no-caps"
-        )
+        self.conflict_button = ui.button("Resolve…", on_click=self._resolve).props("flat dense no-caps")
         ui.element("div").classes("spacer")
         self.presence_bar = PresenceBar(context)
         self.buttons = {name: _icon(named[name]) for name in _ICONS}
@@ -56,8 +55,16 @@ class Header:
         document = self.context.document
         if document.shared.disk_conflict is not None:
             return "Conflict: file changed on disk", "is-conflicting"
+        if document.shared.outside.conflicts:
+            return "Conflict: code edited outside", "is-conflicting"
         more = texts.ALSO_OPEN_ELSEWHERE if self.context.workspace.has_other_editor else ""
         return (f"Saved{more}", "") if document.is_saved else (f"Unsaved changes{more}", "is-unsaved")
+
+    def _resolve(self) -> None:
+        if self.context.document.shared.disk_conflict is not None:
+            ask_to_resolve_conflict(self.context)
+        else:
+            ask_to_resolve_code(self.context)
 
     def refresh(self) -> None:
         document = self.context.document
@@ -65,7 +72,9 @@ class Header:
         if self.save_status.text != text:
             self.save_status.set_text(text)
             self.save_status.classes(add=kind, remove=" ".join({"is-unsaved", "is-conflicting"} - {kind}))
-        self.conflict_button.set_visibility(document.shared.disk_conflict is not None)
+        self.conflict_button.set_visibility(
+            document.shared.disk_conflict is not None or bool(document.shared.outside.conflicts)
+        )
         set_enabled(self.buttons["undo"], flag=bool(document.undo_label))
         set_enabled(self.buttons["redo"], flag=bool(document.redo_label))
 

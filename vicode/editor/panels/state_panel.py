@@ -71,6 +71,7 @@ def state_panel(form: Form, name: str) -> None:
     # Sighted users read the name in the field.
     panel_title("State", name, is_visually_hidden=True)
     name_field(form, attribute_binding(item, _NAME), node_renamer(form.context, "states"))
+    changed_outside_note(form, item)
     attribute_field(form, item, DOC)
     with ui.element("div").classes("field-row"):
         _initial(form, item)
@@ -100,6 +101,21 @@ def state_panel(form: Form, name: str) -> None:
     for section, title, hint in _PHASES:
         heading(title, hint=hint)
         actions_panel(form, item, section, calls=section == "actions")
+
+
+def changed_outside_note(form: Form, item: TrackedItem) -> None:
+    """Say that other programs changed code of the state, until another item is selected."""
+    document = form.context.document
+
+    def is_marked() -> bool:
+        path = item.path
+        marked = document.shared.outside.marked_items(document.history)
+        return path is not None and any(each.kind == "states" and each.id == path[1] for each in marked)
+
+    with ui.row().classes("outside-note").props('role="status"') as note:
+        ui.icon("input").props('aria-hidden="true"')
+        ui.label(texts.CHANGED_OUTSIDE)
+    form.watch(is_marked, note.set_visibility)
 
 
 def _aliases(design: Design) -> list[str]:

@@ -55,6 +55,18 @@ SAVED_YOUR_VERSION = "Saved your version"
 SAVED_MERGED_VERSION = "Saved the merged version"
 CONFLICT_ALREADY_RESOLVED = "The conflict is already resolved. See History for the other version."
 CONFLICT_CHANGED = "The file changed again. Review the conflicts."
+CHANGED_OUTSIDE = "Code of this state was changed outside the editor"
+EDITED_OUTSIDE = "Generated code was edited outside"
+CHOOSE_TEXTS = "Choose a text for each. The other one stays in the undo history or in the file until Generate."
+IN_FILE = "In the generated file"
+IN_DESIGN = "In the design"
+CODE_GONE = "The design has no such code any more. Copy what you need; the edit is dropped with the next Generate."
+SAME_LINES_CHANGED = "Both sides changed the same lines."
+DESIGN_CHANGED_GENERATE_AGAIN = "The design has changed. Generate again."
+NOT_UNDERSTOOD = "The rest cannot be expressed in the design. It stays in the copy of the file."
+NOTHING_UNDERSTOOD = "The design cannot express these edits. They stay in the copy of the file."
+EDIT_WAS_UNDONE = "The edit was taken over and undone."
+RESOLVED = "Applied"
 RECOVERY_TITLE = "Recover unsaved changes?"
 RECOVERY_REASON = "The editor stopped before these changes were saved."
 
@@ -216,3 +228,28 @@ def invalid_event(reason: str) -> str:
 
 def not_sandboxed(problem: str) -> str:
     return f"It runs without a sandbox, with all rights of your user account: {problem}."
+
+
+def edits_before_simulation(waiting: int, problem: str, file: str) -> str:
+    """Why code with edits that the design lacks is not simulated."""
+    if waiting:
+        return f"The generated code contains {pluralize(waiting, 'edit')} that the design lacks. Resolve, then restart."
+    if problem:
+        return f"The generated code cannot be compared with the design: {problem}"
+    return f"{file} was edited outside its regions. Generate shows what the design can take over; then restart."
+
+
+def edited_files(names: Sequence[str]) -> str:
+    return f"Edited by hand: {', '.join(names)}. 'Overwrite' keeps a copy as NAME.edited."
+
+
+def taken_over(name: str, component: str) -> str:
+    return f"{name}: {component} takes the edit over"
+
+
+def edited_outside_regions(name: str, *, known: bool) -> str:
+    return f"{name} {'was' if known else 'may have been'} edited outside its regions"
+
+
+def take_over_words(number: int) -> str:
+    return f"Take {pluralize(number, 'edit')} over into the design"

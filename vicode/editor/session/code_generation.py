@@ -7,12 +7,16 @@ from pathlib import Path
 from vicode.check import check_project
 from vicode.editor.session import texts
 from vicode.findings import Finding, Severity
+from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import FileDiff
 from vicode.sync import (
+    FileEdits,
     GeneratedHistory,
     GenerationInput,
     GenerationPlan,
+    RegionKey,
+    TakenEdit,
     back_up,
     describe_edits,
     plan_generation,
@@ -31,11 +35,30 @@ class GenerationResult:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GenerationRequest:
-    """A project with its source files and parse findings, both by component."""
+    """A project with its source files and parse findings, both by component.
+
+    `taken` are the edits of generated files that designs contain already.
+    """
 
     project: Project
     source_paths: Mapping[str, str]
     parse_findings: Mapping[str, tuple[Finding, ...]]
+    taken: Mapping[RegionKey, TakenEdit | None]
+    project_folder: Path
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FileReading:
+    """The edits outside of the regions of a file, read back as edits of its design.
+
+    `base` is the design that the file was compared with, `leftover` what was not understood, as a patch.
+    """
+
+    file: FileEdits
+    base: Design
+    design: Design
+    words: tuple[str, ...]
+    leftover: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,13 +66,14 @@ class PendingOutput:
     """The files that Generate would write to a folder.
 
     `error` is why nothing can be generated; `skipped` why some languages are left out; `manual_edits` are the edits in
-    the files on disk, by path.
+    the files on disk, by path, and `readings` those outside of regions as edits of designs.
     """
 
     folder: Path
     error: str = ""
     skipped: str = ""
     plan: GenerationPlan | None = None
+    readings: tuple["FileReading", ...] = ()
 
     @property
     def changes(self) -> tuple[FileDiff, ...]:
@@ -94,12 +118,25 @@ def prepare_output(folder: Path, job: GenerationRequest, component: str) -> Pend
                 project, components=(component,), languages=sound, sources=job.source_paths
             ),
             kept_paths=list_outputs(project),
-            history=GeneratedHistory(folder=folder),
+            history=GeneratedHistory(folder=folder, project_folder=job.project_folder),
+            taken=job.taken,
         )
     )
     skipped = [language for language in languages if language not in sound]
     reason = texts.nothing_generated(reason, skipped) if skipped else ""
-    return PendingOutput(folder=folder, skipped=reason, plan=plan)
+    readings = tuple(reading for file in plan.edits if (reading := _read_edits(project, file)) is not None)
+    return PendingOutput(folder=folder, skipped=reason, plan=plan, readings=readings)
+
+
+def _read_edits(project: Project, file: FileEdits) -> FileReading | None:
+    from vicode.sync.interpret import interpret_edits  # noqa: PLC0415 - later
+
+    base = project.design(file.component)
+    if not file.is_edited_outside or file.language != "python" or file.new is None or base is None:
+        return None
+    read = interpret_edits(project, file.component, generated=file.new, edited=file.old)
+    words = tuple(edit.words for edit in read.edits)
+    return FileReading(file=file, base=base, design=read.design, words=words, leftover=read.leftover)
 
 
 def _reason(errors: Sequence[Finding], component: str) -> str:

@@ -13,6 +13,7 @@ from vicode.editor.session.presence import DISK_USER
 from vicode.findings import DesignPath, Finding, FindingSubject
 from vicode.generators import UnsoundDesignError, collect_components, component_generator, list_component_paths
 from vicode.model.design import Design
+from vicode.model.merge import merge_designs
 from vicode.model.project import Project
 from vicode.output import FileDiff, FileStatus
 from vicode.regions import find_regions, get_comment_prefix, has_header, is_edited
@@ -88,18 +89,19 @@ def take_in(workspace: "Workspace", document: DocumentSession) -> None:
     new = [edit for edit in edits if edit.finding is None and edit.version not in outside.offered]
     outside.offered |= {edit.version for edit in new}
     merged = [(edit, edit.region.merged or "") for edit in new]
-    if new and _apply(document, merged, f"edited outside: {_listed(new)}"):
+    if new and _apply(document, merged, f"edited outside: {_listed(new)}", _only_user(document)):
         outside.announce(
             f"Edited outside, in {PurePath(new[0].file.path).name}: {_listed(new)}", document.history.current_id
         )
         edits = tuple(edit for edit in edits if edit not in new)
     outside.waiting = edits
     outside.problems = tuple(each for file in files for each in file.problems)
+    outside.edited_outside = tuple(file for file in files if file.is_edited_outside and file.is_origin_known)
     if (outside.waiting, outside.problems) != before:
         document.shared.recheck()
 
 
-def find_waiting(workspace: "Workspace", component: str) -> tuple[DocumentSession, ...]:
+def find_lacking(workspace: "Workspace", component: str) -> tuple[DocumentSession, ...]:
     """Take in the edits of the generated code of a design and of all it uses, which are opened if they have edits.
 
     Returns:
@@ -113,7 +115,7 @@ def find_waiting(workspace: "Workspace", component: str) -> tuple[DocumentSessio
     return tuple(
         document
         for document in workspace.documents
-        if document.design.component in used and document.shared.outside.waiting
+        if document.design.component in used and document.shared.outside.lacks_edits
     )
 
 
@@ -137,10 +139,26 @@ def resolve(workspace: "Workspace", document: DocumentSession, choices: Mapping[
     outside.record((edit for edit, text in chosen if text is None), 0)
     taken = [(edit, text) for edit, text in chosen if text is not None]
     if taken:
-        _apply(document, taken, f"resolve edits outside: {_listed(edit for edit, _text in taken)}")
+        _apply(document, taken, f"resolve edits outside: {_listed(edit for edit, _text in taken)}", document.user_id)
     take_in(workspace, document)
     if document.is_saved:
         save_records(workspace, document)
+
+
+def take_over_design(document: DocumentSession, base: Design, design: Design, words: Sequence[str]) -> bool:
+    """Merge a design that was read back from a generated file; return False on a conflict with the open one.
+
+    Args:
+        document: The open design.
+        base: The design that the file was compared with.
+        design: The same design with the edits.
+        words: The edits in words.
+    """
+    merged = merge_designs(base, document.design, design)
+    if merged.conflicts:
+        return False
+    document.edit(f"edited outside: {'; '.join(words)}", lambda _design: merged.design)
+    return True
 
 
 def save_records(workspace: "Workspace", document: DocumentSession) -> None:
@@ -165,12 +183,16 @@ def _shown_version(edit: OutsideEdit) -> Hashable:
     return (edit.version, edit.region.design_text)
 
 
-def _apply(document: DocumentSession, edits: Sequence[tuple[OutsideEdit, str]], label: str) -> bool:
-    """Change the code in the design, as one edit of its only user or else of no user."""
+def _only_user(document: DocumentSession) -> str:
+    """The only user of a design, who can undo what is taken in like an own edit."""
+    users = {presence.user.id for presence in document.shared.presence.presences}
+    return users.pop() if len(users) == 1 else DISK_USER
+
+
+def _apply(document: DocumentSession, edits: Sequence[tuple[OutsideEdit, str]], label: str, user_id: str) -> bool:
+    """Change the code in the design, as one edit of a user; return whether it changed."""
     shared = document.shared
-    users = {presence.user.id for presence in shared.presence.presences}
-    session = DocumentSession(shared, users.pop() if len(users) == 1 else DISK_USER)
-    before = shared.history
+    session, before = DocumentSession(shared, user_id), shared.history
 
     def change(design: Design) -> Design:
         for edit, text in edits:

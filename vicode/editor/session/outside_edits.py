@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from vicode.editor.session.history import UndoHistory
 from vicode.editor.session.item_paths import TrackedItem
-from vicode.editor.view import ItemRef, item_at_path
+from vicode.editor.view import ItemRef, parse_transition_key
 from vicode.findings import DesignPath, Finding
 from vicode.sync import FileEdits, RegionEdit, RegionKey, TakenEdit
 
@@ -57,6 +57,7 @@ class OutsideEdits:
     Attributes:
         waiting: The edits that the design lacks.
         problems: Errors in the generated files, such as broken marks.
+        edited_outside: Files with edits outside of regions, which are read back by Generate.
         is_postponed: Whether the design has errors, so that edits cannot be found.
         notice: The last announcement.
         offered: The versions of edits that were taken in once; after an undo they wait for a user.
@@ -65,6 +66,7 @@ class OutsideEdits:
 
     waiting: tuple[OutsideEdit, ...] = ()
     problems: tuple[Finding, ...] = ()
+    edited_outside: tuple[FileEdits, ...] = ()
     is_postponed: bool = False
     notice: TakeOverNotice = field(default_factory=TakeOverNotice)
     offered: set[tuple[str, str, str, str]] = field(default_factory=set)
@@ -83,14 +85,19 @@ class OutsideEdits:
         return tuple(edit for edit in self.waiting if edit.region.is_conflict)
 
     @property
+    def lacks_edits(self) -> bool:
+        """Whether the generated files contain something that the design lacks."""
+        return bool(self.waiting or self.problems or self.edited_outside)
+
+    @property
     def findings(self) -> tuple[Finding, ...]:
         return (*self.problems, *(edit.finding for edit in self.waiting if edit.finding is not None))
 
     def marked_items(self, history: UndoHistory) -> frozenset[ItemRef]:
-        """The states, transitions and sections with code that was changed outside and not looked at since."""
+        """The states and sections with code that was changed outside and not looked at since."""
         done = history.done_ids if self._marked else ()
         return frozenset(
-            item_at_path(item.path) for item, entry_id in self._marked if item.path is not None and entry_id in done
+            _owner(item.path) for item, entry_id in self._marked if item.path is not None and entry_id in done
         )
 
     def announce(self, text: str, entry_id: int) -> None:
@@ -101,12 +108,8 @@ class OutsideEdits:
 
     def unmark(self, items: Iterable[ItemRef] | None = None) -> bool:
         """Remove the marks of items, by default all; returns whether there were any."""
-        seen = None if items is None else set(items)
-        kept = tuple(
-            mark
-            for mark in self._marked
-            if seen is not None and mark[0].path and item_at_path(mark[0].path) not in seen
-        )
+        left = None if items is None else {_owner_of(item) for item in items}
+        kept = tuple(mark for mark in self._marked if left is not None and _owner(mark[0].path or ()) not in left)
         is_changed, self._marked = kept != self._marked, kept
         return is_changed
 
@@ -130,3 +133,18 @@ class OutsideEdits:
             return not entry_id or entry_id in done or entry_id not in history.entries
 
         return {key: taken if is_done(entry_id) else None for key, (taken, entry_id) in self._taken.items()}
+
+
+def _owner(path: DesignPath) -> ItemRef:
+    """The item of the canvas that shows the code at a path: the source of a transition."""
+    match path:
+        case ("states", str(name), *_):
+            return ItemRef(kind="states", id=name)
+        case ("common", *_):
+            return ItemRef(kind="common", id="@common")
+        case _:
+            return ItemRef(kind="design")
+
+
+def _owner_of(item: ItemRef) -> ItemRef:
+    return _owner(parse_transition_key(item.id)) if item.kind == "transitions" else item

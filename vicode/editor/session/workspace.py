@@ -275,12 +275,13 @@ class Workspace:
             raise DiskConflictError
         saved = {name: document.shared.saved for name, document in self._documents.items()}
         designs = tuple(saved.get(design.component, design) for design in self.project.designs)
-        findings = {
-            **self._parse_findings,
-            **{name: document.shared.parse_findings for name, document in self._documents.items()},
-        }
+        findings = {name: document.shared.parse_findings for name, document in self._documents.items()}
         job = GenerationRequest(
-            project=replace(self.project, designs=designs), source_paths=self.source_paths, parse_findings=findings
+            project=replace(self.project, designs=designs),
+            source_paths=self.source_paths,
+            parse_findings=self._parse_findings | findings,
+            taken=code_sync.taken_in(self),
+            project_folder=self.folder,
         )
         return code_generation.prepare_output(self.output_folder, job, document.design.component)
 

@@ -1,7 +1,7 @@
 // The SVG groups of nodes: states, components and the common badge. Marks differ in shape, not only in color.
 import { HEX_SLANT } from "./geometry.js";
 import { translateElement, placeGroup } from "./group_transforms.js";
-import { COMMON_TITLE, DISABLED, alias, colored, commonName, componentName, markName, noteName, stateName } from "./strings.js";
+import { CHANGED_OUTSIDE, COMMON_TITLE, DISABLED, alias, colored, commonName, componentName, markName, noteName, stateName } from "./strings.js";
 import { svg } from "./svg.js";
 import { largestLines } from "./text_metrics.js";
 
@@ -50,8 +50,16 @@ function drawState(node) {
   parts.push(svg("text", { class: "name", y: marks.length ? NAME_RISE : 0, text: node.label }), ...largeName(node, w));
   if (marks.length) parts.push(markRow(marks, MARK_ROW));
   if (data.disabled) parts.push(translateElement(svg("path", { class: "off", d: OFF }), -w / 2 + 9, -h / 2 + 14));
+  if (data.outside) parts.push(translateElement(outsideBadge(), -w / 2 + 4, -h / 2 + 2));
   if (data.severity) parts.push(badge(data, w / 2 - 4, -h / 2 + 2));
   return parts;
+}
+
+/** Badge of a state whose code another program changed: an arrow into a box. */
+function outsideBadge() {
+  const group = svg("g", { class: "badge outside", "aria-hidden": "true" });
+  group.append(svg("rect", { x: -9, y: -9, width: 18, height: 18, rx: 4 }), svg("path", { d: "M4.5 -5V5H0M-5.5 0H1M-2 -3.2L1.3 0L-2 3.2" }));
+  return group;
 }
 
 function drawComponent(node) {
@@ -129,7 +137,7 @@ export function nodeTooltip(node) {
   const { data } = node;
   const title = node.of === "common" ? COMMON_TITLE : data.name;
   const second = node.of === "components" && data.name !== data.id ? alias(data.id) : "";
-  return [title, second, data.disabled && DISABLED, data.doc, ...findingMessages(data)].filter(Boolean).join("\n");
+  return [title, second, data.outside && CHANGED_OUTSIDE, data.disabled && DISABLED, data.doc, ...findingMessages(data)].filter(Boolean).join("\n");
 }
 
 function describe(node) {
@@ -138,7 +146,7 @@ function describe(node) {
   if (node.of === "common") return [commonName(data.transitions ?? 0), ...findingMessages(data)].join(", ");
   if (node.of === "components") return [componentName(data.id), data.name, ...findingMessages(data)].join(", ");
   const marks = marksOf(data).map(({ name, count }) => markName(name, count));
-  const facts = [data.initial && "initial", data.final && "final", data.color && colored(data.color), data.disabled && DISABLED, ...marks, ...findingMessages(data)];
+  const facts = [data.outside && CHANGED_OUTSIDE, data.initial && "initial", data.final && "final", data.color && colored(data.color), data.disabled && DISABLED, ...marks, ...findingMessages(data)];
   return [stateName(data.name), ...facts.filter(Boolean)].join(", ");
 }
 

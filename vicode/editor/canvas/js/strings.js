@@ -42,6 +42,7 @@ export const namesOnly = (percent) => `The whole diagram at ${percent}%: names o
 
 // Descriptions of elements
 export const MARKS = { selected: "selected", active: "active", taken: "last transition taken", breakpoint: "breakpoint" };
+export const CHANGED_OUTSIDE = "code changed outside";
 export const DISABLED = "disabled";
 export const EVERY_STATE = "every state";
 export const COMMON_TITLE = "Common transitions, tested before the transitions of each state";

@@ -8,8 +8,10 @@ from nicegui import run
 
 from vicode.editor.canvas import Canvas
 from vicode.editor.panels import texts
+from vicode.editor.panels.code_choices import ask_to_resolve_code
 from vicode.editor.panels.simulation.trust_dialog import ask_for_trust
 from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.code_sync import find_lacking
 from vicode.editor.session.simulation import (
     Breakpoints,
     NotReadyError,
@@ -194,7 +196,7 @@ class SimulationController:
         inputs = self.simulation.inputs if self.simulation and not self.simulation.replay else {}
         self._discard_simulation()
         self.start_error, self.is_stale = "", False
-        prepared = await self._prepare() if await self._may_run() else None
+        prepared = await self._prepare() if await self._may_run() and self._has_all_edits() else None
         if prepared is not None and not self._is_closed:
             self._behavior_key = behavior_key(self.context.workspace.project, prepared.design)
             self.breakpoints = self.breakpoints.existing_in(prepared.design)
@@ -215,6 +217,20 @@ class SimulationController:
         self.start_error = "" if is_allowed else texts.NOT_TRUSTED
         self.sandbox_problem = "" if self.is_replay else await run.io_bound(isolation_problem) or ""
         return is_allowed
+
+    def _has_all_edits(self) -> bool:
+        """Take edits of the generated code in; where the design still lacks some, ask the user and return False."""
+        if self.is_replay:
+            return True
+        lacking = find_lacking(self.context.workspace, self.context.design.component)
+        if lacking:
+            outside = lacking[0].shared.outside
+            problem = outside.problems[0].message if outside.problems else ""
+            file = outside.edited_outside[0].path if outside.edited_outside else ""
+            self.start_error = texts.edits_before_simulation(len(outside.waiting), problem, file)
+            with self.context.client:
+                ask_to_resolve_code(self.context, lacking)
+        return not lacking
 
     def _discard_simulation(self) -> None:
         if self.simulation is not None:
