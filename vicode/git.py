@@ -132,16 +132,20 @@ class Repository:
         elif self.config(name) is not None:
             self._run("config", "--local", "--unset-all", name)
 
-    def hooks_folder(self) -> Path:
-        """The folder of the hooks, which the configuration can set."""
-        plain = _call_git(["-C", str(self.root), "rev-parse", "--git-path", "hooks"])
+    def git_path(self, name: str) -> Path:
+        """A path in the git folder; that of `hooks` can be set by the configuration."""
+        plain = _call_git(["-C", str(self.root), "rev-parse", "--git-path", name])
         return self.root / plain.stdout.decode().strip()
+
+    def write_tree(self) -> str:
+        """The hash of what is staged."""
+        return self._run("write-tree").decode().strip()
 
     def stage(self, paths: Sequence[str]) -> None:
         self._run("add", "--all", "--", *paths)
 
-    def is_merge_commit(self, revision: str) -> bool:
-        return self._try("rev-parse", "--quiet", "--verify", f"{revision}^2") is not None
+    def parents(self, revision: str) -> tuple[str, ...]:
+        return tuple(self._run("show", "--no-patch", "--format=%P", revision).decode().split())
 
     def replace_tree_of_head(self) -> None:
         """Add what is staged to the current commit, without hooks, and also before git has ended its merge."""
@@ -149,14 +153,12 @@ class Repository:
         names = ("AUTHOR_NAME", "AUTHOR_EMAIL", "AUTHOR_DATE", "COMMITTER_NAME", "COMMITTER_EMAIL", "COMMITTER_DATE")
         values = self._run("show", "--no-patch", "--format=%an%n%ae%n%ad%n%cn%n%ce%n%cd", "--date=raw", head)
         author = {f"GIT_{name}": value for name, value in zip(names, values.decode().splitlines(), strict=True)}
-        parents = self._run("show", "--no-patch", "--format=%P", head).decode().split()
         message = self._run("show", "--no-patch", "--format=%B", head).rstrip(b"\n") + b"\n"
-        tree = self._run("write-tree").decode().strip()
         sign = (
             ("-S",) if (self._try("config", "--get", "--type=bool", "commit.gpgSign") or b"").strip() == b"true" else ()
         )
-        links = [part for parent in parents for part in ("-p", parent)]
-        command = [*_SAFE_OPTIONS, "-C", str(self.root), "commit-tree", *sign, tree, *links, "-F", "-"]
+        links = [part for parent in self.parents(head) for part in ("-p", parent)]
+        command = [*_SAFE_OPTIONS, "-C", str(self.root), "commit-tree", *sign, self.write_tree(), *links, "-F", "-"]
         done = _call_git(command, content=message, environment=author)
         if done.returncode:
             raise GitError(_first_line(done.stderr) or "git commit-tree failed")

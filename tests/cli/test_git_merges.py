@@ -152,7 +152,27 @@ def test_generated_files_of_a_merge_are_generated_anew(repository: Path) -> None
     assert "By ours." in generated
     assert "By theirs." in generated
     assert git(repository, "status", "--porcelain") == ""
+    assert git(repository, "show", "--no-patch", "--format=%P %s").count(" ") > 2
+    assert not git(repository, "ls-files", "generated/.vicode/python")
     assert vicode("gen", "--check", "designs/forward") == 0
+
+
+def test_what_a_user_staged_is_not_added_to_a_merge_of_others(repository: Path) -> None:
+    git(repository, "checkout", "-q", "-b", "topic")
+    for branch in ("topic", "main"):
+        git(repository, "checkout", "-q", branch)
+        (repository / f"{branch}.txt").write_text(branch, encoding="utf-8")
+        git(repository, "add", "--all")
+        git(repository, "commit", "-q", "--no-verify", "-m", branch)
+    git(repository, "branch", "before")
+    git(repository, "merge", "-q", "--no-edit", "topic")
+    merged = git(repository, "rev-parse", "HEAD")
+    git(repository, "checkout", "-q", "before")
+    (repository / "mine.txt").write_text("mine", encoding="utf-8")
+    git(repository, "add", "mine.txt")
+    git(repository, "merge", "-q", "--ff-only", "main")
+    assert git(repository, "rev-parse", "HEAD") == merged
+    assert git(repository, "status", "--porcelain") == "A  mine.txt\n"
 
 
 def test_a_commit_with_errors_is_stopped(repository: Path) -> None:

@@ -13,6 +13,8 @@ from vicode.git import GitError, Repository, find_repository
 from vicode.output import write_atomically
 
 _BEGIN, _END = "# vicode hook install: begin", "# vicode hook install: end"
+_STAGED = "vicode-generated"
+"""The file in the git folder with the commit before a merge, and the tree with the generated files."""
 _HOOKS = ("pre-commit", "pre-merge-commit", "post-merge")
 _SHELLS = ("sh", "bash", "dash", "ash", "zsh", "ksh")
 
@@ -93,8 +95,12 @@ def _regenerate(repository: Repository, projects: Sequence[_TrackedProject]) -> 
     tracked = [project for project in projects if project.is_generated_tracked]
     if not tracked:
         return 0
+    merged = repository.write_tree()
     code = main(["gen", *(project.folder for project in tracked)])
     repository.stage(sorted({project.generated for project in tracked}))
+    tree = repository.write_tree()
+    if tree != merged:
+        write_atomically(repository.git_path(_STAGED), f"{repository.head}\n{tree}\n")
     if code:
         print("vicode: the merge is not committed; correct the designs, then 'git commit'", file=sys.stderr)
     return code
@@ -102,8 +108,14 @@ def _regenerate(repository: Repository, projects: Sequence[_TrackedProject]) -> 
 
 def _complete_merge(repository: Repository) -> int:
     """Add the generated files that `_regenerate` staged to the commit of the merge, which git made without them."""
-    staged = repository.list_staged()
-    if staged and repository.is_merge_commit("HEAD"):
+    record = repository.git_path(_STAGED)
+    if not record.is_file():
+        return 0
+    head, tree = record.read_text(encoding="utf-8").split()
+    record.unlink()
+    parents, staged = repository.parents("HEAD"), repository.list_staged()
+    # Otherwise, this is not the merge that staged them, or something else is staged, too.
+    if len(parents) > 1 and parents[0] == head and repository.write_tree() == tree:
         repository.replace_tree_of_head()
         print(f"vicode: generated {len(staged)} file{'s' * (len(staged) != 1)} anew, in the commit of the merge")
     return 0
@@ -118,7 +130,7 @@ def _install(repository: Repository, *, is_removed: bool) -> int:
         if repository.config(name) != (None if is_removed else value):
             repository.set_config(name, None if is_removed else value)
             print(f"{'removed' if is_removed else 'set'} {name} in the configuration of the repository")
-    folder = repository.hooks_folder()
+    folder = repository.git_path("hooks")
     return max([_install_hook(folder / name, is_removed=is_removed) for name in _HOOKS])
 
 
