@@ -221,10 +221,16 @@ def test_all_edits_at_once() -> None:
 
 
 def test_lines_are_those_of_the_edited_file() -> None:
-    edited = edited_player(("from typing", "import math\nfrom typing"), ("speed=210.0", "speed=250.0"))
+    removed = UNDERSTOOD["removed transition"][0]
+    edited = edited_player(("from typing", "import math\nfrom typing"), ("speed=210.0", "speed=250.0"), removed)
     lines = edited.split("\n")
     found = {edit.words.split(" ")[0]: lines[edit.line - 1].strip() for edit in interpret(edited).edits}
-    assert found == {"modulation": "self._call(self.follow_ball, speed=250.0)", "module": "import math"}
+    assert found == {
+        "modulation": "self._call(self.follow_ball, speed=250.0)",
+        "module": "import math",
+        # The last statement before the place of what was removed, or the first one behind it.
+        "transition": "return",
+    }
 
 
 # Replacements in the generated file that have no clear meaning in the design.

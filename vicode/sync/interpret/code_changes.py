@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from difflib import SequenceMatcher
 from itertools import groupby
 
@@ -16,12 +17,13 @@ def find_changes(old: NormalForm, new: NormalForm) -> Iterator[CodeChange]:
     for tag, first, last, start, end in SequenceMatcher(None, old.keys, new.keys, autojunk=False).get_opcodes():
         if tag == "equal":
             continue
-        removed, added = old.items[first:last], new.items[start:end]
-        yield from _pairs(removed, added)
-        whole.append(CodeChange(removed=removed, added=added))
+        line = new.items[min(start, len(new.items) - 1)].first if new.items else 1
+        change = CodeChange(removed=old.items[first:last], added=new.items[start:end], line=line)
+        yield from (replace(pair, line=line) for pair in _pairs(change.removed, change.added))
+        whole.append(change)
     for change in whole:
         yield change
-        yield from _runs(change)
+        yield from (replace(run, line=change.line) for run in _runs(change))
 
 
 def _pairs(removed: Sequence[CodeItem], added: Sequence[CodeItem]) -> Iterator[CodeChange]:

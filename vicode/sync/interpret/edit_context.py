@@ -18,14 +18,22 @@ _MARK = re.compile(r"\s*# </?vicode\b")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodeChange:
-    """Items of the generated code that a person replaced by others; one of the two may be empty."""
+    """Items of the generated code that a person replaced by others; one of the two may be empty.
+
+    `line` is the line in the edited file where the first items are or were.
+    """
 
     removed: tuple[CodeItem, ...] = ()
     added: tuple[CodeItem, ...] = ()
+    line: int = 1
 
     @property
     def sides(self) -> tuple[tuple[CodeItem, ...], tuple[CodeItem, ...]]:
         return self.removed, self.added
+
+    @property
+    def key(self) -> object:
+        return tuple(tuple(item.key for item in items) for items in self.sides)
 
     @property
     def item(self) -> CodeItem:
@@ -74,6 +82,16 @@ class EditContext:
         if state is None or kind not in ("in", "enter", "leave"):
             return None
         return Place(source=state, phase="" if kind == "in" else kind)
+
+    def is_kept(self, change: CodeChange) -> bool:
+        """Whether the edited file still has what a change is a part of: its definition, or the state that it is of."""
+        scopes = {item.scope for item in self.edited}
+        scope = change.item.scope
+        if scope in scopes:
+            return True
+        place = self.place_of(scope)
+        owners = {f"_in_{stem}" for stem, name in self.stems.items() if place and place.source in (name, COMMON)}
+        return any(method_name(each) in owners for each in scopes)
 
     def decisions_in(self, place: Place) -> list[LocatedDecision]:
         if place.phase not in ("", "decisions"):

@@ -4,6 +4,7 @@ The distance of modules counts the statements to delete and insert. An edit is u
 lies between the code generated without it and the edited file; it contains nothing that the person did not write.
 """
 
+import ast
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -19,12 +20,14 @@ from vicode.sync.interpret.class_proposals import propose_class_code, propose_cl
 from vicode.sync.interpret.code_changes import find_changes
 from vicode.sync.interpret.decision_proposals import propose_decisions
 from vicode.sync.interpret.edit_context import CodeChange, EditContext
+from vicode.sync.interpret.form_distance import form_distance
 from vicode.sync.interpret.leftover import LeftoverWriter, import_statement, make_patch
 from vicode.sync.interpret.normal_form import NormalForm, build_normal_form, collect_parts
 from vicode.sync.interpret.renames import find_word_mapping, list_states, map_parts, map_words, propose_renames
-from vicode.sync.interpret.sequence_distance import distance
 
-_SOURCE = re.compile(r'^    design_file = "([^"\\]*)"$', re.MULTILINE)
+_SOURCE = re.compile(r"^    design_file = (.*)$", re.MULTILINE)
+_MAX_PROPOSALS = 3000
+"""Limits the time for a file that has little in common with the generated one."""
 _Imports = frozenset[tuple[str, str, str]]
 
 
@@ -64,7 +67,7 @@ def interpret_edits(project: Project, component: str, *, generated: str, edited:
         search = _Search(project, design, generated, edited)
     except SyntaxError:
         return Interpretation(design=design, leftover=make_patch(generated, edited, component))
-    if not search.is_generated_from(generated):
+    if not search.is_possible(generated):
         return Interpretation(design=design, leftover=make_patch(generated, edited, component))
     search.run()
     return Interpretation(design=search.design, edits=tuple(search.edits), leftover=search.write_leftover())
@@ -79,7 +82,7 @@ class _Search:
         self._write = component_generator(
             project,
             "python",
-            {design.component: source[1]} if source else {},
+            {design.component: ast.literal_eval(source[1])} if source else {},
             standalone="\nfrom .bica import " in generated,
         )
         self.design, self._text, self._edited = design, generated, edited
@@ -88,16 +91,28 @@ class _Search:
         self._target = build_normal_form(edited, self._parts, is_generated=False)
         self._old_imports = self._form.imports
         self._errors = self._find_errors(design)
+        self._failed: set[object] = set()
+        self._proposal_count = 0
         self.edits: list[InterpretedEdit] = []
 
-    def is_generated_from(self, text: str) -> bool:
-        """Whether the text is generated from the design."""
-        return self._write_text(self.design) == text
+    def is_possible(self, generated: str) -> bool:
+        """Whether the text is generated from the design, and the edited file still has its class."""
+        classes = {item.scope for item in self._form.raw if isinstance(item.node, ast.ClassDef)}
+        scopes = {item.scope for item in self._target.raw}
+        return self._write_text(self.design) == generated and classes <= scopes
 
     def run(self) -> None:
         """Apply every edit that is understood."""
-        while self._form.keys != self._target.keys and (self._apply_rename() or self._apply_edit()):
-            pass
+        has_progress = False
+        while self._form.keys != self._target.keys and self._proposal_count < _MAX_PROPOSALS:
+            if self._apply_rename() or self._apply_edit():
+                has_progress = True
+            elif has_progress:
+                # What was not understood at first may depend on an edit that was understood since, as on a declaration.
+                self._failed.clear()
+                has_progress = False
+            else:
+                break
         self._apply_imports()
 
     def write_leftover(self) -> str:
@@ -124,7 +139,7 @@ class _Search:
             target = build_normal_form(edited, parts, is_generated=False)
             if build_normal_form(map_words(self._text, mapping), parts, is_generated=True).keys != form.keys:
                 continue
-            if distance(form.keys, target.keys) >= distance(self._form.keys, self._target.keys):
+            if form_distance(form, target) >= form_distance(self._form, self._target):
                 continue
             self._accept(design, self._first_difference())
             self._text, self._form, self._parts = text, form, parts
@@ -133,36 +148,45 @@ class _Search:
         return False
 
     def _apply_edit(self) -> bool:
-        total = distance(self._form.keys, self._target.keys)
+        total = form_distance(self._form, self._target)
         context = self._context()
         seen = {self.design}
+        changes = [change for change in find_changes(self._form, self._target) if context.is_kept(change)]
         for proposers in _PROPOSERS:
-            for change in find_changes(self._form, self._target):
-                for design in (design for propose in proposers for design in propose(context, change)):
-                    if design in seen:
-                        continue
-                    seen.add(design)
-                    if self._try(design, change, total):
+            for change in changes:
+                key = (proposers, change.key)
+                proposals = (
+                    () if key in self._failed else (each for propose in proposers for each in propose(context, change))
+                )
+                for design in proposals:
+                    if design not in seen and self._try(design, change, total):
                         return True
+                    seen.add(design)
+                self._failed.add(key)
         return False
 
     def _try(self, design: Design, change: CodeChange, total: int) -> bool:
         """Accept a proposal if its code contains nothing but what the person wrote."""
-        result = self._generate(design)
+        self._proposal_count += 1
+        result = self._generate(design) if self._proposal_count < _MAX_PROPOSALS else None
         if result is None or not self._is_between(result[1], total) or self._has_new_errors(design):
             return False
-        self._accept(design, change.item.first if change.added else self._first_difference())
+        self._accept(design, change.item.first if change.added else change.line)
         self._text, self._form = result
         return True
 
     def _is_between(self, form: NormalForm, total: int) -> bool:
         """Whether a form is a part of the way from the generated text to the edited one."""
-        step = distance(self._form.keys, form.keys)
-        return 0 < step <= total and step + distance(form.keys, self._target.keys) == total
+        step = form_distance(self._form, form)
+        return 0 < step <= total and step + form_distance(form, self._target) == total
 
     def _apply_imports(self) -> None:
         """Move imports that were added to the code of the module."""
+        bound = {alias or name or module for module, name, alias in self._form.imports}
         for name in sorted(self._added_imports()):
+            # An import in place of a generated one has another meaning.
+            if name[0] == "__future__" or (name[2] or name[1] or name[0]) in bound:
+                continue
             design = with_imports(self.design, [import_statement(*name)])
             result = self._generate(design)
             if result is None or result[1].keys != self._form.keys or self._has_new_errors(design):
