@@ -1,49 +1,14 @@
-"""Edits of a generated file are read back as edits of its design; what is not understood is a patch."""
+"""Edits of a generated file are read back as edits of its design."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
-from tests.sync.patches import apply_patch
+from tests.sync.player_edits import FORWARD, PLAYER, Replacement, edited_player, interpret, player, text_of
 from vicode.generators import component_generator
-from vicode.model.design import Design, RunCode
+from vicode.model.design import Declaration, Design, Guard, RunCode, State, Stay, Transition
 from vicode.model.project import Project
-from vicode.store import open_project
 from vicode.sync.interpret import Interpretation, interpret_edits
-from vicode.sync.same_code import is_same_code
-
-ROOT = Path(__file__).parents[2]
-FORWARD = open_project(ROOT / "designs" / "forward").project
-Replacement = tuple[str, str]
-
-
-def text_of(project: Project, design: Design) -> str:
-    code = component_generator(project, "python", {"Player": "player.yaml"})(design)
-    assert code is not None
-    return code.file.text
-
-
-def player() -> Design:
-    design = FORWARD.design("Player")
-    assert design is not None
-    return design
-
-
-PLAYER = text_of(FORWARD, player())
-
-
-def edited_player(*replacements: Replacement) -> str:
-    text = PLAYER
-    for old, new in replacements:
-        assert old in text, old
-        text = text.replace(old, new, 1)
-    return text
-
-
-def interpret(edited: str) -> Interpretation:
-    return interpret_edits(FORWARD, "Player", generated=PLAYER, edited=edited)
-
 
 KICKER_CALL = "        self._call(self.kicker, kick=self.kick, side=self.side)\n"
 SEEN = (
@@ -233,44 +198,6 @@ def test_lines_are_those_of_the_edited_file() -> None:
     }
 
 
-# Replacements in the generated file that have no clear meaning in the design.
-LEFT_OVER = {
-    "statement in a decision": (
-        '            self._change_to("GetUp")',
-        '            log.info("x")\n            self._change_to("GetUp")',
-    ),
-    "comment with another time": ("# after 0.5 s", "# after 0.7 s"),
-    "comment": ("        self.kicks += 1\n", "        # once more\n        self.kicks += 1\n"),
-    "base class": ("class Player(Component):", "class Player(Component, Mixin):"),
-    "undeclared name": ("perception.ball_seen:", "perception.ball_color:"),
-    "function": ("perception.ball_seen:", "perception.look(3):"),
-    "another state": ('self._change_to("FollowBall")', 'self._change_to("Nowhere")'),
-    "local name": (
-        "        self._call(self.stand_up)\n",
-        "        tries = 3\n        self._call(self.stand_up)\n        log.info(tries)\n",
-    ),
-    "return": (
-        "        self._call(self.stand_up)\n",
-        "        if self.kicks:\n            return\n        self._call(self.stand_up)\n",
-    ),
-    "removed import": ("from field.walk import Walk\n", ""),
-    "annotation": ("self.kicks = 0", "self.kicks: int = 0"),
-    "generated method": ("def _in_kick(self, decide: bool = True)", "def _in_kick(self, decide: bool = False)"),
-    "decorator": ("    def _in_kick(", "    @override\n    def _in_kick("),
-}
-
-
-@pytest.mark.parametrize("name", LEFT_OVER)
-def test_an_edit_that_stays_a_patch(name: str, tmp_path: Path) -> None:
-    edited = edited_player(LEFT_OVER[name], UNDERSTOOD["argument"][0])
-    result = interpret(edited)
-    assert [edit.words for edit in result.edits] == [UNDERSTOOD["argument"][1]]
-    changed = [line for line in result.leftover.split("\n") if line[:1] in "+-" and line[:3] not in ("+++", "---")]
-    assert 1 <= len(changed) <= 4
-    patched = apply_patch(text_of(FORWARD, result.design), result.leftover, tmp_path)
-    assert is_same_code(patched, edited.replace("speed=250", "speed=250.0"))
-
-
 def test_a_rename_is_followed() -> None:
     names = (
         ('State("GetUp", self._in_get_up', 'State("StandUp", self._in_stand_up'),
@@ -320,15 +247,74 @@ def test_the_order_of_actions_is_kept() -> None:
     assert state.modulates == ()
 
 
-def test_text_that_is_not_python_is_a_patch(tmp_path: Path) -> None:
-    edited = edited_player(("def _in_kick(", "def ("))
-    result = interpret(edited)
-    assert result.edits == ()
-    assert apply_patch(PLAYER, result.leftover, tmp_path) == edited
+def test_an_edit_may_depend_on_another_one() -> None:
+    # The guard is read before the variable that it needs, which stands further down.
+    variable = ("        self.side = Side.left\n", "        self.side = Side.left\n        self.tries = 5\n")
+    result = interpret(edited_player(("if self.perception.fallen:", "if self.tries > 3:"), variable))
+    assert [edit.words for edit in result.edits] == ["variable tries: 5", "guard of common → GetUp: tries > 3"]
+    assert result.leftover == ""
 
 
-def test_a_text_of_another_design_is_a_patch() -> None:
-    older = PLAYER.replace("speed=210.0", "speed=200.0")
-    assert interpret_edits(FORWARD, "Player", generated=older, edited=PLAYER).edits == ()
-    with pytest.raises(ValueError, match="Nobody"):
-        interpret_edits(FORWARD, "Nobody", generated="", edited="")
+def test_an_import_that_the_generator_adds_is_no_edit() -> None:
+    declared = ("    front_limit,\n", "    diagonal_angle,\n    front_limit,\n")
+    edited = edited_player(
+        ("    diagonal_angle,\n", ""), declared, ("if self.perception.fallen:", "if self.perception.ball_age > far:")
+    )
+    constants = (*FORWARD.constants, Declaration(name="far", initial="9"))
+    project = replace(FORWARD, constants=constants)
+    # The person may have added the import of a constant or not.
+    for text in (edited, edited.replace("    front_limit,", "    far,\n    front_limit,", 1)):
+        result = interpret_edits(project, "Player", generated=PLAYER, edited=text)
+        assert [edit.words for edit in result.edits] == ["guard of common → GetUp: perception.ball_age > far"]
+        assert result.leftover == ""
+
+
+def test_a_package_with_its_own_runtime() -> None:
+    code = component_generator(FORWARD, "python", {"Player": "player.yaml"}, standalone=True)(player())
+    assert code is not None
+    old, new = UNDERSTOOD["timer"][0]
+    result = interpret_edits(FORWARD, "Player", generated=code.file.text, edited=code.file.text.replace(old, new))
+    assert (len(result.edits), result.leftover) == (1, "")
+
+
+SMALL = Design(
+    component="Player",
+    initial="A",
+    parameters=(Declaration(name="speed", type="float", initial="1"),),
+    states=(
+        State(name="A", transitions=(Stay(guard=Guard(when="speed > 2")), Transition(to="B", guard=Guard(after="3")))),
+        State(name="B", doc="first line\n\nsecond paragraph"),
+        State(name="C"),
+    ),
+)
+
+
+@pytest.mark.parametrize(
+    ("replacements", "words"),
+    [
+        (
+            (("speed: float = 1.0", "speed: float = 2.5"), ("self.speed = 1.0", "self.speed = 2.5")),
+            ["value of parameter speed: 2.5"],
+        ),
+        (
+            (("self._stay()", 'self._change_to("B")'),),
+            ["stay in A: when speed > 2", "transition A → B: when speed > 2"],
+        ),
+        (
+            (("            if self.speed > 2:\n                self._stay()\n                return\n", ""),),
+            ["stay in A: when speed > 2"],
+        ),
+        ((('self._change_to("B")', "self._stay()"),), ["transition A → B: after 3", "stay in A: after 3"]),
+        ((("second paragraph", "third\n        paragraph"),), ["description of state B: third paragraph"]),
+        ((("        pass\n", "        print(self.speed)\n"),), ["action of state C: print(self.speed)"]),
+        ((("3_000_000_000", "250_000_000"),), ["time of A → B: 0.25"]),
+    ],
+)
+def test_a_small_design(replacements: tuple[Replacement, ...], words: list[str]) -> None:
+    project = Project(name="small", designs=(SMALL,))
+    text = edited = text_of(project, SMALL)
+    for old, new in replacements:
+        edited = edited.replace(old, new, 1)
+    result = interpret_edits(project, "Player", generated=text, edited=edited)
+    assert edited != text
+    assert ([edit.words for edit in result.edits], result.leftover) == (words, "")

@@ -1,0 +1,73 @@
+"""Edits of a generated file without a clear meaning in the design stay a patch of the generated code."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.sync.patches import apply_patch
+from tests.sync.player_edits import FORWARD, PLAYER, edited_player, interpret, text_of
+from vicode.sync.interpret import interpret_edits
+from vicode.sync.same_code import is_same_code
+
+SPEED = ("speed=210.0", "speed=250")
+
+# Replacements in the generated file that have no clear meaning in the design.
+LEFT_OVER = {
+    "statement in a decision": (
+        '            self._change_to("GetUp")',
+        '            log.info("x")\n            self._change_to("GetUp")',
+    ),
+    "comment with another time": ("# after 0.5 s", "# after 0.7 s"),
+    "comment": ("        self.kicks += 1\n", "        # once more\n        self.kicks += 1\n"),
+    "base class": ("class Player(Component):", "class Player(Component, Mixin):"),
+    "undeclared name": ("perception.ball_seen:", "perception.ball_color:"),
+    "function": ("perception.ball_seen:", "perception.look(3):"),
+    "another state": ('self._change_to("FollowBall")', 'self._change_to("Nowhere")'),
+    "local name": (
+        "        self._call(self.stand_up)\n",
+        "        tries = 3\n        self._call(self.stand_up)\n        log.info(tries)\n",
+    ),
+    "return": (
+        "        self._call(self.stand_up)\n",
+        "        if self.kicks:\n            return\n        self._call(self.stand_up)\n",
+    ),
+    "removed import": ("from field.walk import Walk\n", ""),
+    "annotation": ("self.kicks = 0", "self.kicks: int = 0"),
+    "generated method": ("def _in_kick(self, decide: bool = True)", "def _in_kick(self, decide: bool = False)"),
+    "decorator": ("    def _in_kick(", "    @override\n    def _in_kick("),
+}
+
+
+@pytest.mark.parametrize("name", LEFT_OVER)
+def test_an_edit_that_stays_a_patch(name: str, tmp_path: Path) -> None:
+    edited = edited_player(LEFT_OVER[name], SPEED)
+    result = interpret(edited)
+    assert [edit.words for edit in result.edits] == ["modulation of follow_ball in state FollowBall: speed: 250"]
+    changed = [line for line in result.leftover.split("\n") if line[:1] in "+-" and line[:3] not in ("+++", "---")]
+    assert 1 <= len(changed) <= 4
+    patched = apply_patch(text_of(FORWARD, result.design), result.leftover, tmp_path)
+    assert is_same_code(patched, edited.replace("speed=250", "speed=250.0"))
+
+
+def test_text_that_is_not_python_is_a_patch(tmp_path: Path) -> None:
+    edited = edited_player(("def _in_kick(", "def ("))
+    result = interpret(edited)
+    assert result.edits == ()
+    assert apply_patch(PLAYER, result.leftover, tmp_path) == edited
+
+
+def test_a_text_of_another_design_is_a_patch() -> None:
+    older = PLAYER.replace("speed=210.0", "speed=200.0")
+    assert interpret_edits(FORWARD, "Player", generated=older, edited=PLAYER).edits == ()
+    with pytest.raises(ValueError, match="Nobody"):
+        interpret_edits(FORWARD, "Nobody", generated="", edited="")
+
+
+def test_imports_in_place_of_others_stay(tmp_path: Path) -> None:
+    edited = edited_player(
+        ("from field.walk import Walk", "from field.gait import Walk"),
+        ("import annotations", "import (annotations, generators)"),
+    )
+    result = interpret(edited)
+    assert result.edits == ()
+    assert is_same_code(apply_patch(PLAYER, result.leftover, tmp_path), edited)
