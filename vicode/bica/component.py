@@ -26,6 +26,7 @@ RESERVED_NAMES = frozenset(
         "restart",
         "resume",
         "root",
+        "set_frequency",
         "state",
         "state_time",
         "step",
@@ -144,6 +145,10 @@ class Component:
 
     def close(self) -> None:
         """Release what the component holds, such as motors; called once, at the end of the run."""
+
+    def set_frequency(self, hertz: float) -> None:
+        """Work at another frequency than `frequency_hz` from now on; 0 means in each iteration."""
+        self._period_ns = round(1e9 / hertz) if hertz else 0
 
     @property
     def is_done(self) -> bool:

@@ -85,13 +85,13 @@ class Observer:
         if len(self._errors) < _MAX_ERRORS:
             self._errors.append({**asdict(error), "file": Path(error.file).name})
 
-    def observe_iteration(self, root: Root) -> None:
-        """Step the root component and pass the record of the iteration to the sink."""
+    def observe_iteration(self, root: Root, step: Callable[[], None] | None = None) -> None:
+        """Step the root component, by default with its method, and pass the record of the iteration to the sink."""
         self._tree, self._errors = [], []
         self._active.clear()
         self._modulated = None
         try:
-            root.main.step()
+            (step or root.main.step)()
         finally:
             errors = self._errors
             self._sink({"iteration": root.iteration, "time_ns": root.now_ns, "tree": self._tree, "errors": errors})

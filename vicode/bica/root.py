@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -15,6 +16,7 @@ from .team import Team
 from .timing import CycleTimes, measure_steps
 
 if TYPE_CHECKING:
+    from .live_server import LiveServer
     from .observer import Observer
 
 C = TypeVar("C", bound=Component)
@@ -55,6 +57,9 @@ class Root:
         self._on_error = on_error
         self._has_on_error_failed = False
         self._observer = observer
+        self._error_listeners: list[Callable[[ErrorRecord], None]] = []
+        if observer is not None:
+            self._error_listeners.append(observer.add_error)
         self._components: dict[type[Component], Component] = {}
         self._under_construction: list[type[Component]] = []
         self._cycle_times: dict[str, CycleTimes] | None = None
@@ -68,6 +73,10 @@ class Root:
             self.close()
             raise
         self._step_main = self._find_step()
+        if "VICODE_WATCH" in os.environ:
+            from .live import watch_from_environment  # noqa: PLC0415 - off by default
+
+            watch_from_environment(self)
 
     def __enter__(self) -> Self:
         return self
@@ -131,6 +140,23 @@ class Root:
         self.iteration += 1
         step_main()
 
+    def watch(self, address: str | int = 0, *, token: str = "", control: bool = False, name: str = "") -> LiveServer:
+        """Let viewers connect (`vicode attach`); the robot never waits for them.
+
+        Args:
+            address: A port on 127.0.0.1, "HOST:PORT", or "unix:PATH"; 0 selects a free port. Roots of one process with
+                the same address share a server.
+            token: What viewers must know, by default a random text, which is printed; a Unix socket needs none.
+            control: Whether viewers may pause the robot and change values and states.
+            name: The name of the robot, by default that of its main component.
+
+        Raises:
+            OSError: The address is in use or invalid.
+        """
+        from .live import watch_root  # noqa: PLC0415 - off by default
+
+        return watch_root(self, address, token=token, control=control, name=name)
+
     def close(self) -> None:
         """Call `close` of each component, the last created first, and then of the world; later calls do nothing.
 
@@ -141,8 +167,8 @@ class Root:
     def report(self, record: ErrorRecord) -> None:
         """Count the error of a component and handle it according to `on_error`."""
         self.errors[record.place] += 1
-        if self._observer is not None:
-            self._observer.add_error(record)
+        for listener in self._error_listeners:
+            listener(record)
         if callable(self._on_error):
             self._call_on_error(self._on_error, record)
         elif self._on_error == "stop":
@@ -165,10 +191,14 @@ class Root:
 
     def _continue_time(self, clock_ns: int) -> int:
         """Return the time of the last iteration, from which time continues after the clock was set back."""
-        self._lag_ns += self.now_ns - clock_ns
+        self._skip_time(clock_ns - self.now_ns)
+        return self.now_ns
+
+    def _skip_time(self, ns: int) -> None:
+        """Leave out a time that passed on the clock."""
+        self._lag_ns -= ns
         read_clock, lag_ns = self.clock.now_ns, self._lag_ns
         self._read_clock = lambda: read_clock() + lag_ns
-        return self.now_ns
 
     def _close_component(self, component: Component) -> None:
         try:

@@ -1,0 +1,238 @@
+"""Requests of viewers that change a running root: pause, step, breakpoints, values, states, errors, frequencies."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable, Mapping
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+from .errors import make_error_record
+
+if TYPE_CHECKING:
+    from .component import Component
+    from .observer import IterationRecord
+    from .root import Root
+
+_MAX_FREQUENCY_HZ = 10_000.0
+
+
+class ControlError(ValueError):
+    """A request that cannot be applied."""
+
+
+class InjectedError(Exception):
+    """An exception that a viewer asked for."""
+
+
+class Controller:
+    """Applies requests between iterations. What a viewer holds ends when it releases it or disconnects."""
+
+    def __init__(self, root: Root) -> None:
+        self._root = root
+        self._paused_by: object = None
+        self._steps_left = 0
+        self._breakpoints: dict[object, frozenset[tuple[str, str]]] = {}
+        self._held: dict[tuple[str, str], tuple[object, Any]] = {}
+        self._injected: dict[str, str] = {}
+        self._actions: Mapping[str, Callable[[object, dict[str, Any]], str]] = {
+            "pause": self._pause,
+            "resume": self._resume,
+            "step": self._step,
+            "break": self._break,
+            "set": self._set,
+            "unset": self._unset,
+            "enter": self._enter,
+            "raise": self._raise,
+            "frequency": self._set_frequency,
+            "tune": self._tune,
+            "release": self._release,
+        }
+
+    @property
+    def is_paused(self) -> bool:
+        return self._paused_by is not None and not self._steps_left
+
+    @property
+    def has_effects(self) -> bool:
+        """Whether `prepare_step` changes steps."""
+        return bool(self._held or self._injected)
+
+    def apply(self, viewer: object, request: dict[str, Any]) -> str:
+        """Apply a request and return what was done, for the log; "" for what needs no line.
+
+        Raises:
+            ControlError: The request is not valid.
+        """
+        action = self._actions.get(str(request.get("do")))
+        if action is None:
+            raise ControlError(f"unknown request {request.get('do')!r}; known are {', '.join(self._actions)}")
+        return action(viewer, request)
+
+    def check_breakpoints(self, record: IterationRecord) -> None:
+        """Pause if an iteration entered a state with a breakpoint; count steps."""
+        if self._steps_left:
+            self._steps_left -= 1
+        for viewer, places in self._breakpoints.items():
+            for step in record["tree"]:
+                is_hit = step["changed_from"] is not None and (step["component"], step["state"]) in places
+                if is_hit or (record["errors"] and ("", "error") in places):
+                    self._paused_by = viewer
+                    self._steps_left = 0
+
+    def prepare_step(self, component: Component, plain_step: Callable[[], None]) -> Callable[[], None]:
+        """The step of a component with injected errors and held values."""
+        name = type(component).__name__
+        message = self._injected.pop(name, None)
+        values = {attribute: value for (owner, attribute), (_viewer, value) in self._held.items() if owner == name}
+        if message is None and not values:
+            return plain_step
+
+        def step() -> None:
+            if message is not None:
+                component._stepped_in = component.root.iteration
+                try:
+                    _fail(message)
+                except InjectedError as error:
+                    component.root.report(make_error_record(component, error))
+                return
+            vars(component).update(values)
+            plain_step()
+            vars(component).update(values)
+
+        return step
+
+    def _pause(self, viewer: object, _request: dict[str, Any]) -> str:
+        self._paused_by, self._steps_left = viewer, 0
+        return "paused"
+
+    def _resume(self, _viewer: object, _request: dict[str, Any]) -> str:
+        self._paused_by, self._steps_left = None, 0
+        return "resumed"
+
+    def _step(self, viewer: object, request: dict[str, Any]) -> str:
+        count = request.get("count", 1)
+        if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= 1_000_000:
+            raise ControlError("'count' must be a whole number from 1")
+        self._paused_by, self._steps_left = viewer, count
+        return ""
+
+    def _break(self, viewer: object, request: dict[str, Any]) -> str:
+        """Replace the breakpoints of a viewer: pairs of component and state; ["", "error"] stops on errors."""
+        places = request.get("places")
+        if not isinstance(places, list) or not all(
+            isinstance(place, list) and len(place) == 2 and all(isinstance(part, str) for part in place)
+            for place in places
+        ):
+            raise ControlError("'places' must be a list of [component, state]")
+        for component, state in places:
+            if component and state not in self._component(component)._states:
+                raise ControlError(f"{component} has no state '{state}'")
+        self._breakpoints[viewer] = frozenset((component, state) for component, state in places)
+        return ""
+
+    def _set(self, viewer: object, request: dict[str, Any]) -> str:
+        component, name = self._component(request.get("component")), str(request.get("name"))
+        value = _convert(request.get("value"), _read_plain(component, name), f"{type(component).__name__}.{name}")
+        vars(component)[name] = value
+        if request.get("hold"):
+            self._held[type(component).__name__, name] = (viewer, value)
+        verb = "holds" if request.get("hold") else "set"
+        return f"{verb} {type(component).__name__}.{name} = {value}"
+
+    def _unset(self, _viewer: object, request: dict[str, Any]) -> str:
+        self._held.pop((str(request.get("component")), str(request.get("name"))), None)
+        return f"released {request.get('component')}.{request.get('name')}"
+
+    def _enter(self, _viewer: object, request: dict[str, Any]) -> str:
+        """Leave the active state of a component and enter another; its transitions are tested in the next iteration."""
+        component = self._component(request.get("component"))
+        name = type(component).__name__
+        new = component._states.get(str(request.get("state")))
+        if new is None:
+            raise ControlError(f"{name} has no state '{request.get('state')}'")
+        if self._root.iteration - component._stepped_in > 1:
+            raise ControlError(f"{name} is not active: it was not stepped in the last iteration")
+        old = component._current
+        if old.leave is not None:
+            old.leave()
+        component._current, component.state, component._entered_ns = new, new.name, self._root.now_ns
+        component._called = []
+        if new.enter is not None:
+            new.enter()
+        return f"{name}: {old.name} → {new.name}"
+
+    def _raise(self, _viewer: object, request: dict[str, Any]) -> str:
+        component = self._component(request.get("component"))
+        name, message = type(component).__name__, str(request.get("message") or "injected error")[:200]
+        self._injected[name] = message
+        return f"the next step of {name} raises: {message}"
+
+    def _set_frequency(self, _viewer: object, request: dict[str, Any]) -> str:
+        component = self._component(request.get("component"))
+        hertz = request.get("hz")
+        if not isinstance(hertz, int | float) or isinstance(hertz, bool) or not 0 < hertz <= _MAX_FREQUENCY_HZ:
+            raise ControlError(f"'hz' must be a number greater than 0, up to {_MAX_FREQUENCY_HZ:g}")
+        component.set_frequency(hertz)
+        return f"{type(component).__name__} works at {hertz:g} Hz"
+
+    def _tune(self, _viewer: object, request: dict[str, Any]) -> str:
+        """Set a constant in every module that uses it."""
+        name = str(request.get("name"))
+        modules = {sys.modules[type(each).__module__] for each in self._root.components}
+        owners = [module for module in modules if name in vars(module)]
+        shared = {sys.modules.get(f"{module.__package__}.declarations") for module in modules}
+        declarations = [module for module in shared if module is not None and name in vars(module)]
+        if not declarations or not owners:
+            raise ControlError(f"no component uses a constant '{name}'")
+        value = _convert(request.get("value"), getattr(declarations[0], name), name)
+        for module in (*owners, *declarations):
+            setattr(module, name, value)
+        return f"constant {name} = {value}"
+
+    def _release(self, viewer: object, _request: dict[str, Any]) -> str:
+        was_paused = self._paused_by is viewer
+        if was_paused:
+            self._paused_by, self._steps_left = None, 0
+        self._breakpoints.pop(viewer, None)
+        self._held = {key: held for key, held in self._held.items() if held[0] is not viewer}
+        return "resumed, as the viewer that paused has left" if was_paused else ""
+
+    def _component(self, name: object) -> Component:
+        for component in self._root.components:
+            if type(component).__name__ == name:
+                return component
+        raise ControlError(f"no component {name!r}")
+
+
+def _fail(message: str) -> None:
+    raise InjectedError(message)
+
+
+def _read_plain(component: Component, name: str) -> Any:
+    """The value of a public attribute of a component."""
+    value = None if name.startswith("_") else vars(component).get(name)
+    if not isinstance(value, bool | int | float | str | Enum):
+        raise ControlError(f"{type(component).__name__} has no value '{name}' that can be set")
+    return value
+
+
+def _convert(value: object, old: Any, name: str) -> Any:
+    """A JSON value in the type of the old value; enumerations are written "Type.element"."""
+    if isinstance(old, Enum):
+        kind = type(old)
+        element = str(value).removeprefix(f"{kind.__name__}.")
+        if element not in kind.__members__:
+            raise ControlError(
+                f"{name} must be one of {', '.join(f'{kind.__name__}.{each}' for each in kind.__members__)}"
+            )
+        return kind[element]
+    if isinstance(old, float) and not isinstance(value, bool):
+        if isinstance(value, int | float):
+            return float(value)
+        if value in ("inf", "-inf", "nan"):
+            return math.nan if value == "nan" else math.copysign(math.inf, -1 if value == "-inf" else 1)
+    if type(value) is not type(old):
+        raise ControlError(f"{name} must be a value of type {type(old).__name__}")
+    return value

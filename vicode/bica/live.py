@@ -1,0 +1,50 @@
+"""Opens the live view of roots: by `Root.watch`, or by the environment variable VICODE_WATCH."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from .errors import print_error
+from .live_server import LiveServer
+
+if TYPE_CHECKING:
+    from .root import Root
+
+ADDRESS, TOKEN, CONTROL, NAME = "VICODE_WATCH", "VICODE_WATCH_TOKEN", "VICODE_WATCH_CONTROL", "VICODE_ROBOT"
+
+_servers: list[LiveServer] = []
+
+
+def watch_root(
+    root: Root, address: str | int = 0, *, token: str = "", control: bool = False, name: str = ""
+) -> LiveServer:
+    """Let viewers connect to a root; roots of one process with the same address share a server.
+
+    Raises:
+        OSError: The address is in use or invalid, or shared with another token or permission to control.
+    """
+    server = next((each for each in _servers if each.serves(address)), None)
+    if server is None:
+        server = LiveServer(address, token=token, control=control)
+        _servers[:] = [*(each for each in _servers if not each.is_closed), server]
+        access = f", token {server.token}" if server.token else ""
+        print_error(f"vicode attach {server.address}{access}", kind="watch")
+    elif server.control != control or token not in ("", server.token):
+        raise OSError(f"{server.address} is open with another token or permission to control")
+    root._closing.callback(server.remove, server.add(root, name))
+    return server
+
+
+def watch_from_environment(root: Root) -> None:
+    """Watch a root as the environment says; a robot also starts if that is impossible."""
+    try:
+        watch_root(
+            root,
+            os.environ[ADDRESS],
+            token=os.environ.get(TOKEN, ""),
+            control=os.environ.get(CONTROL, "") not in ("", "0"),
+            name=os.environ.get(NAME, ""),
+        )
+    except (OSError, ValueError, OverflowError) as error:
+        print_error(f"cannot be watched at {os.environ[ADDRESS]}: {error}")

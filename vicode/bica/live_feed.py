@@ -1,0 +1,228 @@
+"""What viewers see of one root, and what they ask of it; runs in the thread that steps the root, unless noted."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypedDict
+
+from .control import ControlError, Controller
+from .errors import print_error
+from .observer import IterationRecord, Observer
+
+if TYPE_CHECKING:
+    from .component import Component
+    from .root import Root
+
+_MAX_CHANGES = 256
+_PAUSED_POLL_S = 0.05
+
+
+class StateChangeRecord(TypedDict):
+    """A state change of a component; `number` counts the changes of the robot from 1."""
+
+    number: int
+    iteration: int
+    time_ns: int
+    component: str
+    source: str
+    target: str
+    transition: str | None
+
+
+class LiveFeed:
+    """Publishes the newest iteration of a root while someone watches, and applies requests between iterations.
+
+    Args:
+        root: The root; its step function is replaced.
+        name: The name of the robot.
+        notify: Called after each published iteration and answer; must not block.
+    """
+
+    def __init__(self, root: Root, name: str, notify: Callable[[], None]) -> None:
+        self.root, self.name = root, name
+        self.newest: tuple[int, Mapping[str, Any]] = (0, {})
+        """The number of the newest message, and the message. Read by the thread of the server."""
+        self.changes: deque[StateChangeRecord] = deque(maxlen=_MAX_CHANGES)
+        self.answers: deque[tuple[object, dict[str, Any]]] = deque()
+        """Viewers and the answers to their requests. Read by the thread of the server."""
+        self.is_watched = False
+        self._notify = notify
+        self._change_count = 0
+        self._requests: deque[tuple[object, dict[str, Any]]] = deque()
+        self._has_requests = threading.Event()
+        self._controller = Controller(root)
+        self._observer = _LiveObserver(self._publish, self._controller)
+        self._is_observing = False
+        self._plain_step = root._step_main
+        self._observed_step = self._plain_step
+        root._step_main = self._step
+
+    def describe(self) -> dict[str, Any]:
+        """Describe the robot: its components with their design, the hash of their code, states and frequencies."""
+        return {
+            "name": self.name,
+            "root": type(self.root.main).__name__,
+            "components": {type(each).__name__: _describe_component(each) for each in self.root.components},
+        }
+
+    def request(self, viewer: object, request: dict[str, Any]) -> None:
+        """Queue a request of a viewer; called by the thread of the server."""
+        self._requests.append((viewer, request))
+        self._has_requests.set()
+
+    def forget(self, viewer: object) -> None:
+        """Undo what a viewer holds, such as a pause; called by the thread of the server."""
+        self.request(viewer, {"do": "release"})
+
+    def _step(self) -> None:
+        if self._requests:
+            self._handle_requests()
+        if self.is_watched is not self._is_observing:
+            self._set_observing(self.is_watched)
+        if not self._is_observing:
+            self._plain_step()
+            return
+        if self._controller.is_paused:
+            self._wait_while_paused()
+        self._observed_step()
+
+    def _set_observing(self, is_observing: bool) -> None:
+        root, self._is_observing = self.root, is_observing
+        if is_observing:
+            self._observer.attach_all(root)
+            # The step function of the root component was replaced.
+            self._observed_step = self._observer.bind(root, root._find_step())
+        else:
+            self._observer.detach_all(root)
+            self._plain_step = root._find_step()
+
+    def _publish(self, record: IterationRecord) -> None:
+        root = self.root
+        for step in record["tree"]:
+            source = step["changed_from"]
+            if source is not None:
+                self._change_count += 1
+                self.changes.append(
+                    {
+                        "number": self._change_count,
+                        "iteration": record["iteration"],
+                        "time_ns": record["time_ns"],
+                        "component": step["component"],
+                        "source": source,
+                        "target": step["state"],
+                        "transition": step["transition"],
+                    }
+                )
+        self._controller.check_breakpoints(record)
+        message = {
+            **record,
+            "robot": self.name,
+            "paused": self._controller.is_paused,
+            "errors_total": root.errors.total(),
+        }
+        self.newest = (self.newest[0] + 1, message)
+        self._notify()
+
+    def _handle_requests(self) -> None:
+        self._has_requests.clear()
+        while self._requests:
+            viewer, request = self._requests.popleft()
+            answer: dict[str, Any] = {"answer": request.get("id"), "robot": self.name}
+            try:
+                words = self._controller.apply(viewer, request)
+            except ControlError as error:
+                answer["error"] = str(error)
+            except Exception as error:
+                # Code of a state that was entered by request.
+                answer["error"] = f"{type(error).__name__}: {error}"
+            else:
+                if words:
+                    answer["done"] = words
+                    print_error(f"{self.name}: {words}", kind="control")
+            if "id" in request:
+                self.answers.append((viewer, answer))
+                self._notify()
+
+    def _wait_while_paused(self) -> None:
+        """Handle requests until one of them continues; the time of the components stands still."""
+        begin_ns = self.root.clock.now_ns()
+        number, message = self.newest
+        self.newest = (number + 1, {**message, "paused": True})
+        self._notify()
+        while self._controller.is_paused and self.is_watched:
+            self._has_requests.wait(_PAUSED_POLL_S)
+            self._handle_requests()
+        self.root._skip_time(self.root.clock.now_ns() - begin_ns)
+
+
+class _LiveObserver(Observer):
+    """Records the steps with their durations; can be attached and detached between iterations."""
+
+    def __init__(self, sink: Callable[[IterationRecord], None], controller: Controller) -> None:
+        super().__init__(sink, values=True)
+        self._controller = controller
+        self._replaced: list[tuple[Component, dict[str, Any]]] = []
+
+    def attach_all(self, root: Root) -> None:
+        for component in root.components:
+            names = ("step", "modulate")
+            self._replaced.append((component, {name: component.__dict__.get(name) for name in names}))
+            self.attach(component)
+        root._error_listeners.append(self.add_error)
+
+    def detach_all(self, root: Root) -> None:
+        for component, functions in self._replaced:
+            for name, function in functions.items():
+                if function is None:
+                    component.__dict__.pop(name, None)
+                else:
+                    component.__dict__[name] = function
+        self._replaced.clear()
+        root._error_listeners.remove(self.add_error)
+
+    def bind(self, root: Root, step: Callable[[], None]) -> Callable[[], None]:
+        return lambda: self.observe_iteration(root, step)
+
+    def _observe_step(self, component: Component, plain_step: Callable[[], None]) -> None:
+        controller = self._controller
+        if controller.has_effects:
+            plain_step = controller.prepare_step(component, plain_step)
+        begin_ns = time.perf_counter_ns()
+        position = len(self._tree)
+        try:
+            super()._observe_step(component, plain_step)
+        finally:
+            step: Any = self._tree[position]
+            step["step_ns"] = time.perf_counter_ns() - begin_ns
+
+
+def _describe_component(component: Component) -> dict[str, Any]:
+    return {
+        "design": component.design_file,
+        "code": hash_source(type(component)),
+        "states": list(component._states),
+        "frequency_hz": component.frequency_hz,
+    }
+
+
+def hash_source(component_class: type[Component]) -> str:
+    """SHA-256 of the file that defines a component, by which a viewer finds its design; "" if there is no file."""
+    try:
+        return _hash_file(inspect.getfile(component_class))
+    except TypeError:
+        return ""
+
+
+@lru_cache(maxsize=1024)
+def _hash_file(path: str) -> str:
+    try:
+        return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+    except OSError:
+        return ""

@@ -1,0 +1,338 @@
+"""The server that viewers of running roots connect to: JSON lines over TCP or a Unix socket, in a thread of its own.
+
+A viewer that reads slowly gets the newest iteration and skips those between; roots never wait for a viewer.
+"""
+
+from __future__ import annotations
+
+import hmac
+import json
+import os
+import secrets
+import selectors
+import socket
+import threading
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .errors import print_error
+from .live_feed import LiveFeed
+
+if TYPE_CHECKING:
+    from .root import Root
+
+PROTOCOL_VERSION = 1
+MAX_LINE_BYTES = 65_536
+MAX_VIEWERS = 32
+DEFAULT_RATE_HZ = 30.0
+MAX_RATE_HZ = 200.0
+_HANDSHAKE_LIMIT_S = 5.0
+_UNIX = "unix:"
+_RECEIVED_BYTES = 65_536
+
+
+class LiveServer:
+    """Serves the feeds of any number of roots.
+
+    Args:
+        address: A port, "HOST:PORT", or "unix:PATH"; the default host is 127.0.0.1, port 0 selects a free port.
+        token: What viewers must send first; by default a random text. Viewers on a Unix socket need none, as the file
+            is only accessible to its user.
+        control: Whether viewers may pause and change the roots.
+
+    Raises:
+        OSError: The address is in use or invalid.
+    """
+
+    def __init__(self, address: str | int = 0, *, token: str = "", control: bool = False) -> None:
+        self.control = control
+        self._asked_address = str(address)
+        self._listener, self.address = _listen(str(address))
+        self.token = token or ("" if self.address.startswith(_UNIX) else secrets.token_urlsafe(12))
+        self._feeds: list[LiveFeed] = []
+        self._viewers: list[_Viewer] = []
+        self._selector = selectors.DefaultSelector()
+        self._wake_reader, self._wake_writer = socket.socketpair()
+        for end in (self._wake_reader, self._wake_writer, self._listener):
+            end.setblocking(False)
+        self._selector.register(self._listener, selectors.EVENT_READ, None)
+        self._selector.register(self._wake_reader, selectors.EVENT_READ, None)
+        self._is_closing = False
+        self._is_awake = False
+        self._thread = threading.Thread(target=self._serve, name="vicode-live", daemon=True)
+        self._thread.start()
+
+    def add(self, root: Root, name: str = "") -> LiveFeed:
+        """Let viewers see a root under a name, by default that of its main component."""
+        name = name or type(root.main).__name__
+        taken = {feed.name for feed in self._feeds}
+        unique, number = name, 2
+        while unique in taken:
+            unique, number = f"{name} {number}", number + 1
+        feed = LiveFeed(root, unique, self._wake)
+        self._feeds = [*self._feeds, feed]
+        self._wake()
+        return feed
+
+    def remove(self, feed: LiveFeed) -> None:
+        """End the view of a root; the server closes with the last one."""
+        feed.is_watched = False
+        self._feeds = [each for each in self._feeds if each is not feed]
+        if self._feeds:
+            self._wake()
+        else:
+            self.close()
+
+    def serves(self, address: str | int) -> bool:
+        """Whether the server is open at an address that was asked for; each request for a free port gets its own."""
+        return (
+            not self.is_closed and str(address) == self._asked_address and self._asked_address.rpartition(":")[2] != "0"
+        )
+
+    @property
+    def is_closed(self) -> bool:
+        return self._is_closing
+
+    def close(self) -> None:
+        """Disconnect all viewers and stop the thread."""
+        self._is_closing = True
+        self._wake(is_forced=True)
+        if threading.current_thread() is not self._thread:
+            self._thread.join(2.0)
+
+    def _wake(self, *, is_forced: bool = False) -> None:
+        """Wake the thread; called by the threads that step roots."""
+        if not self._is_awake or is_forced:
+            self._is_awake = True
+            with suppress(OSError):
+                self._wake_writer.send(b"\0")
+
+    def _serve(self) -> None:
+        try:
+            while not self._is_closing:
+                for key, events in self._selector.select(self._next_due_s()):
+                    self._handle(key, events)
+                self._is_awake = False
+                self._deliver()
+        except Exception as error:
+            print_error(f"the live view ended: {type(error).__name__}: {error}")
+        finally:
+            for feed in self._feeds:
+                feed.is_watched = False
+            for viewer in [*self._viewers]:
+                self._drop(viewer)
+            for end in (self._listener, self._wake_reader, self._wake_writer, self._selector):
+                end.close()
+            if self.address.startswith(_UNIX):
+                Path(self.address.removeprefix(_UNIX)).unlink(missing_ok=True)
+
+    def _handle(self, key: selectors.SelectorKey, events: int) -> None:
+        if key.fileobj is self._listener:
+            self._accept()
+        elif key.fileobj is self._wake_reader:
+            with suppress(BlockingIOError):
+                self._wake_reader.recv(_RECEIVED_BYTES)
+        elif isinstance(key.data, _Viewer) and key.data in self._viewers:
+            viewer = key.data
+            try:
+                if events & selectors.EVENT_READ:
+                    self._read(viewer)
+                if events & selectors.EVENT_WRITE:
+                    self._write(viewer)
+            except (OSError, ValueError, RecursionError):
+                self._drop(viewer)
+
+    def _accept(self) -> None:
+        with suppress(OSError):
+            connection, _address = self._listener.accept()
+            if len(self._viewers) >= MAX_VIEWERS:
+                connection.close()
+                return
+            connection.setblocking(False)
+            if connection.family != getattr(socket, "AF_UNIX", None):
+                connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            viewer = _Viewer(connection)
+            self._viewers.append(viewer)
+            self._selector.register(connection, selectors.EVENT_READ, viewer)
+
+    def _read(self, viewer: _Viewer) -> None:
+        data = viewer.connection.recv(_RECEIVED_BYTES)
+        if not data:
+            raise ConnectionResetError
+        viewer.received += data
+        while (end := viewer.received.find(b"\n")) >= 0:
+            line = bytes(viewer.received[:end])
+            del viewer.received[: end + 1]
+            self._read_line(viewer, line)
+        if len(viewer.received) > MAX_LINE_BYTES:
+            raise ValueError("the line is too long")
+
+    def _read_line(self, viewer: _Viewer, line: bytes) -> None:
+        request = json.loads(line)
+        if not isinstance(request, dict):
+            raise ConnectionAbortedError
+        if not viewer.is_admitted:
+            self._admit(viewer, request)
+            return
+        feed = next((each for each in self._feeds if each.name == request.get("robot")), None)
+        answer = {"answer": request.get("id"), "robot": request.get("robot")}
+        if feed is None:
+            self._send(viewer, {**answer, "error": f"no robot {request.get('robot')!r}"})
+        elif not self.control:
+            self._send(viewer, {**answer, "error": "this robot may only be watched; start it with control"})
+        else:
+            viewer.has_control = True
+            feed.request(viewer, request)
+
+    def _admit(self, viewer: _Viewer, request: dict[str, Any]) -> None:
+        token = request.get("token", "")
+        if self.token and not (isinstance(token, str) and hmac.compare_digest(token.encode(), self.token.encode())):
+            raise ValueError("wrong token")
+        rate_hz = request.get("rate_hz", DEFAULT_RATE_HZ)
+        if isinstance(rate_hz, int | float) and 0 < rate_hz <= MAX_RATE_HZ:
+            viewer.period_s = 1 / rate_hz
+        viewer.is_admitted = True
+        self._greet(viewer)
+
+    def _greet(self, viewer: _Viewer) -> None:
+        viewer.greeted = len(self._feeds)
+        robots = [feed.describe() for feed in self._feeds]
+        self._send(viewer, {"vicode-live": PROTOCOL_VERSION, "control": self.control, "robots": robots})
+
+    def _deliver(self) -> None:
+        """Send answers, and the newest iterations to viewers that can take them."""
+        now_s = time.monotonic()
+        for viewer in [*self._viewers]:
+            try:
+                if not viewer.is_admitted:
+                    if now_s - viewer.connected_s > _HANDSHAKE_LIMIT_S:
+                        self._drop(viewer)
+                    continue
+                if viewer.greeted != len(self._feeds):
+                    self._greet(viewer)
+                if not viewer.unsent and now_s >= viewer.due_s:
+                    self._send_newest(viewer, now_s)
+            except OSError:
+                self._drop(viewer)
+        is_watched = any(viewer.is_admitted for viewer in self._viewers)
+        for feed in self._feeds:
+            feed.is_watched = is_watched
+            while feed.answers:
+                viewer_of, answer = feed.answers.popleft()
+                if isinstance(viewer_of, _Viewer) and viewer_of in self._viewers:
+                    with suppress(OSError):
+                        self._send(viewer_of, answer)
+
+    def _send_newest(self, viewer: _Viewer, now_s: float) -> None:
+        lines: list[bytes] = []
+        for feed in self._feeds:
+            number, message = feed.newest
+            last, last_change = viewer.seen.get(feed.name, (0, 0))
+            if number == last:
+                continue
+            changes = [change for change in [*feed.changes] if change["number"] > last_change]
+            newest_change = changes[-1]["number"] if changes else last_change
+            viewer.seen[feed.name] = (number, newest_change)
+            missed = max(0, number - last - 1) if last else 0
+            lines.append(_encode({**message, "changes": changes, "missed": missed}))
+        if lines:
+            viewer.due_s = now_s + viewer.period_s
+            viewer.unsent += b"".join(lines)
+            self._write(viewer)
+
+    def _send(self, viewer: _Viewer, message: dict[str, Any]) -> None:
+        viewer.unsent += _encode(message)
+        self._write(viewer)
+
+    def _write(self, viewer: _Viewer) -> None:
+        if viewer.unsent:
+            with suppress(BlockingIOError):
+                sent = viewer.connection.send(viewer.unsent)
+                del viewer.unsent[:sent]
+        wanted = selectors.EVENT_READ | (selectors.EVENT_WRITE if viewer.unsent else 0)
+        self._selector.modify(viewer.connection, wanted, viewer)
+
+    def _drop(self, viewer: _Viewer) -> None:
+        if viewer in self._viewers:
+            self._viewers.remove(viewer)
+            with suppress(KeyError, ValueError):
+                self._selector.unregister(viewer.connection)
+            viewer.connection.close()
+            if viewer.has_control:
+                for feed in self._feeds:
+                    feed.forget(viewer)
+
+    def _next_due_s(self) -> float | None:
+        """Seconds until a viewer may get the next iteration, or must have sent its token."""
+        if not self._viewers:
+            return None
+        now_s = time.monotonic()
+        waits = [
+            viewer.due_s - now_s if viewer.is_admitted else viewer.connected_s + _HANDSHAKE_LIMIT_S - now_s
+            for viewer in self._viewers
+            if not viewer.is_admitted or (not viewer.unsent and self._has_news(viewer))
+        ]
+        return max(0.0, min(waits)) if waits else None
+
+    def _has_news(self, viewer: _Viewer) -> bool:
+        return any(feed.newest[0] != viewer.seen.get(feed.name, (0, 0))[0] for feed in self._feeds)
+
+
+class _Viewer:
+    """A connection; `seen` are the numbers of the last message and state change sent, by robot."""
+
+    __slots__ = (
+        "connected_s",
+        "connection",
+        "due_s",
+        "greeted",
+        "has_control",
+        "is_admitted",
+        "period_s",
+        "received",
+        "seen",
+        "unsent",
+    )
+
+    def __init__(self, connection: socket.socket) -> None:
+        self.connection = connection
+        self.connected_s = time.monotonic()
+        self.received, self.unsent = bytearray(), bytearray()
+        self.is_admitted = self.has_control = False
+        self.period_s = 1 / DEFAULT_RATE_HZ
+        self.due_s = 0.0
+        self.greeted = 0
+        self.seen: dict[str, tuple[int, int]] = {}
+
+
+def _listen(address: str) -> tuple[socket.socket, str]:
+    """Open the listening socket; return it with its address as viewers write it."""
+    if address.startswith(_UNIX):
+        path = Path(address.removeprefix(_UNIX))
+        listener = socket.socket(socket.AF_UNIX)
+        if path.is_socket():
+            # A program that was killed left it; a running one would answer.
+            with suppress(OSError), socket.socket(socket.AF_UNIX) as probe:
+                probe.settimeout(0.2)
+                probe.connect(str(path))
+                raise FileExistsError(f"{path} is in use by another program")
+            path.unlink(missing_ok=True)
+        mask = os.umask(0o177)
+        try:
+            listener.bind(str(path))
+        finally:
+            os.umask(mask)
+        listener.listen()
+        return listener, address
+    host, colon, port = address.rpartition(":")
+    if not port.isdigit():
+        raise OSError(f"invalid address '{address}'; write PORT, HOST:PORT or unix:PATH")
+    listener = socket.create_server((host if colon and host else "127.0.0.1", int(port)))
+    name = listener.getsockname()
+    return listener, f"{name[0]}:{name[1]}"
+
+
+def _encode(message: dict[str, Any]) -> bytes:
+    return json.dumps(message, separators=(",", ":")).encode() + b"\n"
