@@ -55,6 +55,16 @@ def test_a_new_name_of_a_variable_is_one_step(editor: str, page: Page, project: 
     assert file.read_text() == before
 
 
+def test_the_type_of_a_variable_is_chosen_from_a_list(editor: str, page: Page, project: Path) -> None:
+    open_design(page, editor, "Player")
+    variable = page.get_by_role("group", name="variable side", exact=True)
+    variable.get_by_label("Type").click()
+    expect(page.get_by_role("option")).to_have_text(["from value", "bool", "int", "float", "Side", "Kick"])
+    page.get_by_role("option", name="from value").click()
+    expect(variable.get_by_label("Type")).to_have_value("from value")
+    assert "side: {initial: Side.left," in save(page, project / "forward" / "player.yaml")
+
+
 def test_code_in_which_a_name_may_mean_anything_is_listed_first(editor: str, page: Page, project: Path) -> None:
     file = project / "forward" / "player.yaml"
     code = 'members: {cpp: "int hits() { return kick + this->kick; }"}'

@@ -6,12 +6,21 @@ from dataclasses import replace
 from nicegui import ui
 
 from vicode.editor.panels.collapsible import collapsible_section
-from vicode.editor.panels.fields import XABSL_NAME, Attribute, FieldKind, attribute_binding, text_field
+from vicode.editor.panels.fields import (
+    XABSL_NAME,
+    Attribute,
+    FieldBinding,
+    FieldKind,
+    attribute_binding,
+    choice_field,
+    text_field,
+)
 from vicode.editor.panels.form import Form, ItemRows, Rows
 from vicode.editor.panels.name_field import name_field, rename_declaration
 from vicode.editor.panels.widgets import add_button, icon_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import number_text
+from vicode.editor.session.interface_edits import type_names
 from vicode.editor.session.item_paths import TrackedItem, item_at
 from vicode.editor.session.rename_symbol import validate_identifier
 from vicode.findings import DesignPath
@@ -27,6 +36,7 @@ SECTIONS = (
     ("variables", "Variables", "internal values"),
 )
 
+_FROM_VALUE = "from value"
 _NAME = Attribute(label="Name", name="name", validate=validate_identifier)
 TYPE = Attribute(label="Type", name="type", parse=str.strip)
 UNIT = Attribute(label="Unit", name="unit", parse=str.strip)
@@ -66,7 +76,8 @@ def _declaration(form: Form, item: TrackedItem) -> None:
             return rename_declaration(context, _symbol_ref(context.design, item, old), new)
 
         name_field(form, replace(attribute_binding(item, _NAME), get_path=lambda: named_path(item)), rename)
-        for attribute in (TYPE, value, UNIT, _DOC):
+        _type_field(form, item)
+        for attribute in (value, UNIT, _DOC):
             _field(form, item, attribute)
         remove = icon_button("close", "Remove", _remover(context, item, kind))
         form.watch(lambda: item.get().name if item.path else "", show_name)
@@ -82,11 +93,25 @@ def _declaration(form: Form, item: TrackedItem) -> None:
         section.classes("declaration-more")
 
 
+def _type_field(form: Form, item: TrackedItem) -> None:
+    """Build the choice of a type; a declaration without one has that of its value."""
+    binding = _binding(item, TYPE)
+    shown = replace(
+        binding,
+        read=lambda design: binding.read(design) or _FROM_VALUE,
+        write=lambda design, value: binding.write(design, "" if value == _FROM_VALUE else value),
+    )
+    choice_field(form, shown, lambda _design: [_FROM_VALUE, *type_names(form.context.workspace.project)])
+
+
 def _field(form: Form, item: TrackedItem, attribute: Attribute) -> None:
-    """Build the field of an attribute; the path of a declaration has names instead of indices."""
+    text_field(form, _binding(item, attribute), monospace=attribute.kind is FieldKind.CODE)
+
+
+def _binding(item: TrackedItem, attribute: Attribute) -> FieldBinding:
+    """Bind an attribute; the path of a declaration has names instead of indices."""
     binding = attribute_binding(item, attribute)
-    binding = replace(binding, get_path=lambda: (*named_path(item), attribute.key or attribute.name))
-    text_field(form, binding, monospace=attribute.kind is FieldKind.CODE)
+    return replace(binding, get_path=lambda: (*named_path(item), attribute.key or attribute.name))
 
 
 def named_path(item: TrackedItem) -> DesignPath:
