@@ -1,16 +1,16 @@
 // Stores the view in the browser's history, so that Back restores it.
 
-// Until the next design is shown, the entry of the history belongs to that design already.
-let isLeaving = false;
-addEventListener("vicode-leave", () => (isLeaving = true));
+// Until the designs that were opened are shown, the entry of the history belongs to the last of them already.
+let awaited = 0;
+addEventListener("vicode-leave", () => (awaited += 1));
 
 export function saveView(component, { x, y, k }) {
-  if (component && !isLeaving) history.replaceState({ ...history.state, view: { component, x, y, k } }, "");
+  if (component && !awaited) history.replaceState({ ...history.state, view: { component, x, y, k } }, "");
 }
 
 /** Restores the view from the browser's history, or fits the scene if there is none. */
 export function restoreView(canvas) {
-  isLeaving = false;
+  awaited = Math.max(0, awaited - 1);
   canvas.restoredView = recall(canvas.scene.component);
   if (!canvas.restoredView) return canvas.fit();
   canvas.fitPending = false;
