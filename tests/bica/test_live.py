@@ -183,9 +183,8 @@ def test_several_robots_share_a_server() -> None:
             robot["name"] for robot in viewer.get(lambda line: "robots" in line and len(line["robots"]) == 2)["robots"]
         }
         assert names == {"one", "one 2"}
-        for _step in range(20):
-            advance(other)
-        assert viewer.get(lambda line: line.get("robot") == "one 2")["tree"]
+        with Background(other):
+            assert viewer.get(lambda line: line.get("robot") == "one 2")["tree"]
 
 
 @pytest.mark.parametrize("first", [{"token": "wrong"}, {"token": None}, {"token": ["x"]}, {"token": "ä"}])
