@@ -42,6 +42,8 @@ class OpenProject:
         files: Files by component, with "" for project.yaml; `sources` and `texts` have the same keys.
         broken_files: Design files that cannot be read.
         findings: Errors in the files, with locations.
+        is_project_file_broken: Whether project.yaml cannot be read; it is not among the `broken_files`, as it belongs
+            to all designs.
     """
 
     project: Project
@@ -51,6 +53,7 @@ class OpenProject:
     texts: Mapping[str, str]
     broken_files: tuple[Path, ...]
     findings: tuple[Finding, ...]
+    is_project_file_broken: bool = False
 
     @property
     def project_file(self) -> Path | None:
@@ -169,6 +172,7 @@ class _ProjectLoader:
         self.broken_files: list[Path] = []
         self.unread: list[tuple[str, str]] = []
         self.findings: list[Finding] = []
+        self.is_project_file_broken = False
 
     def read_project_file(self) -> None:
         file = find_project_file(self.folder)
@@ -177,6 +181,7 @@ class _ProjectLoader:
         read = read_project_file(_read_bytes(file), display_path(file))
         self.findings += read.findings
         self.project = read.project or self.project
+        self.is_project_file_broken = read.project is None
         self.files[""], self.sources[""], self.texts[""] = file, read.source_map, read.source_map.line_index.text
 
     def read_design(self, file: Path, *, is_explicit: bool) -> None:
@@ -215,6 +220,7 @@ class _ProjectLoader:
             texts=self.texts,
             broken_files=tuple(self.broken_files),
             findings=sort_findings(self.findings),
+            is_project_file_broken=self.is_project_file_broken,
         )
 
     def _add_duplicate(self, file: Path, read: DesignReadResult) -> None:

@@ -40,6 +40,18 @@ def test_broken_file_names_are_relative_to_the_project(tmp_path: Path) -> None:
     assert Workspace(tmp_path, key="k").broken_file_names == ("deep/b.yaml",)
 
 
+def test_a_project_file_with_conflicts_is_broken(tmp_path: Path) -> None:
+    conflict = "constants:\n<<<<<<< HEAD\n  a: 1\n=======\n  a: 2\n>>>>>>> topic\n"
+    (tmp_path / "project.yaml").write_text(f"vicode: 1\nproject: P\n{conflict}")
+    (tmp_path / "a.yaml").write_text("vicode: 1\ncomponent: A\ninitial: S\nstates: {S: {}}\n")
+    workspace = Workspace(tmp_path, key="k")
+    assert workspace.broken_file_names == ("project.yaml",)
+    parsed = parse_text(read_file_text(tmp_path / "project.yaml"), "project.yaml")
+    assert [finding.rule.code for finding in parsed.findings] == ["Y113"]
+    assert not parsed.is_sound_project
+    assert parse_text("vicode: 1\nproject: P\nconstants:\n  a: 2\n", "project.yaml").is_sound_project
+
+
 @given(st.text(max_size=60) | st.text("a: b\n[]{}\r\t'\"é😀\u2028", max_size=60))
 def test_no_text_raises(text: str) -> None:
     assert all(0 <= mark.start <= mark.end <= len(text) for mark in parse_text(text, "a.yaml").marks)

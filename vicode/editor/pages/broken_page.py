@@ -6,6 +6,7 @@ from nicegui import ui
 
 from vicode.editor.code import CodeAssist
 from vicode.editor.pages import texts
+from vicode.editor.pages.navigation import HOME
 from vicode.editor.pages.shortcuts import register_shortcuts
 from vicode.editor.pages.theme import Theme, apply_theme
 from vicode.editor.panels.code_editor import CodeEditorFactory
@@ -68,8 +69,11 @@ class BrokenPage:
             show_toast(texts.not_saved(error.strerror), "negative")
             return
         self.disk_text = text
-        component = self._check().component
-        if component and self.workspace.files.get(component, Path()).resolve() == self.file.resolve():
+        parsed = self._check()
+        component = parsed.component
+        if parsed.is_sound_project:
+            ui.navigate.to(HOME)
+        elif component and self.workspace.files.get(component, Path()).resolve() == self.file.resolve():
             ui.navigate.to(design_url(self.workspace.key, component))
         else:
             show_toast(texts.SAVED_WITH_ERRORS, "warning")

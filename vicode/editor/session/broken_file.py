@@ -5,7 +5,7 @@ from pathlib import Path
 
 from vicode.editor.session.code_marks import CodeMark, message_with_fix
 from vicode.findings import Finding
-from vicode.store import FileChangedError, read_design, replace_text
+from vicode.store import FileChangedError, is_project_text, read_design, read_project_file, replace_text
 
 
 class FileModifiedError(Exception):
@@ -14,11 +14,15 @@ class FileModifiedError(Exception):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ParsedText:
-    """The result of parsing a text; `component` is empty if the text contains no design."""
+    """The result of parsing a text; `component` is empty if the text contains no design.
+
+    `is_sound_project`: it is a project.yaml without errors.
+    """
 
     findings: tuple[Finding, ...]
     marks: tuple[CodeMark, ...]
     component: str
+    is_sound_project: bool = False
 
 
 def read_file_text(file: Path) -> str:
@@ -32,8 +36,12 @@ def read_file_text(file: Path) -> str:
 
 
 def parse_text(text: str, name: str) -> ParsedText:
-    read = read_design(text, name)
     starts = _line_starts(text)
+    if is_project_text(name, text.encode(errors="replace")):
+        found = read_project_file(text, name).findings
+        marks = tuple(_mark(text, starts, finding) for finding in found if finding.location is not None)
+        return ParsedText(findings=found, marks=marks, component="", is_sound_project=not found)
+    read = read_design(text, name)
     marks = tuple(_mark(text, starts, finding) for finding in read.findings if finding.location is not None)
     component = read.design.component if read.design else ""
     return ParsedText(findings=read.findings, marks=marks, component=component)

@@ -315,7 +315,8 @@ class Workspace:
         self.removed_components = {
             name: new for name, new in self.removed_components.items() if opened.project.design(name) is None
         }
-        self.broken_files = {_name_in(self.folder, file): file for file in opened.broken_files}
+        broken = (*opened.broken_files, *([opened.files[""]] if opened.is_project_file_broken else []))
+        self.broken_files = {_name_in(self.folder, file): file for file in broken}
         self._parse_findings = dict.fromkeys(opened.texts, ())
         for finding in opened.findings:
             name = finding.subject.component if finding.subject else ""
