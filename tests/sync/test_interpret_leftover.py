@@ -6,6 +6,8 @@ import pytest
 
 from tests.sync.patches import apply_patch
 from tests.sync.player_edits import FORWARD, PLAYER, edited_player, interpret, text_of
+from vicode.model.design import DecisionGroup, Declaration, Design, Guard, State, Transition
+from vicode.model.project import Project
 from vicode.sync.interpret import interpret_edits
 from vicode.sync.same_code import is_same_code
 
@@ -71,3 +73,23 @@ def test_imports_in_place_of_others_stay(tmp_path: Path) -> None:
     result = interpret(edited)
     assert result.edits == ()
     assert is_same_code(apply_patch(PLAYER, result.leftover, tmp_path), edited)
+
+
+def test_a_part_of_a_decision_is_no_decision(tmp_path: Path) -> None:
+    # Line by line, the edited code contains the change of the state without its test.
+    group = DecisionGroup(guard=Guard(after="2"), then=(Transition(to="B", guard=Guard(when="speed > 2")),))
+    speed = Declaration(name="speed", type="float")
+    states = (State(name="A", transitions=(group,)), State(name="B"))
+    design = Design(component="Player", initial="A", parameters=(speed,), states=states)
+    project = Project(name="small", designs=(design,))
+    text = text_of(project, design)
+    method = text.index("    def _in_a"), text.index("    def _in_b")
+    edited = f"""{text[: method[0]]}    def _in_a(self, decide: bool = True) -> None:
+        if decide and self.is_near():
+            self._change_to("B")
+            return
+
+{text[method[1] :]}"""
+    result = interpret_edits(project, "Player", generated=text, edited=edited)
+    assert result.edits == ()
+    assert is_same_code(apply_patch(text, result.leftover, tmp_path), edited)

@@ -1,7 +1,6 @@
 """Proposes edits of actions for changes of the methods that act: calls, assignments and hand-written code."""
 
 import ast
-import textwrap
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -143,7 +142,7 @@ def propose_action_code(context: EditContext, change: CodeChange) -> Iterator[De
         return
     if not _is_movable(context, added):
         return
-    code = Code(texts=(("python", textwrap.dedent(context.source_of(added)) + "\n"),))
+    code = Code(texts=(("python", context.source_of(added) + "\n"),))
     yield from _insert(context, place, RunCode(code=code))
     # An id keeps the regions of other code in the same list as they are.
     name = "common" if place.source == COMMON else snake_case(place.source)

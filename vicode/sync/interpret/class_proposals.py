@@ -2,7 +2,6 @@
 
 import ast
 import re
-import textwrap
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -202,7 +201,7 @@ def propose_class_code(context: EditContext, change: CodeChange) -> Iterator[Des
     first = next((item for item in added if item.kind != COMMENT), None)
     if first is None or not definitions:
         return
-    text = textwrap.dedent(context.source_of(added)).strip("\n") + "\n"
+    text = context.source_of(added) + "\n"
     if first.depth == 0:
         is_definition = isinstance(first.node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
         for code in _extended(context.design.module, text, separator="\n\n" if is_definition else ""):

@@ -68,16 +68,17 @@ def _changed_guards(context: EditContext, place: Place, change: CodeChange) -> I
 
 def _added_or_removed_guards(context: EditContext, place: Place, change: CodeChange) -> Iterator[Design]:
     """Propose a guard for a decision that had none, or the reverse."""
-    was, now = (next((item.node for item in items if isinstance(item.node, ast.If)), None) for items in change.sides)
-    if (was is None) == (now is None):
-        return
-    guard = Guard()
-    if now is not None:
-        read = context.reader.read_guard(now.test)
-        guard = read.as_guard(guard, context.reader.read(read.when) if read.when is not None else "")
+    was, now = ([item.node for item in items if isinstance(item.node, ast.If)] for items in change.sides)
+    guards = [Guard()] if len(was) > len(now) else []
+    if len(now) > len(was):
+        read = [context.reader.read_guard(node.test) for node in now]
+        guards = [
+            each.as_guard(Guard(), context.reader.read(each.when) if each.when is not None else "") for each in read
+        ]
     for located in context.decisions_in(place):
-        if located.decision.guard.is_empty == (now is not None):
-            yield replace_decision(context.design, located.path, replace(located.decision, guard=guard))
+        for guard in guards:
+            if located.decision.guard.is_empty != guard.is_empty:
+                yield replace_decision(context.design, located.path, replace(located.decision, guard=guard))
 
 
 def _changed_outcomes(context: EditContext, place: Place, change: CodeChange) -> Iterator[Design]:
@@ -101,13 +102,11 @@ def _shown_target(decision: Transition | Stay, place: Place) -> str:
 
 def _added_decisions(context: EditContext, place: Place, added: tuple[CodeItem, ...]) -> Iterator[Design]:
     """Propose a transition for a test with a change of the state."""
-    tests = [index for index, item in enumerate(added) if isinstance(item.node, ast.If) and item.code.startswith("if ")]
-    if not tests or added[0].code == "if decide:":
-        tests = tests[1:]
+    tests = [item.node for item in added if item.code.startswith("if ") and item.code != "if decide:"]
     outcome = next((found for item in added if (found := _outcome_of(item))), None)
     if outcome is None:
         return
-    test = added[tests[0]].node if tests else None
+    test = tests[0] if tests else None
     doc = " ".join(item.code for item in added if item.kind == COMMENT)
     guard = Guard()
     if isinstance(test, ast.If):

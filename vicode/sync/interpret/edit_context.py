@@ -10,6 +10,7 @@ from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Design
 from vicode.model.project import Project
 from vicode.model.traversal import LocatedAction, LocatedDecision, iter_actions, iter_decisions
+from vicode.regions import find_regions, wrap_region
 from vicode.sync.code_items import CodeItem
 from vicode.sync.interpret.expression_reader import ExpressionReader
 
@@ -128,9 +129,11 @@ class EditContext:
         return next((node for node in nodes if isinstance(node, ast.FunctionDef)), None)
 
     def source_of(self, items: tuple[CodeItem, ...]) -> str:
-        """Return the lines of items of the edited file, without marks of regions."""
+        """Return the lines of items of the edited file, without their indentation and without marks of regions."""
         lines = self.lines[items[0].first - 1 : max(item.last for item in items)]
-        return "\n".join(line for line in lines if not _MARK.match(line))
+        text = "\n".join(line for line in lines if not _MARK.match(line))
+        # Lines inside of strings keep their indentation, as in a region.
+        return find_regions(wrap_region("code", text)).regions[0].body
 
 
 def method_name(scope: str) -> str:

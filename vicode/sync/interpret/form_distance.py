@@ -6,15 +6,21 @@ It is a metric. A module lies between two others if its distances to them add up
 from collections.abc import Mapping, Sequence
 from itertools import groupby
 
+from vicode.sync.code_items import CODE, CodeItem
 from vicode.sync.interpret.normal_form import NormalForm
 
 
-def form_distance(a: NormalForm, b: NormalForm) -> int:
+def form_distance(a: NormalForm, b: NormalForm, *, with_enclosing: bool = False) -> int:
     """Return the distance of two normal forms.
 
     Items are compared within a definition, which is fast, and the definitions by their order.
+
+    Args:
+        a: One form.
+        b: The other.
+        with_enclosing: Items are equal only if the tests that they depend on are equal, too.
     """
-    sections, others = _sections(a), _sections(b)
+    sections, others = _sections(a, with_enclosing), _sections(b, with_enclosing)
     scopes = sections.keys() | others.keys()
     return _order_distance(a, b) + sum(distance(sections.get(each, ()), others.get(each, ())) for each in scopes)
 
@@ -24,10 +30,20 @@ def _order_distance(a: NormalForm, b: NormalForm) -> int:
     return distance(*orders)
 
 
-def _sections(form: NormalForm) -> Mapping[str, Sequence[object]]:
+def _sections(form: NormalForm, with_enclosing: bool) -> Mapping[str, Sequence[object]]:
     sections: dict[str, list[object]] = {}
+    enclosing: list[CodeItem] = []
     for item in form.items:
-        sections.setdefault(item.scope, []).append(item.key)
+        while enclosing and (enclosing[-1].scope != item.scope or enclosing[-1].depth > item.depth):
+            enclosing.pop()
+        # An `else` depends on the tests before it.
+        if enclosing and enclosing[-1].depth == item.depth and not item.code.startswith(("else:", "elif ")):
+            while enclosing and enclosing[-1].depth == item.depth:
+                enclosing.pop()
+        tests = tuple(each.code for each in enclosing) if with_enclosing else ()
+        sections.setdefault(item.scope, []).append((item.key, tests))
+        if item.kind == CODE and item.code.endswith(":"):
+            enclosing.append(item)
     return sections
 
 

@@ -15,6 +15,7 @@ from vicode.generators import component_generator
 from vicode.model.design import Design
 from vicode.model.diff import Change, ChangeKind, describe_change, diff_designs
 from vicode.model.project import Project
+from vicode.model.traversal import iter_decisions
 from vicode.sync.interpret.action_proposals import propose_action_code, propose_actions
 from vicode.sync.interpret.class_proposals import propose_class_code, propose_class_edits, with_imports
 from vicode.sync.interpret.code_changes import find_changes
@@ -171,6 +172,8 @@ class _Search:
         result = self._generate(design) if self._proposal_count < _MAX_PROPOSALS else None
         if result is None or not self._is_between(result[1], total) or self._has_new_errors(design):
             return False
+        if _guarded(design) != _guarded(self.design) and not self._is_between_with_tests(result[1]):
+            return False
         self._accept(design, change.item.first if change.added else change.line)
         self._text, self._form = result
         return True
@@ -179,6 +182,12 @@ class _Search:
         """Whether a form is a part of the way from the generated text to the edited one."""
         step = form_distance(self._form, form)
         return 0 < step <= total and step + form_distance(form, self._target) == total
+
+    def _is_between_with_tests(self, form: NormalForm) -> bool:
+        """The same for items with the tests that they depend on: no part of a decision is read as another one."""
+        total = form_distance(self._form, self._target, with_enclosing=True)
+        step = form_distance(self._form, form, with_enclosing=True)
+        return step + form_distance(form, self._target, with_enclosing=True) == total
 
     def _apply_imports(self) -> None:
         """Move imports that were added to the code of the module."""
@@ -258,6 +267,11 @@ class _Search:
             if own.key != other.key:
                 return other.first
         return self._target.items[-1].last if self._target.items else 1
+
+
+def _guarded(design: Design) -> list[bool]:
+    """Whether the decisions have a guard; differs if a decision or its guard was added or removed."""
+    return [located.decision.guard.is_empty for located in iter_decisions(design)]
 
 
 def _describe(change: Change) -> str:
