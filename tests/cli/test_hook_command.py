@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.command_runner import lamps, vicode
-from tests.cli.git_folder import git, init
+from tests.cli.git_folder import commit, git, init
 
 __all__ = ["lamps"]
 
@@ -60,7 +60,7 @@ def test_existing_hooks_and_attributes_are_kept(repository: Path) -> None:
     assert attributes.read_text(encoding="utf-8").startswith("*.png binary\n# vicode")
     lines = hook.read_text(encoding="utf-8").splitlines()
     assert (lines[0], lines[-1]) == ("#!/usr/bin/env bash", "exec other")
-    assert lines[2].endswith(" -P -m vicode hook pre-commit || exit $?")
+    assert lines[3].endswith(" -P -m vicode hook pre-commit || exit $?")
     assert vicode("hook", "install", "--uninstall") == 0
     assert hook.read_text(encoding="utf-8") == "#!/usr/bin/env bash\nexec other\n"
     assert attributes.read_text(encoding="utf-8") == "*.png binary\n"
@@ -83,6 +83,14 @@ def test_a_hook_that_cannot_be_changed_is_reported(
     assert vicode("hook", "install") == 1
     assert reason in capsys.readouterr().err
     assert hook.read_text(encoding="utf-8") == text
+
+
+def test_a_removed_environment_does_not_stop_commits(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.executable", "/no/such/python")
+    assert vicode("hook", "install") == 0
+    (repository / "lamps" / "lamp.yaml").write_text("states: [", encoding="utf-8")
+    commit(repository, "broken")
+    assert git(repository, "log", "-1", "--format=%s") == "broken\n"
 
 
 def test_a_folder_without_designs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -168,12 +168,16 @@ def _config() -> dict[str, str]:
 
 def _command() -> str:
     # -P: a folder vicode in the repository must not shadow the package.
-    return f"{shlex.quote(Path(sys.executable).as_posix())} -P -m vicode"
+    return f"{_python()} -P -m vicode"
+
+
+def _python() -> str:
+    return shlex.quote(Path(sys.executable).as_posix())
 
 
 def _install_hook(file: Path, *, is_removed: bool) -> int:
     """Add our lines to a hook, after the first line of an existing script; return 1 if that is not possible."""
-    lines = [] if is_removed else [f"{_command()} hook {file.name} || exit $?"]
+    lines = [] if is_removed else _hook_lines(file.name)
     if file.exists() and not is_removed:
         reason = _why_unusable(file)
         if reason:
@@ -185,6 +189,17 @@ def _install_hook(file: Path, *, is_removed: bool) -> int:
     elif file.exists() and lines:
         file.chmod(file.stat().st_mode | stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH)
     return 0
+
+
+def _hook_lines(name: str) -> list[str]:
+    """The lines of a hook. An environment that was removed must not stop every commit."""
+    python = _python()
+    missing = shlex.quote(f"vicode: {sys.executable} does not exist; run 'vicode hook install' again")
+    return [
+        f"if test -x {python}; then",
+        f"  {_command()} hook {name} || exit $?",
+        f"else echo {missing} >&2; fi",
+    ]
 
 
 def _why_unusable(file: Path) -> str:
