@@ -50,30 +50,30 @@ UNDERSTOOD = {
         ),
         "target of SearchNet → LookForBall: LookForBall",
     ),
-    "added transition": ((SEEN, SEEN + OLD), "transition LookForBall → GetUp: when perception.ball_age > 3"),
+    "added transition": ((SEEN, SEEN + OLD), "added transition LookForBall → GetUp: when perception.ball_age > 3"),
     "added transition with a comment": (
         (SEEN, SEEN + "        # old ball\n" + OLD),
-        "transition LookForBall → GetUp: when perception.ball_age > 3",
+        "added transition LookForBall → GetUp: when perception.ball_age > 3",
     ),
     "removed transition": (
         ("        # ball seen\n" + SEEN, ""),
-        "transition LookForBall → FollowBall: when perception.ball_seen",
+        "removed transition LookForBall → FollowBall: when perception.ball_seen",
     ),
     "argument": (("speed=210.0", "speed=250"), "modulation of follow_ball in state FollowBall: speed: 250"),
     "call": (
         (KICKER_CALL, KICKER_CALL + "        self._call(self.walk, forward=10.0, lateral=0.0, turn=0.0)\n"),
-        "modulation of walk in state Kick: forward: 10.0, lateral: 0.0, turn: 0.0",
+        "added modulation of walk in state Kick: forward: 10.0, lateral: 0.0, turn: 0.0",
     ),
-    "removed call": (("        self._call(self.stand_up)\n", ""), "modulation of stand_up in state GetUp"),
+    "removed call": (("        self._call(self.stand_up)\n", ""), "removed modulation of stand_up in state GetUp"),
     "assigned value": (("self.kicks += 1", "self.kicks += 2"), "enter action of state Kick: set kicks: kicks + 2"),
     "added assignment": (
         ("        self._do_kick_enter()\n", "        self._do_kick_enter()\n        self.side = Side.left\n"),
-        "enter action of state Kick: set side: Side.left",
+        "added enter action of state Kick: set side: Side.left",
     ),
     "initial value": (("self.kicks = 0", "self.kicks = 3"), "value of output kicks: 3"),
     "added variable": (
         ("        self.kicks = 0\n", "        self.kicks = 0\n        self.tries = 5\n"),
-        "variable tries: 5",
+        "added variable tries: 5",
     ),
     "frequency": (("frequency_hz = 10", "frequency_hz = 12.5"), "frequency: 12.5"),
     "resume": (("frequency_hz = 10\n", "frequency_hz = 10\n    resume = True\n"), "resume: yes"),
@@ -82,7 +82,7 @@ UNDERSTOOD = {
             '"GetUp", self._in_get_up, requires=(self.perception,)',
             '"GetUp", self._in_get_up, requires=(self.perception, self.walk)',
         ),
-        "requirement walk of state GetUp",
+        "added requirement walk of state GetUp",
     ),
     "final": (
         (
@@ -126,7 +126,7 @@ UNDERSTOOD = {
     ),
     "code before an assignment": (
         ("        self.kicks += 1\n", '        log.info("kick")\n        self.kicks += 1\n'),
-        'enter action of state Kick: log.info("kick")',
+        'added enter action of state Kick: log.info("kick")',
     ),
     "code before the calls": (
         (
@@ -134,7 +134,7 @@ UNDERSTOOD = {
             "        for word in self.words:\n            log.info(word)\n        self._call(self.face_ball)\n"
             + KICKER_CALL,
         ),
-        "action of state Kick: for word in self.words: log.info(word)",
+        "added action of state Kick: for word in self.words: log.info(word)",
     ),
     "rename": (('State("GetUp"', 'State("StandUp"'), "renamed state GetUp → StandUp"),
 }
@@ -194,7 +194,7 @@ def test_lines_are_those_of_the_edited_file() -> None:
         "modulation": "self._call(self.follow_ball, speed=250.0)",
         "module": "import math",
         # The last statement before the place of what was removed, or the first one behind it.
-        "transition": "return",
+        "removed": "return",
     }
 
 
@@ -251,7 +251,7 @@ def test_an_edit_may_depend_on_another_one() -> None:
     # The guard is read before the variable that it needs, which stands further down.
     variable = ("        self.side = Side.left\n", "        self.side = Side.left\n        self.tries = 5\n")
     result = interpret(edited_player(("if self.perception.fallen:", "if self.tries > 3:"), variable))
-    assert [edit.words for edit in result.edits] == ["variable tries: 5", "guard of common → GetUp: tries > 3"]
+    assert [edit.words for edit in result.edits] == ["added variable tries: 5", "guard of common → GetUp: tries > 3"]
     assert result.leftover == ""
 
 
@@ -298,15 +298,18 @@ SMALL = Design(
         ),
         (
             (("self._stay()", 'self._change_to("B")'),),
-            ["stay in A: when speed > 2", "transition A → B: when speed > 2"],
+            ["removed stay in A: when speed > 2", "added transition A → B: when speed > 2"],
         ),
         (
             (("            if self.speed > 2:\n                self._stay()\n                return\n", ""),),
-            ["stay in A: when speed > 2"],
+            ["removed stay in A: when speed > 2"],
         ),
-        ((('self._change_to("B")', "self._stay()"),), ["transition A → B: after 3", "stay in A: after 3"]),
+        (
+            (('self._change_to("B")', "self._stay()"),),
+            ["removed transition A → B: after 3", "added stay in A: after 3"],
+        ),
         ((("second paragraph", "third\n        paragraph"),), ["description of state B: third paragraph"]),
-        ((("        pass\n", "        print(self.speed)\n"),), ["action of state C: print(self.speed)"]),
+        ((("        pass\n", "        print(self.speed)\n"),), ["added action of state C: print(self.speed)"]),
         ((("3_000_000_000", "250_000_000"),), ["time of A → B: 0.25"]),
     ],
 )

@@ -6,7 +6,7 @@ import pytest
 
 from tests.sync.patches import apply_patch
 from tests.sync.player_edits import FORWARD, PLAYER, edited_player, interpret, text_of
-from vicode.model.design import DecisionGroup, Declaration, Design, Guard, State, Transition
+from vicode.model.design import Assign, DecisionGroup, Declaration, Design, Guard, State, Transition, Use
 from vicode.model.project import Project
 from vicode.sync.interpret import interpret_edits
 from vicode.sync.same_code import is_same_code
@@ -93,3 +93,27 @@ def test_a_part_of_a_decision_is_no_decision(tmp_path: Path) -> None:
     result = interpret_edits(project, "Player", generated=text, edited=edited)
     assert result.edits == ()
     assert is_same_code(apply_patch(text, result.leftover, tmp_path), edited)
+
+
+def test_an_edit_that_breaks_another_design() -> None:
+    counter = Design(
+        component="Counter",
+        initial="A",
+        outputs=(Declaration(name="count", initial="0"),),
+        states=(State(name="A"),),
+    )
+    user = Design(
+        component="User",
+        initial="A",
+        uses=(Use(alias="counter", component="Counter"),),
+        variables=(Declaration(name="n", type="int"),),
+        states=(State(name="A", enter=(Assign(values=(("n", "counter.count"),)),)),),
+    )
+    project = Project(name="two", designs=(counter, user))
+    text = text_of(project, counter)
+    for value, count in (("7", 1), ("0.5", 0)):
+        edited = text.replace("self.count = 0", f"self.count = {value}")
+        result = interpret_edits(project, "Counter", generated=text, edited=edited, file="python/two/counter.py")
+        assert len(result.edits) == count
+        assert result.leftover.startswith("" if count else "--- a/python/two/counter.py\n")
+        assert bool(result.leftover) == (not count)

@@ -7,7 +7,7 @@ lies between the code generated without it and the edited file; it contains noth
 import ast
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from vicode.check import check_design
 from vicode.findings import DesignPath, Severity
@@ -50,7 +50,7 @@ class Interpretation:
     leftover: str = ""
 
 
-def interpret_edits(project: Project, component: str, *, generated: str, edited: str) -> Interpretation:
+def interpret_edits(project: Project, component: str, *, generated: str, edited: str, file: str = "") -> Interpretation:
     """Explain the edits of a generated Python file; bodies of regions are ignored.
 
     Args:
@@ -58,6 +58,7 @@ def interpret_edits(project: Project, component: str, *, generated: str, edited:
         component: The component.
         generated: The text generated from the design.
         edited: The file as it was found.
+        file: The path in the patch; the component if empty.
     """
     design = project.design(component)
     if design is None:
@@ -67,11 +68,13 @@ def interpret_edits(project: Project, component: str, *, generated: str, edited:
     try:
         search = _Search(project, design, generated, edited)
     except SyntaxError:
-        return Interpretation(design=design, leftover=make_patch(generated, edited, component))
+        return Interpretation(design=design, leftover=make_patch(generated, edited, file or component))
     if not search.is_possible(generated):
-        return Interpretation(design=design, leftover=make_patch(generated, edited, component))
+        return Interpretation(design=design, leftover=make_patch(generated, edited, file or component))
     search.run()
-    return Interpretation(design=search.design, edits=tuple(search.edits), leftover=search.write_leftover())
+    return Interpretation(
+        design=search.design, edits=tuple(search.edits), leftover=search.write_leftover(file or component)
+    )
 
 
 class _Search:
@@ -91,7 +94,10 @@ class _Search:
         self._form = build_normal_form(generated, self._parts, is_generated=True)
         self._target = build_normal_form(edited, self._parts, is_generated=False)
         self._old_imports = self._form.imports
+        # Differs from any interface, so that the errors of all users are known.
+        self._interface: object = None
         self._errors = self._find_errors(design)
+        self._interface = (design.parameters, design.outputs)
         self._failed: set[object] = set()
         self._proposal_count = 0
         self.edits: list[InterpretedEdit] = []
@@ -116,7 +122,7 @@ class _Search:
                 break
         self._apply_imports()
 
-    def write_leftover(self) -> str:
+    def write_leftover(self, file: str) -> str:
         return LeftoverWriter(
             generated=self._text,
             generated_form=self._form,
@@ -124,7 +130,7 @@ class _Search:
             edited_form=self._target,
             parts=self._parts,
             imports=self._wanted_imports(),
-        ).write(self.design.component)
+        ).write(file)
 
     def _apply_rename(self) -> bool:
         for design in propose_renames(self.design, self._form, self._target):
@@ -247,10 +253,17 @@ class _Search:
         code = self._write(design)
         return None if code is None else code.file.text
 
-    def _find_errors(self, design: Design) -> frozenset[tuple[str, str]]:
-        findings = check_design(self._project, design)
+    def _find_errors(self, design: Design) -> frozenset[tuple[str, str, str]]:
+        """Return the errors of the design, and of those that use it if its interface changed."""
+        others = [each for each in self._project.designs if each.component != design.component]
+        project = replace(self._project, designs=(*others, design))
+        is_same = (design.parameters, design.outputs) == self._interface
+        users = [each for each in others if any(use.component == design.component for use in each.uses)]
         return frozenset(
-            (finding.rule.code, finding.message) for finding in findings if finding.severity is Severity.ERROR
+            (each.component, finding.rule.code, finding.message)
+            for each in (design, *(() if is_same else users))
+            for finding in check_design(project, each)
+            if finding.severity is Severity.ERROR
         )
 
     def _has_new_errors(self, design: Design) -> bool:
@@ -277,7 +290,8 @@ def _guarded(design: Design) -> list[bool]:
 def _describe(change: Change) -> str:
     """The new value in full, or the lines that are new, since the reader knows what was written."""
     if change.kind != ChangeKind.CHANGED:
-        return describe_change(change)[2:]
+        verb = f"{change.kind} " if change.kind in (ChangeKind.ADDED, ChangeKind.REMOVED) else ""
+        return f"{verb}{describe_change(change)[2:]}"
     is_transition = change.subject.startswith("transition ")
     subject = change.subject.removeprefix("transition ") if is_transition else change.subject
     attribute = " of ".join(part for part in (change.attribute, subject) if part)
