@@ -8,7 +8,6 @@ from vicode.editor.view import ItemRef
 from vicode.generators import generate
 from vicode.model.design import Design, Guard, State, Transition
 from vicode.model.project import Project
-from vicode.output import apply_diffs, compare_files
 from vicode.store import open_project
 
 ROOT = Path(__file__).parents[3]
@@ -61,15 +60,8 @@ def test_a_design_with_errors_or_without_a_language_has_a_note() -> None:
     assert "klingon" in preview_code(replace(PROJECT, languages=("klingon",)), PLAYER, {}).note
 
 
-def test_regions_edited_on_disk_are_listed(tmp_path: Path) -> None:
-    assert preview_code(PROJECT, PLAYER, {}, tmp_path).files[0].edited_regions == ()
-    apply_diffs(compare_files(generate(PROJECT), tmp_path), tmp_path)
-    assert preview_code(PROJECT, PLAYER, {}, tmp_path).files[0].edited_regions == ()
-    file = tmp_path / "python" / "forward" / "player.py"
-    file.write_text(file.read_text().replace("import logging\n", "import logging\nimport math\n"))
-    shown = preview_code(PROJECT, PLAYER, {}, tmp_path).files[0]
-    assert shown.edited_regions == ("module",)
+def test_the_lines_of_regions_are_found() -> None:
+    shown = preview_code(PROJECT, PLAYER, {}).files[0]
     lines = shown.text.split("\n")
-    assert {lines[at - 1] for at in shown.edited_lines()} >= {"import logging"}
-    file.write_text("import math\n" + file.read_text())
-    assert preview_code(PROJECT, PLAYER, {}, tmp_path).files[0].edited_regions == ()
+    assert {lines[at - 1] for at in shown.region_lines({"module"})} >= {"import logging"}
+    assert shown.region_lines(()) == ()

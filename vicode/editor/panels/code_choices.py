@@ -66,7 +66,7 @@ class _EditChoice:
         with ui.row().classes("conflict-head"):
             ui.label(edit.name).classes("conflict-place mono")
             ui.label(place).classes("small")
-        ui.label(_reason(edit)).classes("small")
+        ui.label(reason_of(edit)).classes("small")
         sides = {
             _FILE: ChoiceSide(
                 title=texts.IN_FILE, text=region.file_text, is_disabled=not edit.path or not _is_valid(edit)
@@ -139,7 +139,8 @@ def _is_valid(edit: OutsideEdit) -> bool:
     return edit.finding is None or edit.region.is_conflict
 
 
-def _reason(edit: OutsideEdit) -> str:
+def reason_of(edit: OutsideEdit) -> str:
+    """Why an edit waits for a user."""
     if not edit.path:
         return texts.CODE_GONE
     if edit.region.is_conflict:

@@ -6,6 +6,7 @@ The code of the selected item is highlighted; a click in the code selects the it
 from nicegui import run, ui
 
 from vicode.editor.code import CodeAssist
+from vicode.editor.panels.lacking_edits import LackingEdits
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import code_preview
 from vicode.editor.session.code_preview import CodePreview, PreviewFile
@@ -27,6 +28,7 @@ class CodePanel:
                 'outlined dense options-dense aria-label="Generated file"'
             )
             self.file_select.classes("code-choice mono")
+            self.edits = LackingEdits(context)
             self.note = ui.label().classes("code-note").props('role="status"')
             self.editor = context.code_editors.create().classes("preview")
             self.editor.disable()
@@ -37,6 +39,8 @@ class CodePanel:
         if not self.is_busy and self.shown_rev != self.context.document.rev:
             self.is_busy = True
             self.context.run_in_background(self._generate(), "preview")
+        if self.edits.refresh():
+            self._mark_edits()
         self._highlight_selection()
 
     @property
@@ -50,8 +54,8 @@ class CodePanel:
                 self.shown_rev = self.context.document.rev
                 # Read the inputs here: they could change while the thread runs.
                 workspace, design = self.context.workspace, self.context.design
-                paths = (workspace.source_paths, workspace.output_folder)
-                preview = await run.io_bound(code_preview.preview_code, workspace.project, design, *paths)
+                sources = workspace.source_paths
+                preview = await run.io_bound(code_preview.preview_code, workspace.project, design, sources)
                 # The result is None while the server shuts down.
                 if preview is None or self.editor.is_deleted:
                     return
@@ -73,15 +77,19 @@ class CodePanel:
 
     def _show_file(self) -> None:
         file = self.file
-        edited = ", ".join(file.edited_regions) if file else ""
-        self.note.set_text(f"Edited by hand on disk: {edited}" if edited else self.preview.note)
+        self.note.set_text(self.preview.note)
         self.note.set_visibility(bool(self.note.text))
         if file is not None and file.language in LANGUAGES:
             self.editor.set_language(LANGUAGES[file.language].editor_mode)
         self.editor.set_value(file.text if file else "")
-        self.code_assist.set_line_styles((line, "is-edited") for line in (file.edited_lines() if file else ()))
+        self._mark_edits()
         self.highlighted = None
         self._highlight_selection()
+
+    def _mark_edits(self) -> None:
+        waiting = self.context.document.shared.outside.waiting
+        lines = self.file.region_lines({edit.region.target for edit in waiting}) if self.file else ()
+        self.code_assist.set_line_styles((line, "is-edited") for line in lines)
 
     def _highlight_selection(self) -> None:
         file, item = self.file, self.context.single_selection

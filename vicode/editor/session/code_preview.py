@@ -1,8 +1,7 @@
 """A preview of the code generated from a design, with the origin of each line."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 from vicode.editor.session import texts
 from vicode.editor.view import ItemRef, item_at_path
@@ -10,18 +9,17 @@ from vicode.generators import GENERATORS, Origin, UnsoundDesignError, generate, 
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import OutputFile
-from vicode.regions import compute_checksum, find_regions, get_comment_prefix, has_header, is_edited
+from vicode.regions import find_regions, get_comment_prefix
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PreviewFile:
-    """A generated file; `edited_regions` are the ids of the regions edited by hand in the file on disk."""
+    """A generated file."""
 
     path: str
     language: str
     text: str
     origins: tuple[Origin, ...] = ()
-    edited_regions: tuple[str, ...] = ()
 
     def item_lines(self, item: ItemRef) -> tuple[int, int]:
         """The first and last line generated from an item, (0, 0) if there are none."""
@@ -34,12 +32,10 @@ class PreviewFile:
         smallest = min(around, key=lambda origin: origin.last - origin.first, default=None)
         return item_at_path(smallest.path) if smallest else None
 
-    def edited_lines(self) -> tuple[int, ...]:
-        """The lines of the regions that were edited on disk."""
+    def region_lines(self, ids: Collection[str]) -> tuple[int, ...]:
+        """The lines of some regions."""
         regions = (
-            region
-            for region in find_regions(self.text, get_comment_prefix(self.path)).regions
-            if region.id in self.edited_regions
+            region for region in find_regions(self.text, get_comment_prefix(self.path)).regions if region.id in ids
         )
         return tuple(line for region in regions for line in range(region.line, region.end_line + 1))
 
@@ -52,16 +48,13 @@ class CodePreview:
     files: tuple[PreviewFile, ...] = field(default=())
 
 
-def preview_code(
-    project: Project, design: Design, sources: Mapping[str, str], folder: Path | None = None
-) -> CodePreview:
+def preview_code(project: Project, design: Design, sources: Mapping[str, str]) -> CodePreview:
     """Generate the files of a design without writing them.
 
     Args:
         project: The project of the design.
         design: Replaces the design of the same component in the project.
         sources: The source files by component, named in the generated text.
-        folder: The folder of generated code to search for hand edits; None skips the search.
     """
     designs = tuple(design if other.component == design.component else other for other in project.designs)
     project = replace(project, designs=designs)
@@ -75,8 +68,7 @@ def preview_code(
             files += _files(project, design.component, language, sources)
         except UnsoundDesignError as error:
             notes.append(texts.no_code(error, language if len(languages) > 1 else ""))
-    edited = (replace(file, edited_regions=_edited(file, folder)) if folder else file for file in files)
-    return CodePreview(note="; ".join(dict.fromkeys(notes)), files=tuple(edited))
+    return CodePreview(note="; ".join(dict.fromkeys(notes)), files=tuple(files))
 
 
 def _files(project: Project, component: str, language: str, sources: Mapping[str, str]) -> list[PreviewFile]:
@@ -96,22 +88,3 @@ def _files(project: Project, component: str, language: str, sources: Mapping[str
         )
         for file in sorted(files, key=lambda file: file.path in shared)
     ]
-
-
-def _edited(file: PreviewFile, folder: Path) -> tuple[str, ...]:
-    """The regions on disk that were edited and differ from the code generated now."""
-    try:
-        old = (folder / file.path).read_bytes().decode("utf-8")
-    except (OSError, UnicodeDecodeError):
-        return ()
-    if not has_header(old):
-        return ()
-    fresh = {
-        region.id: compute_checksum(region.body)
-        for region in find_regions(file.text, get_comment_prefix(file.path)).regions
-    }
-    return tuple(
-        region.id
-        for region in find_regions(old, get_comment_prefix(file.path)).regions
-        if is_edited(region) and compute_checksum(region.body) != fresh.get(region.id)
-    )
