@@ -45,10 +45,12 @@ def test_an_edit_arrives_while_a_name_is_typed_and_can_be_undone(file: Path, edi
     expect(page.get_by_text("changed outside the editor")).to_be_visible()
     select_state(page, "KickHarder")
     expect(page.locator(".badge.outside")).to_have_count(0)
-    edit(file, "self._watched = 5", "self._watched = 0")
+    edit(file, "self._later = 1", "self._distances.append(self.perception.ball_distance)")
+    expect(page.get_by_text("Edited outside, in player.py: WatchBall.actions")).to_be_visible()
     page.locator(".undo-bar").get_by_role("button", name="Undo").click()
     select_state(page, "WatchBall")
     expect(code).to_be_visible()
+    expect(page.locator(".code-field", has_text="self._distances.append")).to_be_visible()
     expect(state(page, "KickHarder")).to_be_visible()
 
 

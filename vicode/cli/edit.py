@@ -16,6 +16,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--host", default="127.0.0.1", help="address to listen on (default: %(default)s, this machine only)"
     )
     parser.add_argument("--port", type=_port, help="port to listen on (default: a free port)")
+    parser.add_argument(
+        "--editor",
+        metavar="COMMAND",
+        type=_command,
+        default=(),
+        help="open code with this command, such as 'code -g {file}:{line}' (default: $VISUAL, if it is a known editor)",
+    )
     parser.add_argument("--no-tour", action="store_true", help="do not start the tour for new users")
     parser.add_argument("--no-open", action="store_true", help="do not open a browser")
 
@@ -25,6 +32,12 @@ def _port(text: str) -> int:
     if not 0 <= port < 2**16:
         raise ValueError(text)
     return port
+
+
+def _command(text: str) -> tuple[str, ...]:
+    from vicode.editor.session.external_editor import parse_command
+
+    return parse_command(text)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -38,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
     address = choose_address(args.host, args.port)
     if address.token:
         _reexec_with_system_malloc()
-    serve(path, address, open_browser=not args.no_open, tour=not args.no_tour)
+    serve(path, address, open_browser=not args.no_open, tour=not args.no_tour, editor_command=args.editor)
     return 0
 
 

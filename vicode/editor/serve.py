@@ -58,7 +58,14 @@ def choose_address(host: str, port: int | None) -> ServerAddress:
     return ServerAddress(host=host, port=_free_port(host, port), token=token)
 
 
-def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour: bool = True) -> None:
+def serve(
+    path: Path,
+    address: ServerAddress,
+    *,
+    open_browser: bool = True,
+    tour: bool = True,
+    editor_command: tuple[str, ...] = (),
+) -> None:
     """Serve the editor for the projects at `path` until the process is stopped.
 
     Raises:
@@ -75,8 +82,12 @@ def serve(path: Path, address: ServerAddress, *, open_browser: bool = True, tour
     from vicode.editor.gc_policy import GcPolicy
     from vicode.editor.pages.routes import register_pages
     from vicode.editor.session import Library
+    from vicode.editor.session.external_editor import ExternalEditor, find_command
 
-    library = Library(path)
+    # Other machines cannot start programs here.
+    is_local = not address.token
+    arguments = (editor_command or find_command()) if is_local else ()
+    library = Library(path, external_editor=ExternalEditor(arguments=arguments, is_local=is_local))
     library.remove_leftovers()
     _prepare_process()
     start = address.page_url(_first_page(library))

@@ -23,11 +23,13 @@ from vicode.editor.panels.finding_navigation import FindingNavigator
 from vicode.editor.panels.form import RemovedTexts
 from vicode.editor.panels.header import Header
 from vicode.editor.panels.help_dialog import show_help
+from vicode.editor.panels.open_in_editor import editor_command
 from vicode.editor.panels.tour import Tour
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DocumentSession, User, UserDirectory, Workspace
 from vicode.editor.session.autosave import AutosaveService
+from vicode.editor.session.external_editor import ExternalEditor
 from vicode.editor.session.search_index import SearchTarget
 from vicode.editor.view import ItemRef
 from vicode.editor.view.page_urls import DesignAddress, parse_trail
@@ -54,6 +56,7 @@ class Window:
     tabs: SideTabs
     overlay: ui.element
     starts_tour: bool
+    external_editor: ExternalEditor
 
     @property
     def user(self) -> User:
@@ -93,6 +96,7 @@ class DesignEditor:
             page=self,
             open_sections=window.users.open_sections(window.user_id),
             code_editors=window.code_editors,
+            external_editor=window.external_editor,
         )
         component = context.design.component
         self.trail = trail = parse_trail(address.trail, workspace.project.interfaces(), component)
@@ -151,7 +155,7 @@ class DesignEditor:
         page_commands = PageCommands(self.context, self.view.canvas_controller, self.window.theme)
         commands = (*page_commands.commands(), *others, *self.view.commands())
         commands += ExportDialog(self.context, lambda: page_commands.links_shown).commands()
-        commands += (docs_command(self.context),)
+        commands += (docs_command(self.context), *editor_command(self.context))
         help_ = Command(
             "help",
             "Keyboard shortcuts and gestures",

@@ -74,6 +74,7 @@ class DesignPage:
             tabs=tabs,
             overlay=ui.element("div"),
             starts_tour=starts_tour,
+            external_editor=library.external_editor,
         )
         self._editor = DesignEditor(self._window, opened)
         commands = [replace(each, handler=partial(self._run_command, each.name)) for each in self._editor.commands]

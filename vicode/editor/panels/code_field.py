@@ -12,6 +12,7 @@ from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.fields import Field, FieldBinding, add_field
 from vicode.editor.panels.finding_navigation import fix_button
 from vicode.editor.panels.form import Form
+from vicode.editor.panels.open_in_editor import open_in_editor
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.code_marks import CodeMark, mark_assignments, mark_text
@@ -35,6 +36,7 @@ class CodeFieldSpec:
     find_marks: Callable[[str], Sequence[CodeMark]]
     css_class: str
     is_expression: bool = True
+    open_in_editor: Callable[[], None] | None = None
 
 
 def code_field(form: Form, binding: FieldBinding) -> Field:
@@ -52,6 +54,7 @@ def code_field(form: Form, binding: FieldBinding) -> Field:
         find_marks=find_marks,
         css_class="code-field",
         is_expression=False,
+        open_in_editor=lambda: open_in_editor(context, binding.get_path()),
     )
     return add_field(form, _build(context, binding, spec))
 
@@ -91,6 +94,9 @@ def _build(
         with ui.row().classes("field-head"):
             if not is_large:
                 ui.label(binding.label).classes("field-label")
+                ui.element("div").classes("spacer")
+                if spec.open_in_editor is not None:
+                    icon_button("open_in_new", f"Open in editor: {binding.label}", spec.open_in_editor)
                 icon_button("open_in_full", f"Enlarge: {binding.label}", lambda: _enlarge(fields[0], spec))
         editor = context.code_editors.create(on_focus=focus, language=None if spec.is_expression else "Python")
         editor.classes(spec.css_class + (" is-large" if is_large else ""))

@@ -254,3 +254,19 @@ def edited_outside_regions(name: str, *, known: bool) -> str:
 
 def take_over_words(number: int) -> str:
     return f"Take {pluralize(number, 'edit')} over into the design"
+
+
+def opens_with(name: str) -> str:
+    return f"Code opens with {name}"
+
+
+def place_copied(place: str) -> str:
+    return f"Copied {place}"
+
+
+def editor_not_started(name: str, reason: object) -> str:
+    return f"{name} could not be started: {reason}"
+
+
+def nothing_to_open(reason: object) -> str:
+    return f"The code is not generated yet: {reason}"

@@ -10,6 +10,7 @@ from vicode.editor.panels.code_editor import CodeEditorFactory
 from vicode.editor.panels.code_linter import CodeLinter
 from vicode.editor.panels.toasts import show_toast
 from vicode.editor.session import DocumentSession, PresenceRoom, Workspace
+from vicode.editor.session.external_editor import ExternalEditor
 from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design
@@ -38,6 +39,7 @@ class WindowContext:
     client: Client
     """The client of this window. Handlers use it after an edit, as their own button may be deleted by then."""
     page: PageServices
+    external_editor: ExternalEditor = field(default_factory=ExternalEditor)
     selected: tuple[ItemRef, ...] = ()
     open_sections: set[str] = field(default_factory=set)
     """Keys of the open sections of forms."""

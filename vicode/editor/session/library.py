@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from vicode.editor.session.external_editor import ExternalEditor
 from vicode.editor.session.overview import ProjectOverview
 from vicode.editor.session.presence import UserDirectory
 from vicode.editor.session.workspace import Workspace
@@ -23,6 +24,7 @@ class Library:
     users: UserDirectory = field(init=False, default_factory=UserDirectory)
     workspaces: list[Workspace] = field(init=False)
     clock: Callable[[], float] = time.monotonic
+    external_editor: ExternalEditor = field(default_factory=ExternalEditor)
     _next_search_s: float = field(init=False, default=0.0)
     _folder_times: frozenset[tuple[str, int]] = field(init=False, default=frozenset())
     _earlier_folder_times: frozenset[tuple[str, int]] = field(init=False, default=frozenset())
