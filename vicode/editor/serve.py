@@ -73,28 +73,19 @@ def serve(
     """
     # Imported objects stay alive: collecting during the imports takes a tenth of the startup time.
     gc.disable()
-    # By default, NiceGUI creates its folder in the working directory, which is the user's project.
-    os.environ.setdefault(STORAGE_VARIABLE, str(Path(tempfile.gettempdir()) / f"vicode-{os.getuid()}"))
+    _set_storage_folder()
     from nicegui import app, background_tasks, ui
     from starlette.middleware.gzip import GZipMiddleware
 
     from vicode.editor.connection_limits import LimitedHttpProtocol
     from vicode.editor.gc_policy import GcPolicy
     from vicode.editor.pages.routes import register_pages
-    from vicode.editor.session import Library
-    from vicode.editor.session.external_editor import ExternalEditor, find_command
 
-    # Other machines cannot start programs here.
-    is_local = not address.token
-    arguments = (editor_command or find_command()) if is_local else ()
-    library = Library(path, external_editor=ExternalEditor(arguments=arguments, is_local=is_local))
-    library.remove_leftovers()
+    library = _open_library(path, address, editor_command)
     _prepare_process()
     start = address.page_url(_first_page(library))
     register_pages(library, _start_autosave(library), tour=tour)
-    _add_access_control(app, address)
-    # Quasar's loading bar is a landmark without a name, and useless here: all traffic uses one socket.
-    app.config.quasar_config.update({"loadingBar": {"skipHijack": True}, "ripple": False})
+    _configure_app(app, address)
     message = _startup_message(path, address, start)
     app.on_startup(lambda: background_tasks.create(_announce(message, address), name="announce"))
     GcPolicy(app).freeze_gc()
@@ -117,6 +108,23 @@ def serve(
         gzip_middleware_factory=GZipMiddleware if address.token else None,
         ws_per_message_deflate=bool(address.token),
     )
+
+
+def _set_storage_folder() -> None:
+    """By default, NiceGUI creates its folder in the working directory, which is the user's project."""
+    os.environ.setdefault(STORAGE_VARIABLE, str(Path(tempfile.gettempdir()) / f"vicode-{os.getuid()}"))
+
+
+def _open_library(path: Path, address: ServerAddress, editor_command: tuple[str, ...]) -> "Library":
+    from vicode.editor.session import Library
+    from vicode.editor.session.external_editor import ExternalEditor, find_command
+
+    # Other machines cannot start programs here.
+    is_local = not address.token
+    arguments = (editor_command or find_command()) if is_local else ()
+    library = Library(path, external_editor=ExternalEditor(arguments=arguments, is_local=is_local))
+    library.remove_leftovers()
+    return library
 
 
 def _start_autosave(library: "Library") -> "AutosaveService":
@@ -149,7 +157,9 @@ def _end_on_hangup() -> None:
         signal.signal(signal.SIGHUP, lambda _number, _frame: os.kill(os.getpid(), signal.SIGTERM))
 
 
-def _add_access_control(app: "App", address: ServerAddress) -> None:
+def _configure_app(app: "App", address: ServerAddress) -> None:
+    # Quasar's loading bar is a landmark without a name, and useless here: all traffic uses one socket.
+    app.config.quasar_config.update({"loadingBar": {"skipHijack": True}, "ripple": False})
     from vicode.editor.access import TOKEN_COOKIE, AccessMiddleware
 
     hosts = ("127.0.0.1", "localhost", "::1") if not address.token else None
