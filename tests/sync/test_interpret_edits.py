@@ -22,6 +22,10 @@ UNDERSTOOD = {
         ("y=0.0)) < 30", "y=0.0)) < 40"),
         "guard of CircleBall → SearchNet: abs(perception.bearing_to(x=net_x, y=0)) < 40 or state_time > 10",
     ),
+    "whole number": (
+        ("y=0.0)) < 30", "y=77)) < 30"),
+        "guard of CircleBall → SearchNet: abs(perception.bearing_to(x=net_x, y=77)) < 30 or state_time > 10",
+    ),
     "operator": (
         ("decide and not self.perception.fallen", "decide and self.perception.ball_age > 3 * (1 + net_x)"),
         "guard of GetUp → LookForBall: perception.ball_age > 3 * (1 + net_x)",

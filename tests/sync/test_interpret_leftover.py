@@ -117,3 +117,14 @@ def test_an_edit_that_breaks_another_design() -> None:
         assert len(result.edits) == count
         assert result.leftover.startswith("" if count else "--- a/python/two/counter.py\n")
         assert bool(result.leftover) == (not count)
+
+
+def test_a_default_that_is_not_understood_stays_where_it_was_written(tmp_path: Path) -> None:
+    speed = Declaration(name="speed", type="float", initial="1")
+    design = Design(component="Player", initial="A", parameters=(speed,), states=(State(name="A"),))
+    project = Project(name="small", designs=(design,))
+    text = text_of(project, design)
+    edited = text.replace("self.speed = 1.0", "self.speed = read_speed()")
+    result = interpret_edits(project, "Player", generated=text, edited=edited)
+    assert result.edits == ()
+    assert apply_patch(text, result.leftover, tmp_path) == edited

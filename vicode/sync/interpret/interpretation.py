@@ -24,6 +24,7 @@ from vicode.sync.interpret.edit_context import CodeChange, EditContext
 from vicode.sync.interpret.form_distance import form_distance
 from vicode.sync.interpret.leftover import LeftoverWriter, import_statement, make_patch
 from vicode.sync.interpret.normal_form import NormalForm, build_normal_form, collect_parts
+from vicode.sync.interpret.parameter_defaults import align_defaults
 from vicode.sync.interpret.renames import find_word_mapping, list_states, map_parts, map_words, propose_renames
 
 _SOURCE = re.compile(r"^    design_file = (.*)$", re.MULTILINE)
@@ -66,15 +67,23 @@ def interpret_edits(project: Project, component: str, *, generated: str, edited:
     edited = edited.replace("\r\n", "\n").replace("\r", "\n")
     generated = generated.replace("\r\n", "\n")
     try:
-        search = _Search(project, design, generated, edited)
+        aligned = align_defaults(generated, edited)
+        result = _interpret(project, design, generated=generated, edited=aligned, file=file or component)
+        if aligned == edited or not result.leftover:
+            return result
+        # A default that was not understood is not changed where the person did not change it.
+        exact = _interpret(project, design, generated=generated, edited=edited, file=file or component)
+        return result if len(result.edits) > len(exact.edits) else exact
     except SyntaxError:
         return Interpretation(design=design, leftover=make_patch(generated, edited, file or component))
+
+
+def _interpret(project: Project, design: Design, *, generated: str, edited: str, file: str) -> Interpretation:
+    search = _Search(project, design, generated, edited)
     if not search.is_possible(generated):
-        return Interpretation(design=design, leftover=make_patch(generated, edited, file or component))
+        return Interpretation(design=design, leftover=make_patch(generated, edited, file))
     search.run()
-    return Interpretation(
-        design=search.design, edits=tuple(search.edits), leftover=search.write_leftover(file or component)
-    )
+    return Interpretation(design=search.design, edits=tuple(search.edits), leftover=search.write_leftover(file))
 
 
 class _Search:

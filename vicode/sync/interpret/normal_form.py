@@ -259,7 +259,7 @@ def _with_plain_text(item: CodeItem) -> CodeItem:
         (statement,) = parse_module(f"{code} pass" if code.endswith(":") else code).body
     except (SyntaxError, ValueError):
         return item
-    plain = ast.unparse(_PlainNumbers().visit(statement))
+    plain = ast.unparse(_PlainNumbers().visit(statement)).removesuffix("\n    pass")
     return replace(item, code=f"el{plain}" if is_elif else plain)
 
 
