@@ -102,7 +102,7 @@ def test_a_conflict_is_listed_and_overwriting_keeps_a_copy(editor: str, page: Pa
     file.write_text(file.read_text().replace("import logging\n", "import logging +\n"))
     open_code(page)
     edits = page.get_by_role("list", name="Edits that the design lacks")
-    expect(edits).to_contain_text("invalid Python")
+    expect(edits).to_contain_text("Invalid Python")
     page.locator(".preview .cm-content").click()
     page.keyboard.press("Control+Home")
     expect(page.locator(".preview .is-edited").first).to_be_visible()

@@ -194,6 +194,8 @@ def list_component_paths(project: Project, component: str) -> tuple[str, ...]:
     paths: list[str] = []
     for generator in _select_generators(project, None):
         package = plan_package(project, generator.reserved_modules)
+        if component not in package.modules:
+            continue
         shared = replace(package, modules={})
         own = replace(package, modules={component: package.modules[component]})
         others = generator.list_paths(shared, standalone=False)

@@ -108,6 +108,7 @@ def test_invalid_python_waits_until_it_is_valid(workspace: Workspace, player: Do
     assert "math" in str(player.design.module)
     (finding,) = player.shared.outside.findings
     assert finding in player.findings
+    assert "player.py, line" in player.shared.notice.text
     line = 1 + file.read_text().split("\n").index("        self._seen +=")
     assert finding.location is not None
     assert (finding.location.file, finding.location.line) == ("generated/python/forward/player.py", line)
@@ -189,6 +190,38 @@ def test_edits_wait_while_the_design_has_errors(workspace: Workspace, player: Do
 def test_used_designs_are_opened_for_their_edits(workspace: Workspace, player: DocumentSession) -> None:
     assert code_sync.find_lacking(workspace, "Player") == ()
     assert len(workspace.documents) == 1
+
+
+def test_generate_offers_what_the_design_can_take_over(
+    workspace: Workspace, player: DocumentSession, file: Path
+) -> None:
+    edit_file(file, "self.perception.ball_age > 77:", "self.perception.ball_age > lost_after:")
+    code_sync.follow_generated_files(workspace)
+    assert player.shared.outside.lacks_edits
+    assert code_sync.find_lacking(workspace, "Player") == (player,)
+    prepared = workspace.prepare_output(player)
+    (reading,) = prepared.readings
+    assert len(reading.words) == 2
+    assert "ball_age > 77" in reading.words[0]
+    assert reading.leftover == ""
+    assert code_sync.take_over_design(player, reading.base, reading.design, reading.words)
+    assert "ball_age > 77" in player.history.current.label
+    workspace.save(player)
+    assert workspace.generate(player).is_complete
+    code_sync.follow_generated_files(workspace)
+    assert not player.shared.outside.lacks_edits
+
+
+def test_a_file_without_its_first_line_cannot_be_compared(
+    workspace: Workspace, player: DocumentSession, file: Path
+) -> None:
+    file.write_text(file.read_text().partition("\n")[2])
+    code_sync.follow_generated_files(workspace)
+    assert [finding.rule.code for finding in player.shared.outside.problems] == ["G501"]
+    assert code_sync.find_lacking(workspace, "Player") == (player,)
+    file.write_text("")
+    code_sync.follow_generated_files(workspace)
+    assert code_sync.find_lacking(workspace, "Player") == ()
 
 
 def test_broken_marks_are_a_finding(workspace: Workspace, player: DocumentSession, file: Path) -> None:

@@ -145,4 +145,7 @@ def reason_of(edit: OutsideEdit) -> str:
         return texts.CODE_GONE
     if edit.region.is_conflict:
         return texts.SAME_LINES_CHANGED
-    return edit.finding.message if edit.finding else texts.EDIT_WAS_UNDONE
+    if edit.finding is None:
+        return texts.EDIT_WAS_UNDONE
+    problem = edit.finding.message.partition(": ")[2]
+    return f"{problem[:1].upper()}{problem[1:]}."

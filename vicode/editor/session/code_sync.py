@@ -16,7 +16,7 @@ from vicode.model.design import Design
 from vicode.model.merge import merge_designs
 from vicode.model.project import Project
 from vicode.output import FileDiff, FileStatus
-from vicode.regions import find_regions, get_comment_prefix, has_header, is_edited
+from vicode.regions import find_regions, get_comment_prefix, is_edited
 from vicode.sync import (
     AdoptedEdit,
     FileEdits,
@@ -98,6 +98,7 @@ def take_in(workspace: "Workspace", document: DocumentSession) -> None:
     outside.problems = tuple(each for file in files for each in file.problems)
     outside.edited_outside = tuple(file for file in files if file.is_edited_outside and file.is_origin_known)
     if (outside.waiting, outside.problems) != before:
+        _tell_problem(document, before[0], before[1])
         document.shared.recheck()
 
 
@@ -157,7 +158,7 @@ def take_over_design(document: DocumentSession, base: Design, design: Design, wo
     merged = merge_designs(base, document.design, design)
     if merged.conflicts:
         return False
-    document.edit(f"edited outside: {'; '.join(words)}", lambda _design: merged.design)
+    document.edit(f"edited outside: {_shortened(words)}", lambda _design: merged.design)
     return True
 
 
@@ -181,6 +182,21 @@ def taken_in(workspace: "Workspace") -> dict[RegionKey, TakenEdit | None]:
 
 def _shown_version(edit: OutsideEdit) -> Hashable:
     return (edit.version, edit.region.design_text)
+
+
+def _tell_problem(document: DocumentSession, waiting: Sequence[OutsideEdit], problems: Sequence[Finding]) -> None:
+    """Announce the first new edit that could not be taken in."""
+    outside = document.shared.outside
+    known = {edit.version for edit in waiting if edit.finding is not None}
+    findings = [edit.finding for edit in outside.waiting if edit.finding is not None and edit.version not in known]
+    findings += [finding for finding in outside.problems if finding not in problems]
+    if findings:
+        DocumentSession(document.shared, DISK_USER).post_notice(_located(findings[0]))
+
+
+def _located(finding: Finding) -> str:
+    place = finding.location
+    return f"{PurePath(place.file).name}, line {place.line}: {finding.message}" if place else finding.message
 
 
 def _only_user(document: DocumentSession) -> str:
@@ -263,7 +279,10 @@ def _not_taken_over(error: Finding, edit: AdoptedEdit) -> Finding:
 
 
 def _listed(edits: Iterable[OutsideEdit]) -> str:
-    names = [edit.name for edit in edits]
+    return _shortened([edit.name for edit in edits])
+
+
+def _shortened(names: Sequence[str]) -> str:
     return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
 
 
@@ -272,7 +291,8 @@ def _has_edits(file: Path) -> bool:
 
 
 def _has_marks(text: str) -> bool:
-    return has_header(text) and "<vicode " in text
+    """Whether a text may contain regions; half-written files may not."""
+    return "<vicode " in text
 
 
 def _read(file: Path) -> str:
