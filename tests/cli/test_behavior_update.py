@@ -130,6 +130,15 @@ def test_random_edits_change_only_what_was_edited(texts: dict[str, str], seed: i
         assert_only_the_state_changed(texts, new, edited)
 
 
+@given(commented_behaviors(), st.integers(0, 2**32))
+def test_several_edits_at_once_are_written(texts: dict[str, str], seed: int) -> None:
+    chance, project = random.Random(seed), imported(texts)
+    for _ in range(10):
+        edited = draw_edit(chance, project)
+        project = edited.project if edited else project
+    updated(texts, project)
+
+
 @pytest.mark.parametrize("name", ["p1", "p7", "drive_circle"])
 def test_random_edits_of_recorded_programs(name: str) -> None:
     folder = CASES / "programs" / name

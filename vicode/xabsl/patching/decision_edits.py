@@ -37,15 +37,27 @@ class DecisionEdits:
         if before == after and else_docs[1] == else_docs[2]:
             return
         if not self._edit_chain(*chains):
-            self.replace(old, after)
+            self.replace(old, after, else_docs[2])
 
-    def replace(self, old: tree.DecisionTreeNode, after: tree.DecisionTreeNode) -> None:
-        """Replace a tree; its comments are kept above the new one."""
+    def replace(self, old: tree.DecisionTreeNode, after: tree.DecisionTreeNode, else_doc: str = "") -> None:
+        """Replace a tree; its comments are kept above the new one.
+
+        Args:
+            old: The original tree.
+            after: The new tree.
+            else_doc: The new description before the `else` that precedes the tree.
+        """
         file = self.file
+        branch = read_chain(old, "").branches[0]
+        for token in doc_tokens(file, branch, own=False):
+            file.delete(file.start(token), file.start(token + 1))
         while isinstance(old, tree.BlockNode):
             old = old.inner
         while isinstance(after, tree.BlockNode):
             after = after.inner
+        if else_doc and isinstance(after, tree.IfNode):
+            doc = " ".join(each for each in (else_doc, after.doc) if each)
+            after = replace(after, doc=doc, first_token=after.first_token - (not after.doc))
         start, end = file.start(old.first_token), file.end(old.last_token)
         lines = [*file.comments_between(start, end), *self.print(after).split("\n")]
         indent = file.indent_at(start)
@@ -88,10 +100,14 @@ class DecisionEdits:
             return False
         for index, match in enumerate(matches):
             if match is not None:
-                self._edit_test(old, before, after, match, index)
+                self._edit_test(old.tests[match], before.tests[match], after.tests[index])
+            # The description of a moved test is written where it moves.
+            if match is not None and match in kept:
+                branches = old.branches[match], before.branches[match], after.branches[index]
+                self._edit_doc(*branches, becomes_first=match == min(kept))
         if not old.is_open:
             ends = old.branches[-1], before.branches[-1], after.branches[-1]
-            self._edit_doc(*ends)
+            self._edit_doc(*ends, becomes_first=not kept)
             self.edit(ends[0].outer, ends[1].node, ends[2].node)
         rearranging.apply()
         return True
@@ -122,13 +138,12 @@ class DecisionEdits:
         else:
             self.file.replace_node(old, print_node(after))
 
-    def _edit_test(self, old: Chain, before: Chain, after: Chain, match: int, index: int) -> None:
-        was, now = before.tests[match], after.tests[index]
-        self._edit_doc(old.branches[match], before.branches[match], after.branches[index])
-        edit_expression(self.file, old.tests[match].condition, was.condition, now.condition)
-        self.edit(old.tests[match].then, was.then, now.then)
+    def _edit_test(self, old: tree.IfNode, before: tree.IfNode, after: tree.IfNode) -> None:
+        edit_expression(self.file, old.condition, before.condition, after.condition)
+        self.edit(old.then, before.then, after.then)
 
-    def _edit_doc(self, old: ChainBranch, before: ChainBranch, after: ChainBranch) -> None:
+    def _edit_doc(self, old: ChainBranch, before: ChainBranch, after: ChainBranch, *, becomes_first: bool) -> None:
+        """Change the description of a branch; the `else` before it is removed if it becomes the first one."""
         if before.doc == after.doc:
             return
         file = self.file
@@ -136,7 +151,7 @@ class DecisionEdits:
         if tokens:
             edit_words(file, [(file.start(token), file.end(token)) for token in tokens], before.doc, after.doc)
             return
-        first = else_token(file, old.outer.first_token)
+        first = None if becomes_first else else_token(file, old.outer.first_token)
         start = file.start(first if first is not None else old.node.first_token)
         indent = file.indent_at(start)
         line = f"/** {' '.join(after.doc.split())} */\n{indent}"

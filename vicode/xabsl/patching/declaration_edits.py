@@ -61,9 +61,22 @@ def _edit_parameter(
 ) -> None:
     if before == after:
         return
-    edit_doc(file, old, before.doc, after.doc)
+    edit_doc(file, old, *_docs_without_range(file, old, before.doc, after.doc))
     if (before.type, before.range, before.unit) != (after.type, after.range, after.unit):
         file.replace(_head_start(file, old), file.end(old.last_token - 1), _without_doc(after).removesuffix(";"))
+
+
+def _docs_without_range(
+    file: SourceEdits, old: tree.ParameterNode | tree.SymbolNode, before: str, after: str
+) -> tuple[str, str]:
+    """The descriptions without a range that is not a pair of numbers: an import appends it to the description."""
+    words = f"[{old.range}]"
+    if not old.range or not before.endswith(words):
+        return before, after
+    if not after.endswith(words):
+        name = old.name.last_token
+        file.delete(file.end(name), file.end(name + 1))
+    return before.removesuffix(words).strip(), after.removesuffix(words).strip()
 
 
 def edit_declaration(
@@ -72,7 +85,8 @@ def edit_declaration(
     """Change a declaration."""
     if before == after:
         return
-    edit_doc(file, old, before.doc, after.doc)
+    docs = before.doc, after.doc
+    edit_doc(file, old, *(_docs_without_range(file, old, *docs) if isinstance(old, tree.SymbolNode) else docs))
     match old, before, after:
         case tree.SymbolNode(), tree.SymbolNode(), tree.SymbolNode():
             _edit_symbol(file, old, before, after)

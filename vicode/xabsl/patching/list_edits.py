@@ -156,8 +156,7 @@ def _insert(file: SourceEdits, chunks: Sequence[_Chunk], previous: Match, text: 
     position = chunks[previous].end if previous is not None else file.end_with_comment(style.opening)
     plain = text.text.replace("\r\n", "\n")
     if not chunks[0].is_lines:
-        gap = "" if file.text[position - 1] == "(" else " "
-        file.insert(position, gap + plain.strip())
+        _insert_inline(file, position, plain.strip(), style)
         return
     lines = plain if text.is_lines else style.indent + plain.strip()
     if previous is None and style.opening < 0:
@@ -167,6 +166,14 @@ def _insert(file: SourceEdits, chunks: Sequence[_Chunk], previous: Match, text: 
     else:
         # The first item keeps the blank lines and separators above it.
         file.insert(position, "\n" + lines + ("\n" if style.has_blank_lines else ""))
+
+
+def _insert_inline(file: SourceEdits, position: int, text: str, style: ListStyle) -> None:
+    """Insert an item into a line, or in its own lines if it has several."""
+    is_lines = "\n" in text or file.text[:position].rsplit("\n", 1)[-1].count("//")
+    gap = f"\n{style.indent}" if is_lines else "" if file.text[position - 1] == "(" else " "
+    has_comment = "//" in text.rsplit("\n", 1)[-1]
+    file.insert(position, gap + text + (f"\n{style.indent}" if has_comment else ""))
 
 
 def _fill_empty_list(file: SourceEdits, texts: Sequence[_Text], style: ListStyle) -> None:

@@ -90,12 +90,16 @@ class _OptionEdits:
     def _add_block(self, first: int, text: str) -> None:
         """Add a block in its own lines before the item that starts with the token `first`."""
         file = self.file
-        position = file.start_with_comments(first)
-        block = indented(text, self.indent, self.unit)
-        if file.is_first_in_line(file.start(first)):
-            file.insert(position, f"{self.indent}{block}\n\n")
+        position = file.end_with_comment(first - 1)
+        block = self.indent + indented(text, self.indent, self.unit)
+        above = "\n" if file.tokens.kinds[first - 1] == "{" else "\n\n"
+        rest = file.text[position : file.start(first)]
+        if "\n" not in rest:
+            # The item follows in the same line.
+            file.insert(position, f"{above}{block}\n\n{self.indent}")
         else:
-            file.insert(position, f"\n{self.indent}{block}\n\n{self.indent}")
+            is_blank = not rest.split("\n", 2)[1].strip() and rest.count("\n") > 1
+            file.insert(position, above + block + ("" if is_blank else "\n"))
 
     # States
 
@@ -112,7 +116,7 @@ class _OptionEdits:
             else:
                 self._edit_state(old.states[match], before[state.name.text], state)
                 added.append("")
-        opening = old.states[0].first_token - 1
+        opening = self._token_before_states()
         has_blank = len(old.states) < 2 or any(
             "\n" in file.text[file.end_with_comment(one.last_token) : file.start_with_comments(two.first_token)][1:]
             for one, two in zip(old.states, old.states[1:], strict=False)
@@ -120,6 +124,18 @@ class _OptionEdits:
         style = ListStyle(opening=opening, indent=self.indent, unit=self.unit, has_blank_lines=has_blank)
         if matches != list(range(len(old.states))):
             edit_list(file, old.states, matches, added, style)
+
+    def _token_before_states(self) -> int:
+        """The last token before the states that is not removed."""
+        old, before, after = self.old, self.before.option, self.after.option
+        first = old.states[0].first_token
+        removes_actions = before.common_actions is not None and after.common_actions is None
+        if old.common_actions is not None and removes_actions:
+            first = old.common_actions.first_token - 2
+        keeps_actions = old.common_actions is not None and not removes_actions
+        if old.common_decision is not None and after.common_decision is None and not keeps_actions:
+            first = old.common_decision.first_token - 3
+        return first - 1
 
     def _print_state(self, state: tree.StateNode) -> str:
         return indented(print_node(state, self.after.comments), self.indent, self.unit)
@@ -179,7 +195,7 @@ class _OptionEdits:
             remove_item(self.file, was.first_token, was.last_token)
         elif was is not None and now is not None:
             if before.decision is None:
-                self.decisions.replace(was.tree, now.tree)
+                self.decisions.replace(was.tree, now.tree, now.else_doc)
             else:
                 docs = was.else_doc, before.decision.else_doc, now.else_doc
                 self.decisions.edit(was.tree, before.decision.tree, now.tree, docs)
