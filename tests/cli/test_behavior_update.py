@@ -131,12 +131,16 @@ def test_random_edits_change_only_what_was_edited(texts: dict[str, str], seed: i
 
 
 @given(commented_behaviors(), st.integers(0, 2**32))
-def test_several_edits_at_once_are_written(texts: dict[str, str], seed: int) -> None:
+def test_several_edits_are_written_together_or_refused(texts: dict[str, str], seed: int) -> None:
     chance, project = random.Random(seed), imported(texts)
     for _ in range(10):
         edited = draw_edit(chance, project)
         project = edited.project if edited else project
-    updated(texts, project)
+    changed, problems = update(texts, project)
+    if problems:
+        assert changed == {}
+    else:
+        updated(texts, project)
 
 
 @pytest.mark.parametrize("name", ["p1", "p7", "drive_circle"])

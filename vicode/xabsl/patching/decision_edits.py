@@ -155,7 +155,7 @@ class DecisionEdits:
         start = file.start(first if first is not None else old.node.first_token)
         indent = file.indent_at(start)
         line = f"/** {' '.join(after.doc.split())} */\n{indent}"
-        if file.is_first_in_line(start):
+        if first is None or file.is_first_in_line(start):
             file.insert(start, line)
         else:
             before_space = len(file.text[:start].rstrip(" \t"))

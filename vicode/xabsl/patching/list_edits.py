@@ -136,7 +136,7 @@ def remove_item(file: SourceEdits, first: int, last: int) -> None:
 
 def _chunk(file: SourceEdits, first: int, last: int) -> _Chunk:
     start = file.start_with_comments(first)
-    return _Chunk(start, file.end_with_comment(last), file.is_first_in_line(file.start(first)))
+    return _Chunk(start, file.end_with_comment(last), file.starts_line(first))
 
 
 def _remove(file: SourceEdits, chunk: _Chunk) -> None:

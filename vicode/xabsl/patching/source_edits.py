@@ -67,19 +67,28 @@ class SourceEdits:
         found = _TRAILING.match(self.text, self.end(token))
         return found.end() if found else self.end(token)
 
+    def starts_line(self, token: int) -> bool:
+        """Whether only comments precede a token in its line."""
+        return token == 0 or "\n" in self._gap_before(token)
+
     def start_with_comments(self, token: int) -> int:
         """The start of the line of a token and of the comments directly above it; the token if others precede it."""
         start = self.start(token)
-        if not self.is_first_in_line(start):
+        if not self.starts_line(token):
             return start
-        begin = self.end_with_comment(token - 1) if token else 0
-        gap = _COMMENT.sub(lambda match: "x" * len(match[0]), self.text[begin:start])
+        gap = self._gap_before(token)
+        begin = start - len(gap)
         blanks = [begin + match.end() for match in _BLANK_LINE.finditer(gap)]
+        line = max(blanks, default=begin + gap.find("\n") + 1 if token else 0)
         # Blank lines may overlap: the last one counts.
-        line = max(blanks, default=self.text.find("\n", begin, start) + 1 if token else 0)
         while (more := re.match(r"[ \t\r]*\n", self.text[line:start])) is not None:
             line += more.end()
-        return line if self.is_first_in_line(line) else start
+        return line
+
+    def _gap_before(self, token: int) -> str:
+        """The text between a token and the comments behind the previous one, with each comment as one word."""
+        begin = self.end_with_comment(token - 1) if token else 0
+        return _COMMENT.sub(lambda match: "x" * len(match[0]), self.text[begin : self.start(token)])
 
     def comments_between(self, start: int, end: int) -> list[str]:
         """The comments in a range, without descriptions."""
