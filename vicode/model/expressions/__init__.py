@@ -1,5 +1,6 @@
 """Expressions in guards, arguments and assignments: a subset of Python syntax with a typed tree."""
 
+from vicode.model.expressions.evaluate import Value, evaluate, read_name
 from vicode.model.expressions.functions import FUNCTIONS, BuiltinFunction
 from vicode.model.expressions.parse import ExpressionDiagnostic, ParsedExpression, parse_expression
 from vicode.model.expressions.scope import (
@@ -62,11 +63,14 @@ __all__ = [
     "ScopeSymbolKind",
     "StatusFlag",
     "Ternary",
+    "Value",
     "Variable",
     "build_scope",
     "children",
+    "evaluate",
     "infer_declaration_type",
     "is_type_only",
     "parse_expression",
+    "read_name",
     "walk",
 ]
