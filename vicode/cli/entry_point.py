@@ -14,6 +14,7 @@ from vicode.cli.console import describe_os_error
 
 COMMANDS = (
     "edit",
+    "attach",
     "gen",
     "sync",
     "check",

@@ -65,8 +65,9 @@ def serve(
     open_browser: bool = True,
     tour: bool = True,
     editor_command: tuple[str, ...] = (),
+    robots: tuple[str, str] | None = None,
 ) -> None:
-    """Serve the editor for the projects at `path` until the process is stopped.
+    """Serve the editor for the projects at `path` until the process is stopped; `robots` is an address with its token.
 
     Raises:
         OSError: The path cannot be read.
@@ -81,13 +82,12 @@ def serve(
     from vicode.editor.gc_policy import GcPolicy
     from vicode.editor.pages.routes import register_pages
 
-    library = _open_library(path, address, editor_command)
+    library = _open_library(path, address, editor_command, robots)
     _prepare_process()
     start = address.page_url(_first_page(library))
     register_pages(library, _start_autosave(library), tour=tour)
     _configure_app(app, address)
-    message = _startup_message(path, address, start)
-    app.on_startup(lambda: background_tasks.create(_announce(message, address), name="announce"))
+    app.on_startup(lambda: background_tasks.create(_announce(path, address, start), name="announce"))
     GcPolicy(app).freeze_gc()
     gc.enable()
     ui.run(
@@ -115,7 +115,9 @@ def _set_storage_folder() -> None:
     os.environ.setdefault(STORAGE_VARIABLE, str(Path(tempfile.gettempdir()) / f"vicode-{os.getuid()}"))
 
 
-def _open_library(path: Path, address: ServerAddress, editor_command: tuple[str, ...]) -> "Library":
+def _open_library(
+    path: Path, address: ServerAddress, editor_command: tuple[str, ...], robots: tuple[str, str] | None
+) -> "Library":
     from vicode.editor.session import Library
     from vicode.editor.session.external_editor import ExternalEditor, find_command
 
@@ -124,6 +126,8 @@ def _open_library(path: Path, address: ServerAddress, editor_command: tuple[str,
     arguments = (editor_command or find_command()) if is_local else ()
     library = Library(path, external_editor=ExternalEditor(arguments=arguments, is_local=is_local))
     library.remove_leftovers()
+    if robots is not None:
+        library.robots.open(*robots)
     return library
 
 
@@ -180,7 +184,7 @@ def _first_page(library: "Library") -> str:
     return design_url(first[0].key, first[1]) if first else "/"
 
 
-async def _announce(message: str, address: ServerAddress) -> None:
+async def _announce(path: Path, address: ServerAddress, start: str) -> None:
     """Print the addresses once the server accepts connections: `on_startup` runs before it listens."""
     for _attempt in range(500):
         try:
@@ -189,7 +193,7 @@ async def _announce(message: str, address: ServerAddress) -> None:
             await asyncio.sleep(0.02)
         else:
             writer.close()
-            print(message, flush=True)  # noqa: T201
+            print(_startup_message(path, address, start), flush=True)  # noqa: T201
             return
 
 

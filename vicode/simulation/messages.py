@@ -100,7 +100,8 @@ class IterationResult:
 
     `finished` is reported by the world. `guards` are those of the active state by decision: `holds` is true, false or
     unknown (None), `parts` the same for each condition, `reads` the values of names. `calls` are calls of functions of
-    stubs.
+    stubs. `component` is the one that `state` and its neighbors describe, by default the root. `changes` are the state
+    changes since the iteration before, if some were missed.
     """
 
     iteration: int
@@ -113,32 +114,41 @@ class IterationResult:
     prints: list[str] = field(default_factory=list)
     omitted_lines: int = 0
     calls: list[dict[str, Any]] = field(default_factory=list)
+    component: str = ""
+    changes: list[dict[str, Any]] = field(default_factory=list)
     kind: Literal["iteration"] = "iteration"
 
     @property
+    def step(self) -> Mapping[str, Any]:
+        """The last step of the component; empty if it was not stepped."""
+        if not self.component:
+            return self.tree[0]
+        return next((step for step in reversed(self.tree) if step["component"] == self.component), {})
+
+    @property
     def state(self) -> str:
-        """The state of the root component."""
-        return str(self.tree[0]["state"])
+        """The state of the component; "" if it was not stepped."""
+        return str(self.step.get("state", ""))
 
     @property
     def changed_from(self) -> str | None:
-        """The state that the root component left."""
-        return self.tree[0].get("changed_from")
+        """The state that the component left."""
+        return self.step.get("changed_from")
 
     @property
     def transition(self) -> str | None:
-        """The transition that the root component took."""
-        return self.tree[0].get("transition")
+        """The transition that the component took."""
+        return self.step.get("transition")
 
     @property
     def worked(self) -> bool:
-        """Whether the period of the root component had elapsed."""
-        return self.tree[0].get("worked") is True
+        """Whether the period of the component had elapsed."""
+        return self.step.get("worked") is True
 
     @property
     def done(self) -> bool:
-        """Whether the root component is in a final state."""
-        return self.tree[0].get("done") is True
+        """Whether the component is in a final state."""
+        return self.step.get("done") is True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -184,6 +194,8 @@ _FIELD_TYPES: dict[str, type | tuple[type, ...]] = {
     "omitted_lines": int,
     "errors": list,
     "calls": list,
+    "component": str,
+    "changes": list,
     "reason": str,
     "message": str,
     "error": (dict, type(None)),

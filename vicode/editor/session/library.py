@@ -8,6 +8,7 @@ from pathlib import Path
 from vicode.editor.session.external_editor import ExternalEditor
 from vicode.editor.session.overview import ProjectOverview
 from vicode.editor.session.presence import UserDirectory
+from vicode.editor.session.robots import RobotLink
 from vicode.editor.session.workspace import Workspace
 from vicode.output import remove_leftovers
 from vicode.samples import DEFAULT_SAMPLE, copy_sample
@@ -22,6 +23,7 @@ class Library:
 
     path: Path
     users: UserDirectory = field(init=False, default_factory=UserDirectory)
+    robots: RobotLink = field(init=False, default_factory=RobotLink)
     workspaces: list[Workspace] = field(init=False)
     clock: Callable[[], float] = time.monotonic
     external_editor: ExternalEditor = field(default_factory=ExternalEditor)
@@ -83,7 +85,7 @@ class Library:
         return added
 
     def _open(self, folder: Path) -> Workspace:
-        return Workspace(folder, _key(folder, self.folder), self.users)
+        return Workspace(folder, _key(folder, self.folder), self.users, self.robots)
 
     @property
     def folder(self) -> Path:

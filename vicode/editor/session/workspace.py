@@ -12,6 +12,7 @@ from vicode.editor.session.code_generation import GenerationRequest, GenerationR
 from vicode.editor.session.code_sync import GeneratedPaths, file_signature
 from vicode.editor.session.document import DiskVersion, DocumentSession, FileTransaction, SharedDocument
 from vicode.editor.session.presence import DISK_USER, UserDirectory
+from vicode.editor.session.robots import RobotLink
 from vicode.findings import DesignPath, Finding
 from vicode.model.design import Design, State
 from vicode.model.merge import merge_designs
@@ -54,6 +55,7 @@ class Workspace:
     folder: Path
     key: str
     users: UserDirectory = field(default_factory=UserDirectory)
+    robots: RobotLink = field(default_factory=RobotLink)
     is_trusted: bool = False
     """Whether a user said that the code of the folder may run."""
     has_other_editor: bool = False

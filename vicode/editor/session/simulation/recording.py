@@ -25,6 +25,8 @@ class Recording:
         self.states: list[str] = []
         self.transitions: list[str] = []
         self.times_ns: list[int] = []
+        self.dropped = 0
+        """How many iterations were removed at the beginning."""
 
     def __len__(self) -> int:
         return len(self._packed)
@@ -87,6 +89,21 @@ class Recording:
         for column in self._columns.values():
             del column[length:]
         self._changes = {number: each for number, each in self._changes.items() if number <= length}
+
+    def make_room(self) -> None:
+        """Remove the older half if it is full."""
+        if not self.is_full:
+            return
+        count = len(self) // 2
+        del self._packed[:count]
+        del self.states[:count]
+        del self.transitions[:count]
+        del self.times_ns[:count]
+        for column in self._columns.values():
+            del column[:count]
+        self._with_output = [number - count for number in self._with_output if number > count]
+        self._changes = {number - count: each for number, each in self._changes.items() if number > count}
+        self.dropped += count
 
     def column(self, name: str) -> "array[float]":
         """The values of one name over all iterations, nan where missing; empty for an unknown name."""

@@ -118,6 +118,11 @@ def prepare_run(
     return PreparedRun(design=design, files=(*files, probes), setup=setup, inputs=inputs)
 
 
+def prepare_view(design: Design) -> PreparedRun:
+    """A design to view what ran elsewhere; it may have errors."""
+    return PreparedRun(design=design, files=(), setup=Setup(component=design.component, probes="", path=()), inputs=())
+
+
 def _fitting_tick_ns(project: Project, design: Design) -> int:
     """The tick of `vicode run`."""
     names = {design.component, *used_components(project, design)}

@@ -51,6 +51,8 @@ class Simulation:
         cwd: the working directory of the process, the project folder.
         script: inputs to set before each iteration, if a trace provides them.
         replay: recorded iterations to view instead of running anything.
+        live: the recording of a robot, to view instead of running anything; `follow` shows what was added.
+        find_guards: evaluates the guards of a viewed iteration by its number.
         start_client: starts the program that runs the component.
     """
 
@@ -58,6 +60,8 @@ class Simulation:
     cwd: Path
     script: Sequence[Inputs] = ()
     replay: Sequence[IterationResult] = ()
+    live: Recording | None = None
+    find_guards: Callable[[Recording, int], Mapping[str, Any]] | None = None
     on_change: Callable[[], None] = field(default=lambda: None)
     start_client: Callable[[PreparedRun, Path], Awaitable[RunClient]] = start_process
     recording: Recording = field(init=False, default_factory=Recording)
@@ -65,9 +69,13 @@ class Simulation:
     status: RunStatus = field(init=False, default=RunStatus.PAUSED)
     failure: Failure | None = field(init=False, default=None)
     warning: str = field(init=False, default="")
-    guards: Mapping[str, Any] = field(init=False, default_factory=dict)
     stop_reason: str = field(init=False, default="")
     """Why the last run stopped."""
+    _guards: Mapping[str, Any] = field(init=False, default_factory=dict)
+    _viewed_guards: tuple[int, Mapping[str, Any]] | None = field(init=False, default=None)
+    """The guards of a viewed iteration, by its number since the beginning."""
+    _is_following: bool = field(init=False, default=True)
+    _dropped: int = field(init=False, default=0)
     _client: RunClient | None = field(init=False, default=None)
     _closing: list[RunClient] = field(init=False, default_factory=list)
     _client_iterations: int = field(init=False, default=0)
@@ -81,7 +89,25 @@ class Simulation:
         """Load the iterations of a replay; otherwise the initial inputs are the first change."""
         for iteration in self.replay:
             self.recording.add(iteration, {})
-        self._pending = {} if self.replay else _initial_inputs(self.prepared.inputs)
+        if self.live is not None:
+            self.recording, self._dropped = self.live, self.live.dropped
+            self.cursor = len(self.live)
+        self._pending = {} if self.is_view else _initial_inputs(self.prepared.inputs)
+
+    @property
+    def is_view(self) -> bool:
+        """Whether it shows what ran elsewhere, and runs nothing."""
+        return bool(self.replay) or self.live is not None
+
+    @property
+    def guards(self) -> Mapping[str, Any]:
+        """The evaluated guards of the shown iteration, by decision."""
+        if self.find_guards is None or not self.cursor:
+            return self._guards
+        number = self.cursor + self.recording.dropped
+        if self._viewed_guards is None or self._viewed_guards[0] != number:
+            self._viewed_guards = (number, self.find_guards(self.recording, self.cursor))
+        return self._viewed_guards[1]
 
     @property
     def shown_iteration(self) -> IterationResult | None:
@@ -97,7 +123,7 @@ class Simulation:
     def can_step(self) -> bool:
         if self.is_past:
             return True
-        return not self.replay and self.status is not RunStatus.ENDED and not self.recording.is_full
+        return not self.is_view and self.status is not RunStatus.ENDED and not self.recording.is_full
 
     @property
     def is_over(self) -> bool:
@@ -129,7 +155,7 @@ class Simulation:
         """Start the process, so that errors are reported before the first step."""
         async with self._lock:
             await self._catch_failure(self._evaluate_guards)
-            self._initial_guards = self.guards
+            self._initial_guards = self._guards
         self._notify()
 
     async def step(self, count: int = 1, stops: StopConditions = _NOTHING) -> str:
@@ -145,18 +171,26 @@ class Simulation:
         """Stop a run as soon as possible."""
         self._pause_requested = True
 
+    def follow(self) -> None:
+        """Show the newest iteration of a live recording, unless the user looks at an earlier one."""
+        moved, self._dropped = self.recording.dropped - self._dropped, self.recording.dropped
+        self.cursor = len(self.recording) if self._is_following else max(1, self.cursor - moved)
+        self._notify()
+
     def step_back(self, count: int = 1) -> None:
         self.go_to(self.cursor - count)
 
     def go_to(self, number: int) -> None:
         self.cursor = min(max(0, number), len(self.recording))
-        self.guards = iteration.guards if (iteration := self.shown_iteration) else self._initial_guards
+        self._is_following = not self.is_past
+        if self.find_guards is None:
+            self._guards = iteration.guards if (iteration := self.shown_iteration) else self._initial_guards
         self.stop_reason = ""
         self._notify()
 
     def truncate(self) -> None:
         """Discard the iterations after the shown one and continue from there."""
-        if not self.is_past or self.replay:
+        if not self.is_past or self.is_view:
             return
         after = self.recording.changes_before(self.cursor + 1)
         self.recording.truncate(self.cursor)
@@ -168,7 +202,7 @@ class Simulation:
     async def set_input(self, key: tuple[str, str], value: Any) -> bool:
         """Set an input for the next iteration; false if it does not exist or the value has the wrong type."""
         known = next((each for each in self.prepared.inputs if each.key == key), None)
-        if known is None or self.status is RunStatus.ENDED or self.replay:
+        if known is None or self.status is RunStatus.ENDED or self.is_view:
             return False
         accepted = _accept(known, value)
         if accepted is None:
@@ -252,7 +286,7 @@ class Simulation:
     def _add_iteration(self, iteration: IterationResult, waiting: list[dict[str, dict[str, Any]]]) -> None:
         self.recording.add(iteration, waiting.pop() if waiting else {})
         self._client_iterations = self.cursor = len(self.recording)
-        self.guards = iteration.guards
+        self._guards = iteration.guards
 
     async def _synchronize_client(self) -> None:
         """Ensure a process that has made all recorded iterations, starting and replaying if needed."""
@@ -284,7 +318,7 @@ class Simulation:
     async def _evaluate_guards(self) -> None:
         await self._synchronize_client()
         assert self._client is not None
-        self.guards = (await self._client.evaluate_guards(self._pending)).guards
+        self._guards = (await self._client.evaluate_guards(self._pending)).guards
 
     async def _catch_failure(self, do: Callable[[], Any]) -> Any:
         try:

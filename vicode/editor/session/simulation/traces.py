@@ -58,11 +58,26 @@ def input_script(iterations: Iterable[IterationResult], inputs: Iterable[Simulat
     return tuple(script)
 
 
+def focus_iteration(iteration: IterationResult, design: Design) -> IterationResult:
+    """The iteration with the step of a design as its own, and with the key of the transition in the design.
+
+    If the latest change was in an iteration that is missing, the step gets it.
+    """
+    focused = replace(iteration, component=design.component)
+    changes = [each for each in iteration.changes if each.get("component") == design.component]
+    if changes and focused.changed_from is None and changes[-1].get("target") == focused.state:
+        took = {"changed_from": changes[-1].get("source"), "transition": changes[-1].get("transition")}
+        focused = replace(focused, tree=[{**step, **took} if step is focused.step else step for step in focused.tree])
+    if focused.changed_from is None:
+        return focused
+    return _with_transition_key(focused, design, _transitions_by_ends(design))
+
+
 def _with_transition_key(
     iteration: IterationResult, design: Design, found: Mapping[tuple[str, str], list[str]]
 ) -> IterationResult:
-    root, *others = iteration.tree
-    return replace(iteration, tree=[{**root, "transition": _transition(iteration, design, found)}, *others])
+    own, key = iteration.step, _transition(iteration, design, found)
+    return replace(iteration, tree=[{**step, "transition": key} if step is own else step for step in iteration.tree])
 
 
 def _transition(iteration: IterationResult, design: Design, found: Mapping[tuple[str, str], list[str]]) -> str | None:

@@ -1,0 +1,94 @@
+"""`vicode attach` prints the state changes of a running robot, and says in one line why it cannot."""
+
+import contextlib
+import threading
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from tests.cli.command_runner import vicode
+from vicode.bica import Component, Root, State
+from vicode.bica.live_server import LiveServer
+
+LIMIT_S = 10.0
+
+
+class Blinker(Component):
+    """Changes its state in each iteration."""
+
+    def __init__(self, root: Root) -> None:
+        super().__init__(root)
+        self._set_states(State("Dark", self._in_dark), State("Lit", self._in_lit))
+
+    def _in_dark(self, decide: bool = True) -> None:
+        if decide:
+            self._change_to("Lit", "on")
+
+    def _in_lit(self, decide: bool = True) -> None:
+        if decide:
+            self._change_to("Dark")
+
+
+@contextlib.contextmanager
+def blinking(steps_after_viewer: int) -> Iterator[LiveServer]:
+    """A robot that ends some steps after someone watches it."""
+    root = Root(Blinker)
+    server = root.watch()
+
+    def run() -> None:
+        due_s = time.monotonic() + LIMIT_S
+        left = steps_after_viewer
+        while left and time.monotonic() < due_s:
+            root.step()
+            left -= "step" in vars(root.main)
+            time.sleep(0.002)
+        time.sleep(0.2)
+        root.close()
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    try:
+        yield server
+    finally:
+        thread.join(LIMIT_S)
+        assert not thread.is_alive()
+
+
+def test_state_changes_are_printed_until_the_robot_ends(capsys: pytest.CaptureFixture[str]) -> None:
+    with blinking(30) as server:
+        assert vicode("attach", server.address, "--token", server.token, "--print") == 1
+    out, err = capsys.readouterr()
+    assert f"attached to {server.address}: Blinker (may only be watched)" in err
+    assert "vicode: the robot closed the connection" in err
+    lines = out.splitlines()
+    # The active state first, then each change, none lost although most iterations are.
+    assert lines[0].split("  ")[-1] in ("Blinker: Dark", "Blinker: Lit")
+    assert len(lines) > 20
+    changes = [line.split(" s  ")[1] for line in lines[1:]]
+    assert set(changes) == {"Blinker: Dark → Lit  (on)", "Blinker: Lit → Dark"}
+
+
+def test_the_token_may_be_in_the_environment(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with blinking(3) as server:
+        monkeypatch.setenv("VICODE_WATCH_TOKEN", server.token)
+        assert vicode("attach", server.address, "--print") == 1
+    assert "attached to" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("options", [(), ("--print",)])
+def test_a_wrong_token_is_one_line(options: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    with Root(Blinker) as root:
+        server = root.watch()
+        capsys.readouterr()
+        assert vicode("attach", server.address, "--token", "wrong", *options) == 2
+    assert "the token is wrong" in capsys.readouterr().err
+
+
+def test_what_is_no_address(capsys: pytest.CaptureFixture[str]) -> None:
+    assert vicode("attach", "robot") == 2
+    assert capsys.readouterr().err.splitlines() == [
+        "vicode: 'robot' is no address of a robot; write PORT, HOST:PORT or unix:PATH"
+    ]
