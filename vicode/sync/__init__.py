@@ -12,6 +12,7 @@ from vicode.sync.generation import (
     write_generated,
 )
 from vicode.sync.history import GeneratedHistory
+from vicode.sync.outside_edits import rebase_outside_edits
 from vicode.sync.region_merge import RegionEdit
 from vicode.sync.taken import RegionKey, TakenEdit, read_taken, record_taken
 
@@ -34,6 +35,7 @@ __all__ = [
     "find_new_errors",
     "plan_generation",
     "read_taken",
+    "rebase_outside_edits",
     "record_taken",
     "set_code",
     "write_generated",

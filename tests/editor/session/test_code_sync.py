@@ -10,7 +10,8 @@ from vicode.editor.session.code_sync import OutdatedChoiceError
 from vicode.editor.session.edits import apply_edit
 from vicode.editor.session.gestures import RenameGesture
 from vicode.editor.view import ItemRef
-from vicode.model.design import Design, RunCode
+from vicode.model.design import Design, Guard, RunCode, Transition
+from vicode.model.edits import replace_decision
 from vicode.sync import set_code
 
 GENERATED = "self._distances: list[float] = []"
@@ -210,6 +211,21 @@ def test_generate_offers_what_the_design_can_take_over(
     assert workspace.generate(player).is_complete
     code_sync.follow_generated_files(workspace)
     assert not player.shared.outside.lacks_edits
+
+
+def test_changes_of_the_design_since_are_no_edits_of_the_file(
+    workspace: Workspace, player: DocumentSession, file: Path
+) -> None:
+    edit_file(file, "self.perception.net_bearing) < 555:", "self.perception.net_bearing) < front_limit:")
+    path = ("states", "LookForBall", "transitions", 0)
+    guarded = Transition(to="FollowBall", guard=Guard(when="perception.ball_distance < 1234"))
+    player.edit("guard", lambda design: replace_decision(design, path, guarded))
+    edit_design(player, "self._seen = 5")
+    workspace.save(player)
+    (reading,) = workspace.prepare_output(player).readings
+    assert len(reading.words) == 1
+    assert "555" in reading.words[0]
+    assert reading.leftover == ""
 
 
 def test_a_file_without_its_first_line_cannot_be_compared(

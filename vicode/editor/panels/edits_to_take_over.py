@@ -69,7 +69,9 @@ class EditsToTakeOver:
         ui.label(texts.edited_outside_regions(name, known=reading.file.is_origin_known)).classes("conflict-place")
         if reading.words:
             label = texts.take_over_words(len(reading.words))
-            box = ui.checkbox(label, value=True, on_change=self._show_choice).props("dense")
+            # Without a base, changes of the design look like edits that revert them.
+            is_certain = reading.file.is_origin_known
+            box = ui.checkbox(label, value=is_certain, on_change=self._show_choice).props("dense")
             self._readings.append((reading, box))
             with ui.element("ul").classes("take-over-words"):
                 for words in reading.words:

@@ -9,7 +9,7 @@ from vicode.editor.session import texts
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
 from vicode.model.project import Project
-from vicode.output import FileDiff
+from vicode.output import FileDiff, FileStatus, format_diff
 from vicode.sync import (
     FileEdits,
     GeneratedHistory,
@@ -20,6 +20,7 @@ from vicode.sync import (
     back_up,
     describe_edits,
     plan_generation,
+    rebase_outside_edits,
     write_generated,
 )
 
@@ -110,6 +111,7 @@ def prepare_output(folder: Path, job: GenerationRequest, component: str) -> Pend
     reason = _reason(errors, component) if errors else ""
     if errors and not sound:
         return PendingOutput(folder=folder, error=texts.nothing_generated(reason))
+    history = GeneratedHistory(folder=folder, project_folder=job.project_folder)
     plan = plan_generation(
         GenerationInput(
             project=project,
@@ -118,23 +120,28 @@ def prepare_output(folder: Path, job: GenerationRequest, component: str) -> Pend
                 project, components=(component,), languages=sound, sources=job.source_paths
             ),
             kept_paths=list_outputs(project),
-            history=GeneratedHistory(folder=folder, project_folder=job.project_folder),
+            history=history,
             taken=job.taken,
         )
     )
     skipped = [language for language in languages if language not in sound]
     reason = texts.nothing_generated(reason, skipped) if skipped else ""
-    readings = tuple(reading for file in plan.edits if (reading := _read_edits(project, file)) is not None)
-    return PendingOutput(folder=folder, skipped=reason, plan=plan, readings=readings)
+    readings = (_read_edits(project, file, next(iter(history(file.path)), None)) for file in plan.edits)
+    return PendingOutput(folder=folder, skipped=reason, plan=plan, readings=tuple(filter(None, readings)))
 
 
-def _read_edits(project: Project, file: FileEdits) -> FileReading | None:
+def _read_edits(project: Project, file: FileEdits, generated: str | None) -> FileReading | None:
+    """Read the edits of a file since it was generated; None if there are none that a design might express."""
     from vicode.sync.interpret import interpret_edits  # noqa: PLC0415 - later
 
     base = project.design(file.component)
     if not file.is_edited_outside or file.language != "python" or file.new is None or base is None:
         return None
-    read = interpret_edits(project, file.component, generated=file.new, edited=file.old)
+    edited = rebase_outside_edits(file, generated)
+    if edited is None:
+        leftover = format_diff(FileDiff(path=file.path, status=FileStatus.CHANGED, old=file.new, new=file.old))
+        return FileReading(file=file, base=base, design=base, words=(), leftover=leftover)
+    read = interpret_edits(project, file.component, generated=file.new, edited=edited)
     words = tuple(edit.words for edit in read.edits)
     return FileReading(file=file, base=base, design=read.design, words=words, leftover=read.leftover)
 
