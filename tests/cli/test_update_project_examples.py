@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from tests.cli.kickoff_behavior import TEXTS, changed_lines, paired
-from tests.cli.test_behavior_update import imported
+from tests.cli.test_behavior_update import imported, updated
 from tests.cli.test_update_examples import change_state, with_transitions
 from tests.strategies.project_edits import with_design
 from vicode.model.design import Declaration
@@ -51,6 +51,21 @@ RENAMES: dict[str, tuple[SymbolRef, list[str]]] = {
 def test_a_renamed_symbol_changes_its_uses(name: str) -> None:
     symbol, expected = RENAMES[name]
     assert paired(changed_lines(rename_symbol(imported(TEXTS), symbol, "new"))) == paired(expected)
+
+
+def test_a_renamed_design_renames_its_file() -> None:
+    project = imported(TEXTS)
+    project = replace(
+        project,
+        designs=(replace(project.designs[0], component="start"),),
+        agents=(replace(project.agents[0], root="start"),),
+    )
+    new = updated(TEXTS, project)
+    kickoff = new.pop("Options/SetPlays/start.xabsl")
+    assert kickoff == TEXTS["Options/SetPlays/kickoff.xabsl"].replace("option kickoff", "option start")
+    agents = TEXTS["agents.xabsl"].replace("kickoff.xabsl", "start.xabsl").replace(", kickoff", ", start")
+    others = {name: text for name, text in TEXTS.items() if "kickoff" not in name}
+    assert new == {**others, "agents.xabsl": agents}
 
 
 def change_component(name: str, **changes: object) -> Callable[[Project], Project]:

@@ -14,7 +14,7 @@ from vicode.xabsl.patching.declaration_edits import edit_agent, edit_declaration
 from vicode.xabsl.patching.list_edits import ListStyle, Match, edit_list
 from vicode.xabsl.patching.option_edits import OptionVersion, edit_option
 from vicode.xabsl.patching.program_items import DeclaredItem, Key, agents, declarations, iter_items, namespaces, options
-from vicode.xabsl.patching.renames import find_renames, rename
+from vicode.xabsl.patching.renames import Renames, find_renames, rename
 from vicode.xabsl.patching.source_edits import PatchError, SourceEdits
 from vicode.xabsl.printer import print_file, print_node
 from vicode.xabsl.source_loader import ProgramSource
@@ -56,7 +56,7 @@ def patch_program(original: ProgramVersion, before: ProgramVersion, after: Progr
     old, base = _with_texts(original.source, renamed), before.source
     if renames:
         base = _with_texts(base, rename(base, before.compiled, renames))
-    texts |= _ProgramPatch(old, base, after).run()
+    texts |= _ProgramPatch(old, base, after, _moved_files(old, renames)).run()
     return {path: text for path, text in texts.items() if text is None or text != _original_text(original, path)}
 
 
@@ -71,8 +71,10 @@ def _with_texts(source: ProgramSource, texts: Mapping[Path, str]) -> ProgramSour
 
 
 class _ProgramPatch:
-    def __init__(self, old: ProgramSource, before: ProgramSource, after: ProgramVersion) -> None:
-        self.old, self.before, self.after = old, before, after
+    def __init__(
+        self, old: ProgramSource, before: ProgramSource, after: ProgramVersion, moved: Mapping[Path, Path]
+    ) -> None:
+        self.old, self.before, self.after, self.moved = old, before, after, moved
         self.files = {path: SourceEdits(parsed) for path, parsed in old.files.items()}
         self.added: dict[Path, str] = {}
         self.removed: list[Path] = []
@@ -84,6 +86,8 @@ class _ProgramPatch:
         self._edit_declarations()
         self._edit_includes()
         texts: FileTexts = {path: file.result() for path, file in self.files.items() if file.edits}
+        for path, new in self.moved.items():
+            texts |= {new: self.files[path].result(), path: None}
         return {**texts, **self.added, **dict.fromkeys(self.removed)}
 
     # Main file
@@ -224,6 +228,13 @@ class _ProgramPatch:
         host = {path: self._including_file(path) for path in self.added}
         for path, parsed in self.old.files.items():
             targets = [_target(path, include) for include in parsed.file.includes]
+            for include, target in zip(parsed.file.includes, targets, strict=True):
+                if target in self.moved:
+                    written = include.path.removesuffix(target.name) + self.moved[target].name
+                    string = include.first_token + 1
+                    self.files[path].replace(
+                        self.files[path].start(string), self.files[path].end(string), f'"{written}"'
+                    )
             kept = [index for index, target in enumerate(targets) if target not in self.removed]
             rows: list[tuple[Match, str]] = [(index, "") for index in kept]
             for added in (added for added, including in host.items() if including == path):
@@ -251,6 +262,18 @@ class _ProgramPatch:
             if _target(path, include).parent == added.parent
         )
         return counts.most_common(1)[0][0] if counts else self.old.main
+
+
+def _moved_files(source: ProgramSource, renames: Renames) -> dict[Path, Path]:
+    """The new paths of files that are named like a renamed option."""
+    old_names = {new: key[1] for key, new in renames.items() if key[0] == "option"}
+    moved = {}
+    for path, _file, item in iter_items(source):
+        name = item.name.text if isinstance(item, tree.OptionNode) else ""
+        new = path.with_name(f"{name}{path.suffix}")
+        if old_names.get(name) == path.stem and new not in source.files and not new.exists():
+            moved[path] = new
+    return moved
 
 
 def _is_beside(targets: Sequence[Path], index: Match, added: Path) -> bool:
