@@ -143,11 +143,16 @@ def interpret_back(kind: str, design: Design, edited: Design) -> bool:
     return False
 
 
-def is_equivalent(a: str, b: str, before: str) -> bool:
-    """Whether two texts are the same code; actions that were added may be methods of their own."""
+def is_equivalent(result: str, after: str, before: str) -> bool:
+    """Whether two texts are the same code; actions that were added may be methods of their own.
+
+    A region of `before` with another body in `after` counts as an edit of the region, which others take over.
+    """
     parts = collect_parts(before)
-    forms = [build_normal_form(text, parts, is_generated=True) for text in (a, b)]
-    return is_same_code(a, b) or (forms[0].keys == forms[1].keys and forms[0].imports == forms[1].imports)
+    form, wanted = (
+        build_normal_form(text, parts, is_generated=is_result) for text, is_result in ((result, True), (after, False))
+    )
+    return is_same_code(result, after) or (form.keys == wanted.keys and form.imports == wanted.imports)
 
 
 # Shrinking would generate thousands of times.
