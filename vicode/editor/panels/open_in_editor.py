@@ -31,7 +31,10 @@ def editor_command(context: WindowContext) -> tuple[Command, ...]:
         name = "VS Code, by a link" if uses_link else context.external_editor.name
         context.show_toast(texts.opens_with(name), "info")
 
-    return (Command("code-editor", "Switch the editor for code", switch, MenuGroup.DESIGN, icon="open_in_new"),)
+    def handle() -> None:
+        context.run_in_background(switch(), "switch editor")
+
+    return (Command("code-editor", "Switch the editor for code", handle, MenuGroup.DESIGN, icon="open_in_new"),)
 
 
 async def _open(context: WindowContext, path: DesignPath) -> None:
