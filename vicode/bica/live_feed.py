@@ -63,6 +63,7 @@ class LiveFeed:
         self._plain_step = root._step_main
         self._observed_step = self._plain_step
         root._step_main = self._step
+        root._set_step = self._set_plain_step
 
     def describe(self) -> dict[str, Any]:
         """Describe the robot: its components with their design, the hash of their code, states and frequencies."""
@@ -92,6 +93,9 @@ class LiveFeed:
         if self._controller.is_paused:
             self._wait_while_paused()
         self._observed_step()
+
+    def _set_plain_step(self, step: Callable[[], None]) -> None:
+        self._plain_step = step
 
     def _set_observing(self, is_observing: bool) -> None:
         root, self._is_observing = self.root, is_observing

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import asdict
 from enum import Enum
 from pathlib import Path
@@ -42,12 +43,17 @@ class StepRecord(TypedDict):
 
 
 class IterationRecord(TypedDict):
-    """One iteration; `tree` lists the steps in the order of their start, `errors` the first exceptions."""
+    """One iteration; `tree` lists the steps in the order of their start, `errors` the first exceptions.
+
+    `inputs` are the values of components that only provide values, before the iteration.
+    """
 
     iteration: int
     time_ns: int
     tree: list[StepRecord]
     errors: list[dict[str, Any]]
+    inputs: NotRequired[dict[str, dict[str, Any]]]
+    dropped: NotRequired[int]
 
 
 class Observer:
@@ -66,6 +72,8 @@ class Observer:
         self._errors: list[dict[str, Any]] = []
         self._active: list[str] = []
         self._modulated: tuple[Component, dict[str, Any]] | None = None
+        self._known_components = -1
+        self._passive: tuple[Component, ...] = ()
 
     def attach(self, component: Component) -> None:
         """Observe `component`: instance attributes shadow its methods `step` and `modulate`."""
@@ -90,11 +98,27 @@ class Observer:
         self._tree, self._errors = [], []
         self._active.clear()
         self._modulated = None
+        record: IterationRecord = {
+            "iteration": root.iteration,
+            "time_ns": root.now_ns,
+            "tree": self._tree,
+            "errors": self._errors,
+        }
+        if self._values:
+            inputs = {type(each).__name__: _read_inputs(each) for each in self._find_passive(root)}
+            if any(inputs.values()):
+                record["inputs"] = to_json_value({name: values for name, values in inputs.items() if values})
         try:
             (step or root.main.step)()
         finally:
-            errors = self._errors
-            self._sink({"iteration": root.iteration, "time_ns": root.now_ns, "tree": self._tree, "errors": errors})
+            self._sink(record)
+
+    def _find_passive(self, root: Root) -> tuple[Component, ...]:
+        """The components without work and states, which only provide values."""
+        if len(root.components) != self._known_components:
+            passive = (each for each in root.components if type(each).work is Component.work and not each._states)
+            self._known_components, self._passive = len(root.components), tuple(passive)
+        return self._passive
 
     def _observe_step(self, component: Component, plain_step: Callable[[], None]) -> None:
         record = self._begin_record(component)
@@ -162,3 +186,15 @@ def _collect_values(component: Component) -> dict[str, object]:
         for name, value in vars(component).copy().items()
         if not name.startswith("_") and isinstance(value, bool | int | float | str | Enum)
     }
+
+
+def _read_inputs(component: Component) -> dict[str, object]:
+    """Return the plain values of a component that only provides values, including those of its properties."""
+    values = _collect_values(component)
+    for name, attribute in vars(type(component)).items():
+        if isinstance(attribute, property) and not name.startswith("_"):
+            with suppress(Exception):
+                value = getattr(component, name)
+                if isinstance(value, bool | int | float | str | Enum):
+                    values[name] = value
+    return values

@@ -32,6 +32,8 @@ def make_parser() -> argparse.ArgumentParser:
         help="what to do after an exception in a component (default: continue)",
     )
     add("--trace", metavar="FILE", help="write a trace to FILE: a header, one JSON line per iteration and a summary")
+    add("--record", metavar="FILE", help="keep the last minutes, with values, in files beside FILE")
+    add("--minutes", type=minutes, default=5.0, metavar="N", help="how much --record keeps (default: 5)")
     add("--design", metavar="HASH", help="hash of the design, for the header of the trace")
     add("--revision", metavar="REV", help="git revision of the design, for the header of the trace")
     add("--stream", action="store_true", help="write JSON lines with snapshots of the world to standard output")
@@ -72,4 +74,16 @@ def tick_ms(text: str) -> float:
     number = float(text)
     if not 1e-6 <= number <= _MAX_TICK_MS:
         raise argparse.ArgumentTypeError(f"{text} is not a valid period; write milliseconds greater than 0, such as 20")
+    return number
+
+
+def minutes(text: str) -> float:
+    """Parse a duration in minutes.
+
+    Raises:
+        argparse.ArgumentTypeError: It is not greater than 0 or not finite.
+    """
+    number = float(text)
+    if not math.isfinite(number) or number <= 0:
+        raise argparse.ArgumentTypeError(f"{text} is not a valid duration; write minutes greater than 0")
     return number

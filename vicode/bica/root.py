@@ -18,6 +18,7 @@ from .timing import CycleTimes, measure_steps
 if TYPE_CHECKING:
     from .live_server import LiveServer
     from .observer import Observer
+    from .recorder import Recorder
 
 C = TypeVar("C", bound=Component)
 OnError = Literal["continue", "stop"] | Callable[[ErrorRecord], None]
@@ -56,10 +57,8 @@ class Root:
         self._lag_ns = 0
         self._on_error = on_error
         self._has_on_error_failed = False
-        self._observer = observer
-        self._error_listeners: list[Callable[[ErrorRecord], None]] = []
-        if observer is not None:
-            self._error_listeners.append(observer.add_error)
+        self._observers: list[Observer] = [] if observer is None else [observer]
+        self._error_listeners: list[Callable[[ErrorRecord], None]] = [each.add_error for each in self._observers]
         self._components: dict[type[Component], Component] = {}
         self._under_construction: list[type[Component]] = []
         self._cycle_times: dict[str, CycleTimes] | None = None
@@ -73,6 +72,11 @@ class Root:
             self.close()
             raise
         self._step_main = self._find_step()
+        self._set_step: Callable[[Callable[[], None]], None] = partial(setattr, self, "_step_main")
+        if "VICODE_RECORD" in os.environ:
+            from .recorder import record_from_environment  # noqa: PLC0415 - off by default
+
+            record_from_environment(self)
         if "VICODE_WATCH" in os.environ:
             from .live import watch_from_environment  # noqa: PLC0415 - off by default
 
@@ -100,7 +104,7 @@ class Root:
             self._cycle_times = {}
             for component in self.components:
                 measure_steps(component, self._cycle_times)
-            self._step_main = self._find_step()
+            self._set_step(self._find_step())
 
     @property
     def cycle_times(self) -> dict[str, CycleTimes]:
@@ -157,6 +161,33 @@ class Root:
 
         return watch_root(self, address, token=token, control=control, name=name)
 
+    def record(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        minutes: float = 5.0,
+        values: bool = True,
+        design: str = "",
+        revision: str = "",
+    ) -> Recorder:
+        """Keep the last minutes of the run in files beside `path`, until the root is closed; call it before `step`.
+
+        The robot never waits for the disk.
+
+        Args:
+            path: The name of the record: `run.jsonl` is written as `run.1.000001.jsonl` and so on.
+            minutes: How much is kept, in the time of the root.
+            values: Whether to record outputs, variables and parameters, which a replay needs.
+            design: The hash of the design, for the header.
+            revision: The git revision of the design, for the header.
+
+        Raises:
+            OSError: No file can be created there.
+        """
+        from .recorder import record_root  # noqa: PLC0415 - off by default
+
+        return record_root(self, path, minutes=minutes, values=values, design=design, revision=revision)
+
     def close(self) -> None:
         """Call `close` of each component, the last created first, and then of the world; later calls do nothing.
 
@@ -212,10 +243,20 @@ class Root:
             close()
 
     def _find_step(self) -> Callable[[], None]:
-        return self.main.step if self._observer is None else partial(self._observer.observe_iteration, self)
+        step = self.main.step
+        for observer in self._observers:
+            step = partial(observer.observe_iteration, self, step)
+        return step
+
+    def _add_observer(self, observer: Observer) -> None:
+        self._observers.append(observer)
+        self._error_listeners.append(observer.add_error)
+        for component in self.components:
+            observer.attach(component)
+        self._set_step(self._find_step())
 
     def _instrument(self, component: Component) -> None:
-        if self._observer is not None:
-            self._observer.attach(component)
+        for observer in self._observers:
+            observer.attach(component)
         if self._cycle_times is not None:
             measure_steps(component, self._cycle_times)

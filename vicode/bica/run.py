@@ -166,6 +166,10 @@ def _make_root(component_class: type[Component], world: Any, writer: _RecordWrit
         observer=Observer(partial(writer.write_iteration, world), values=options.values) if is_observed else None,
     )
     root.measure = True
+    if options.record:
+        root.record(
+            options.record, minutes=options.minutes, design=options.design or "", revision=options.revision or ""
+        )
     return root
 
 
