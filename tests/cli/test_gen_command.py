@@ -14,11 +14,12 @@ PACKAGE = "lamps/generated/python/lamps"
 def test_it_writes_what_is_then_up_to_date(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert vicode("gen", "--check", "lamps") == 1
     out = capsys.readouterr().out
-    assert [line.split(": ")[-1] for line in out.splitlines()] == ["no such file; run 'vicode gen'"] * 4
+    assert [line.split(": ")[-1] for line in out.splitlines()] == ["no such file; run 'vicode gen'"] * 5
     assert vicode("gen", "lamps") == 0
     assert f"wrote {PACKAGE}/lamp.py\n" in capsys.readouterr().out
     assert sorted(path.name for path in Path(PACKAGE).iterdir()) == [
         "__init__.py",
+        "__main__.py",
         "bulb.py",
         "declarations.py",
         "lamp.py",

@@ -47,10 +47,11 @@ def test_a_first_machine_is_drawn_simulated_generated_and_run(
     simulate(page)
     page.get_by_role("button", name="Generate").click()
     page.get_by_role("button", name="Write").click()
-    expect(page.get_by_text("Generated __init__.py, interfaces.py, waiter.py")).to_be_visible()
+    expect(page.get_by_text("Generated __init__.py, __main__.py, interfaces.py, waiter.py")).to_be_visible()
 
     assert sorted(path.name for path in (folder / "generated").rglob("*.py")) == [
         "__init__.py",
+        "__main__.py",
         "interfaces.py",
         "waiter.py",
     ]

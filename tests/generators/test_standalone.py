@@ -26,8 +26,7 @@ def test_standalone_package_runs_without_vicode(tmp_path: Path) -> None:
     assert {file.path for file in files} == set(list_outputs(project, standalone=True))
     write_files(files, tmp_path / "out")
     package = files[0].path.split("/")[1]
-    program = f"import sys; sys.path.insert(0, '.'); from {package}.bica.run import main; sys.exit(main(sys.argv[1:]))"
-    command = [sys.executable, "-I", "-S", "-c", program, f"{package}.halver:Halver", "--until-done"]
+    command = [sys.executable, "-S", "-m", package, "Halver", "--until-done"]
     result = subprocess.run(command, cwd=tmp_path / "out" / "python", capture_output=True, text=True, check=False)
     assert result.returncode == 0, result.stderr
     assert "stopped: done" in result.stdout

@@ -25,7 +25,7 @@ from vicode.model.design import (
     Transition,
     Use,
 )
-from vicode.model.project import Agent, Enumeration, Interface, Project
+from vicode.model.project import Agent, Enumeration, Interface, Profile, Project
 
 AWKWARD_NAMES = ("on", "off", "no", "yes", "null", "true", "1e3", "007", "code", "doc", "elements", "default", "python")
 AWKWARD_TEXTS = (
@@ -198,6 +198,12 @@ agents = st.builds(
     doc=st.just("") | texts,
     xabsl_name=st.just("") | texts,
 )
+profiles = st.builds(
+    Profile,
+    name=names,
+    world=st.just("") | texts,
+    components=_pairs(2),
+)
 projects = st.builds(
     Project,
     name=names,
@@ -209,4 +215,5 @@ projects = st.builds(
     constants=_unique(declarations(), "name", 2),
     components=_unique(interfaces, "component", 2),
     agents=_unique(agents, "name", 2),
+    profiles=_unique(profiles, "name", 2),
 )

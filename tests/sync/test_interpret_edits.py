@@ -274,7 +274,7 @@ def test_an_import_that_the_generator_adds_is_no_edit() -> None:
 
 
 def test_a_package_with_its_own_runtime() -> None:
-    code = component_generator(FORWARD, "python", {"Player": "player.yaml"}, standalone=True)(player())
+    code = component_generator(FORWARD, "python", {"Player": "player.yaml"})(player())
     assert code is not None
     old, new = UNDERSTOOD["timer"][0]
     result = interpret_edits(FORWARD, "Player", generated=code.file.text, edited=code.file.text.replace(old, new))

@@ -4,15 +4,27 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Mapping
 
 _MAX_TICK_MS = 3_600_000.0
 
 
-def make_parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog=f"python -m {__package__}", description="Run a component in a world.")
+def make_parser(
+    components: Mapping[str, str] | None = None, *, world: str = "", program: str = ""
+) -> argparse.ArgumentParser:
+    """Make the parser.
+
+    Args:
+        components: Classes as module:Class by name, of which the first is the default; None for any class.
+        world: The default world as module:Class.
+        program: The name of the command.
+    """
+    description = "Run a component in a world."
+    parser = argparse.ArgumentParser(prog=f"python -m {program or __package__}", description=description)
     add = parser.add_argument
-    add("component", metavar="MODULE:CLASS", help="the root component")
-    add("--world", metavar="MODULE:CLASS", help="the world; created with seed=N if it has that parameter")
+    _add_root_arguments(parser, components, world)
+    add("--watch", metavar="ADDRESS", help="let viewers connect: PORT, HOST:PORT or unix:PATH")
+    add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
     add("--path", metavar="DIR", action="append", default=[], help="add DIR to the import path; may be repeated")
     add("--seed", type=int, default=0, metavar="N", help="seed of the world (default: 0)")
     add("--ticks", type=count, metavar="N", help="stop after N iterations")
@@ -39,6 +51,23 @@ def make_parser() -> argparse.ArgumentParser:
     add("--stream", action="store_true", help="write JSON lines with snapshots of the world to standard output")
     add("--values", action="store_true", help="include outputs and variables in the JSON lines")
     return parser
+
+
+def _add_root_arguments(parser: argparse.ArgumentParser, components: Mapping[str, str] | None, world: str) -> None:
+    add = parser.add_argument
+    if components is None:
+        add("component", metavar="MODULE:CLASS", help="the root component")
+    else:
+        names = list(components)
+        help_ = f"the root component: {', '.join(names)} (default: {names[0]})"
+        add("component", metavar="COMPONENT", nargs="?", choices=names, default=names[0], help=help_)
+    default = f"; default: {world}" if world else ""
+    add(
+        "--world",
+        metavar="MODULE:CLASS",
+        default=world or None,
+        help=f"the world; created with seed=N if it has that parameter{default}",
+    )
 
 
 def count(text: str) -> int:

@@ -33,7 +33,24 @@ if TYPE_CHECKING:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code."""
-    options = make_parser().parse_args(arguments)
+    return _run_command(make_parser().parse_args(arguments))
+
+
+def run_project(components: Mapping[str, str], *, world: str = "", arguments: Sequence[str] | None = None) -> int:
+    """Run the command of a project, `python -m PACKAGE [COMPONENT]`, and return its exit code.
+
+    Args:
+        components: The root components as "module:Class" by name; the first is the default.
+        world: The default world as "module:Class".
+        arguments: By default those of the process.
+    """
+    package = next(iter(components.values())).partition(".")[0]
+    options = make_parser(components, world=world, program=package).parse_args(arguments)
+    options.component = components[options.component]
+    return _run_command(options)
+
+
+def _run_command(options: argparse.Namespace) -> int:
     sys.path[:0] = [str(Path(folder).resolve()) for folder in options.path]
     _open_missing_streams()
     signals = StopSignals(is_silent=options.stream)
@@ -170,6 +187,8 @@ def _make_root(component_class: type[Component], world: Any, writer: _RecordWrit
         root.record(
             options.record, minutes=options.minutes, design=options.design or "", revision=options.revision or ""
         )
+    if options.watch is not None:
+        root.watch(options.watch, token=os.environ.get("VICODE_WATCH_TOKEN", ""), control=options.control)
     return root
 
 

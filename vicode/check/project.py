@@ -31,6 +31,24 @@ from vicode.model.project import INTERNAL, MISSING, WORLD, Project
 _CLASS_IN_MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*\Z", re.ASCII)
 
 
+def find_bad_profiles(project: Project) -> Iterator[Finding]:
+    """P213: a profile of an unknown component, or a class that is not module:Class."""
+    names = [interface.component for interface in project.components]
+    for profile in project.profiles:
+        path: DesignPath = ("profiles", profile.name)
+        if profile.world and not _CLASS_IN_MODULE.match(profile.world):
+            yield _make_finding("P213", (*path, "world"), f"'{profile.world}' is not of the form module:Class")
+        for component, implementation in profile.components:
+            place = (*path, "components", component)
+            if component not in names:
+                fix = did_you_mean(component, names, "declare it in 'components'")
+                message = f"'{component}' is not a hand-written component"
+                yield _make_finding("P213", place, message, fix, is_key=True)
+            elif implementation not in (WORLD, INTERNAL) and not _CLASS_IN_MODULE.match(implementation):
+                fix = "name the class, such as field.perception:Perception"
+                yield _make_finding("P213", place, f"'{implementation}' is not of the form module:Class", fix)
+
+
 def find_unusable_project_names(project: Project) -> Iterator[Finding]:
     """P208: a project name whose Python package cannot be imported or hides another module."""
     reason = _package_problem(project) if "python" in project.languages else ""
@@ -241,6 +259,7 @@ RULES = (
     find_duplicate_names,
     find_duplicate_components,
     find_bad_implementations,
+    find_bad_profiles,
     find_unimplemented_components,
     find_unknown_languages,
     find_unknown_roots,

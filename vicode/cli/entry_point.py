@@ -20,6 +20,7 @@ COMMANDS = (
     "check",
     "docs",
     "run",
+    "deploy",
     "diff",
     "merge",
     "hook",

@@ -40,6 +40,7 @@ def add_output_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="DIR", help="output folder (default: as set in project.yaml, else generated/ next to it)"
     )
+    parser.add_argument("--profile", metavar="NAME", default="", help="use the implementations of this profile")
     parser.add_argument("--language", metavar="L", action="append", help="generate only this language; can be repeated")
     parser.add_argument(
         "--standalone", action="store_true", help="include a copy of the runtime, so that the code runs without vicode"
@@ -59,7 +60,7 @@ def for_each_project(args: argparse.Namespace, generate: Callable[[LoadedProject
     if unknown:
         print(f"vicode: unknown language {unknown[0]}; choose from {', '.join(GENERATORS)}", file=sys.stderr)
         return 2
-    return max(_run_or_report(opened, args, generate) for opened in load_projects(args.paths))
+    return max(_run_or_report(opened, args, generate) for opened in load_projects(args.paths, args.profile))
 
 
 def _run_or_report(
@@ -111,7 +112,7 @@ def generation_input(opened: LoadedProject, args: argparse.Namespace) -> "Genera
         kept_paths=list_outputs(project, languages=args.language, standalone=args.standalone),
         # The component name of an unreadable design is unknown, so no file is certainly stale.
         may_delete=not opened.open_project.broken_files,
-        history=GeneratedHistory(folder=folder, project_folder=opened.open_project.folder, standalone=args.standalone),
+        history=GeneratedHistory(folder=folder, project_folder=opened.open_project.folder),
     )
 
 

@@ -1,7 +1,7 @@
 """Loads the projects at paths of the command line: designs, project folders, folders of projects."""
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -54,11 +54,11 @@ class LoadedProject:
         }
 
 
-def load_projects(paths: Sequence[str]) -> tuple[LoadedProject, ...]:
-    """Load every project once.
+def load_projects(paths: Sequence[str], profile: str = "") -> tuple[LoadedProject, ...]:
+    """Load every project once, with the implementations of a profile.
 
     Raises:
-        OSError: A path does not exist or cannot be read, or there is no design at all.
+        OSError: A path does not exist or cannot be read, there is no design at all, or no such profile.
     """
     # Deferred: --help does not need the store, which is slow to import.
     from vicode.store import find_projects
@@ -78,7 +78,7 @@ def load_projects(paths: Sequence[str]) -> tuple[LoadedProject, ...]:
                 files.add(path)
     if not wanted:
         raise OSError(f"no designs in {', '.join(paths)}{_import_hint(paths)}")
-    return tuple(_load_project(folder, files) for folder, files in wanted.items())
+    return tuple(_load_project(folder, files, profile) for folder, files in wanted.items())
 
 
 def _import_hint(paths: Sequence[str]) -> str:
@@ -96,13 +96,13 @@ def require_design_file(path: Path) -> None:
         raise OSError(f"{path} is not a design; specify a design (.yaml) or a folder with designs{way}")
 
 
-def _load_project(folder: Path, files: set[Path] | None) -> LoadedProject:
+def _load_project(folder: Path, files: set[Path] | None, profile: str) -> LoadedProject:
     from vicode.check import check_project
     from vicode.generators import collect_components
     from vicode.store import locate_findings, open_project
 
     if files is None:
-        opened = open_project(folder)
+        opened = _select_profile(open_project(folder), profile)
         return LoadedProject(
             open_project=opened,
             selected_components=None,
@@ -111,7 +111,7 @@ def _load_project(folder: Path, files: set[Path] | None) -> LoadedProject:
                 *_check_classes(opened),
             ),
         )
-    opened = open_project(min(files))
+    opened = _select_profile(open_project(min(files)), profile)
     found = (opened.find_component(file) for file in sorted(files))
     named = tuple(name for name in found if name is not None)
     components = collect_components(opened.project, named)
@@ -131,8 +131,24 @@ def _load_project(folder: Path, files: set[Path] | None) -> LoadedProject:
 def _check_classes(opened: "OpenProject", components: Collection[str] | None = None) -> tuple[Finding, ...]:
     """Compare hand-written classes with project.yaml."""
     from vicode.check.classes import check_classes
+    from vicode.model.project import select_profile
     from vicode.store import read_python_module
 
     if "python" not in opened.project.languages:
         return ()
-    return tuple(check_classes(opened.project, partial(read_python_module, opened.folder), components))
+    projects = [opened.project, *(select_profile(opened.project, each.name) for each in opened.project.profiles)]
+    read_module = partial(read_python_module, opened.folder)
+    found = (finding for project in projects for finding in check_classes(project, read_module, components))
+    return tuple(dict.fromkeys(found))
+
+
+def _select_profile(opened: "OpenProject", name: str) -> "OpenProject":
+    from vicode.model.project import select_profile
+
+    if not name:
+        return opened
+    try:
+        return replace(opened, project=select_profile(opened.project, name))
+    except KeyError:
+        known = ", ".join(profile.name for profile in opened.project.profiles) or "none in project.yaml"
+        raise OSError(f"unknown profile '{name}'; choose from: {known}") from None

@@ -35,6 +35,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--ticks", type=options.count, metavar="N", help="stop after N iterations")
     add("--seed", type=int, default=0, metavar="N", help="random seed of the world (default: %(default)s)")
+    add("--profile", metavar="NAME", default="", help="use the implementations and the world of this profile")
+    add("--world", metavar="MODULE:CLASS", help="use another world than that of project.yaml")
+    add("--watch", metavar="ADDRESS", help="let 'vicode attach' connect: PORT, HOST:PORT or unix:PATH (docs/live.md)")
+    add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
     add("--trace", metavar="FILE", help="write a trace (docs/traces.md) to FILE; - is the standard output")
     add("--values", action="store_true", help="include outputs and variables in the trace, for replay in the editor")
     add("--real-time", action="store_true", help="run in real time instead of as fast as possible")
@@ -56,7 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Generate into a temporary folder, run the code in a new process, and show its progress."""
-    projects = load_projects([args.path])
+    projects = load_projects([args.path], args.profile)
     if len(projects) > 1:
         print(f"vicode: {args.path} contains {len(projects)} projects; specify a design", file=sys.stderr)
         return 2
@@ -66,12 +70,12 @@ def run(args: argparse.Namespace) -> int:
     if errors:
         print_findings(errors, to_stderr=True)
         return 1
-    component = _root_component(opened)
+    component = find_root_component(opened)
     if component is None:
         print(f"vicode: {args.path} has several components; specify the design to run", file=sys.stderr)
         return 2
     print_findings((each for each in opened.findings if each.rule.code in _UNPROVIDED), to_stderr=True)
-    edits = _find_edits(opened, component)
+    edits = find_unsynced_edits(opened, component)
     if edits:
         print_findings(edits, to_stderr=True)
         return 1
@@ -96,7 +100,7 @@ def _duplicate_stdout() -> Iterator[int]:
         os.close(descriptor)
 
 
-def _root_component(opened: LoadedProject) -> str | None:
+def find_root_component(opened: LoadedProject) -> str | None:
     """The component to run: the requested one, else the root of the only agent, else the only design."""
     if opened.selected_components is not None:
         return next(iter(opened.requested), None)
@@ -115,7 +119,7 @@ def _generate(opened: LoadedProject, component: str, folder: Path) -> str:
     return python_class_path(project, component)
 
 
-def _find_edits(opened: LoadedProject, component: str) -> tuple[Finding, ...]:
+def find_unsynced_edits(opened: LoadedProject, component: str) -> tuple[Finding, ...]:
     """Edits of generated code that the designs lack: the run would not contain them."""
     from vicode.cli.gen import output_folder
     from vicode.generators import generate
@@ -143,16 +147,28 @@ def _command(opened: LoadedProject, names: tuple[str, str], folder: str, args: a
     # -P: files in the current folder must not shadow modules.
     command = [sys.executable, "-P", "-m", "vicode.bica", class_path, "--stream", "--path", str(Path(folder, "python"))]
     command += ["--path", str(opened.open_project.folder.resolve()), "--seed", str(args.seed)]
-    if opened.open_project.project.world:
-        command += ["--world", opened.open_project.project.world]
+    world = args.world or opened.open_project.project.world
+    if world:
+        command += ["--world", world]
     seconds = args.seconds
     if seconds is None and args.ticks is None and not args.real_time:
         seconds = _DEFAULT_SECONDS
-    given = {"--seconds": seconds, "--ticks": args.ticks, "--tick-ms": args.tick_ms, "--trace": args.trace}
+    given = {
+        "--seconds": seconds,
+        "--ticks": args.ticks,
+        "--tick-ms": args.tick_ms,
+        "--trace": args.trace,
+        "--watch": args.watch,
+    }
     command += [part for name, value in given.items() if value is not None for part in (name, str(value))]
     command += ["--on-error", args.on_error]
     command += _origin(opened, component) if args.trace is not None else []
-    flags = {"--values": args.values, "--real-time": args.real_time, "--until-done": args.until_done}
+    flags = {
+        "--values": args.values,
+        "--real-time": args.real_time,
+        "--until-done": args.until_done,
+        "--control": args.control,
+    }
     return command + [name for name, is_given in flags.items() if is_given]
 
 

@@ -114,7 +114,7 @@ def generate(
         components: Generate only these and every design they use; None for all.
         exclude: Components to leave out, for example because they have errors.
         languages: None for the languages of the project.
-        standalone: Copy the runtime into the package, so that it runs without vicode.
+        standalone: Also copy the runtime, so that the code runs without vicode.
         sources: Design files by component, relative to the project folder; used in header comments and errors.
 
     Raises:
@@ -129,7 +129,7 @@ def generate(
 
 
 def component_generator(
-    project: Project, language: str, sources: Mapping[str, str], *, standalone: bool = False
+    project: Project, language: str, sources: Mapping[str, str]
 ) -> Callable[[Design], ComponentCode | None]:
     """Return a function that writes the file of one design, or returns None if the language cannot express it."""
     generator = GENERATORS[language]()
@@ -137,7 +137,7 @@ def component_generator(
     @cache
     def start() -> tuple[ProjectPlan, Callable[[ComponentPlan], ComponentCode]]:
         plan = plan_project(project, (), sources, generator.reserved_modules)
-        return plan, generator.component_writer(plan, standalone=standalone)
+        return plan, generator.component_writer(plan)
 
     def write(design: Design) -> ComponentCode | None:
         try:

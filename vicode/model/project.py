@@ -1,7 +1,7 @@
 """A project: the designs of a folder and the declarations of project.yaml."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from vicode.model.design import Declaration, Design
 
@@ -82,6 +82,15 @@ class Agent:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Profile:
+    """Other implementations behind the same interfaces, as pairs of component and "module:Class", and another world."""
+
+    name: str
+    world: str = ""
+    components: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
     """The designs and declarations of a folder.
 
@@ -98,6 +107,7 @@ class Project:
     constants: tuple[Declaration, ...] = ()
     components: tuple[Interface, ...] = ()
     agents: tuple[Agent, ...] = ()
+    profiles: tuple[Profile, ...] = ()
     designs: tuple[Design, ...] = ()
     unreadable: tuple[tuple[str, str], ...] = ()
     _interfaces: dict[str, "Interface"] = field(default_factory=dict, init=False, repr=False, compare=False)
@@ -119,6 +129,26 @@ class Project:
 
     def enumeration(self, name: str) -> Enumeration | None:
         return next((enumeration for enumeration in self.enumerations if enumeration.name == name), None)
+
+
+def select_profile(project: Project, name: str) -> Project:
+    """The project with the implementations and the world of a profile.
+
+    Raises:
+        KeyError: There is no such profile.
+    """
+    profile = next((profile for profile in project.profiles if profile.name == name), None)
+    if profile is None:
+        raise KeyError(name)
+    implementations = dict(profile.components)
+    return replace(
+        project,
+        world=profile.world or project.world,
+        components=tuple(
+            replace(each, implementation=implementations.get(each.component, each.implementation))
+            for each in project.components
+        ),
+    )
 
 
 def derive_interface(design: Design) -> Interface:

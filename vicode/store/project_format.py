@@ -1,6 +1,6 @@
 """Version 1 of the format: all keys of project.yaml, with the model fields that hold them."""
 
-from vicode.model.project import Agent, Enumeration, Interface, Project
+from vicode.model.project import Agent, Enumeration, Interface, Profile, Project
 from vicode.store.format import (
     ARGUMENT,
     CONSTANT,
@@ -77,6 +77,19 @@ AGENT = RecordSchema(
         XABSL_NAME_KEY,
     ),
 )
+PROFILE = RecordSchema(
+    name="profile",
+    description="other implementations of components, and another world",
+    model=Profile,
+    keys=(
+        KeySchema("world", TEXT, "class of the world as module:Class, if it is another one"),
+        KeySchema(
+            "components",
+            MapSchema(description="a mapping of components to classes", value_schema=TEXT, flow_width=FLOW_WIDTH),
+            "classes as module:Class, by component",
+        ),
+    ),
+)
 PROJECT = RecordSchema(
     name="project",
     description="a project",
@@ -111,6 +124,11 @@ PROJECT = RecordSchema(
             MapSchema(description="a mapping of names to root components", value_schema=AGENT, name_field="name"),
             "entry points of the project",
         ),
+        KeySchema(
+            "profiles",
+            MapSchema(description="a mapping of names to profiles", value_schema=PROFILE, name_field="name"),
+            "sets of implementations, such as for simulation and for the robot (`--profile`)",
+        ),
     ),
 )
-PROJECT_RECORDS = (PROJECT, ENUMERATION, CONSTANT, INTERFACE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT, AGENT)
+PROJECT_RECORDS = (PROJECT, ENUMERATION, CONSTANT, INTERFACE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT, AGENT, PROFILE)

@@ -108,9 +108,9 @@ def write_generated(plan: GenerationPlan) -> None:
         OSError: A file cannot be written.
     """
     texts = {difference.path: difference.new for difference in plan.differences}
-    copies = {f"{STATE_FOLDER}/generated/{path}": text for path, text in texts.items()}
+    copies = {f"{STATE_FOLDER}/generated/{path}.base": text for path, text in texts.items()}
     for file in plan.files:
-        copies.setdefault(f"{STATE_FOLDER}/generated/{file.path}", file.text)
+        copies.setdefault(f"{STATE_FOLDER}/generated/{file.path}.base", file.text)
     if taken := read_taken(plan.folder):
         copies[TAKEN_FILE] = format_taken(without_paths(taken, (file.path for file in plan.files)))
     outdated = {path: text for path, text in copies.items() if _read(plan.folder / path) != text}

@@ -23,9 +23,9 @@ class _Revisions:
         self._known: list[Mapping[str, str]] = []
         self._unread: Iterator[Mapping[str, str]] | None = None
 
-    def read(self, folder: Path, *, standalone: bool) -> Iterator[Mapping[str, str]]:
+    def read(self, folder: Path) -> Iterator[Mapping[str, str]]:
         if self._unread is None:
-            self._unread = _generate_revisions(folder, standalone=standalone)
+            self._unread = _generate_revisions(folder)
         index = 0
         while True:
             if index == len(self._known):
@@ -44,27 +44,25 @@ class GeneratedHistory:
     Attributes:
         folder: The folder of generated files, with the copies of the last texts.
         project_folder: The folder of the designs, whose revisions in git are generated again; None skips them.
-        standalone: Whether the runtime is part of the package.
     """
 
     folder: Path
     project_folder: Path | None = None
-    standalone: bool = False
     _revisions: _Revisions = field(default_factory=_Revisions)
 
     def __call__(self, path: str) -> Iterator[str]:
         try:
-            kept = (self.folder / STATE_FOLDER / "generated" / path).read_text("utf-8")
+            kept = (self.folder / STATE_FOLDER / "generated" / f"{path}.base").read_text("utf-8")
         except (OSError, UnicodeDecodeError):
             kept = ""
         if has_header(kept):
             yield kept
         if self.project_folder is not None:
-            texts = self._revisions.read(self.project_folder, standalone=self.standalone)
+            texts = self._revisions.read(self.project_folder)
             yield from (files[path] for files in texts if path in files)
 
 
-def _generate_revisions(folder: Path, *, standalone: bool) -> Iterator[Mapping[str, str]]:
+def _generate_revisions(folder: Path) -> Iterator[Mapping[str, str]]:
     try:
         repository = find_repository(folder)
         path = repository.relative(folder)
@@ -74,7 +72,7 @@ def _generate_revisions(folder: Path, *, standalone: bool) -> Iterator[Mapping[s
     for revision in revisions:
         with tempfile.TemporaryDirectory(prefix="vicode-revision-") as name, contextlib.suppress(OSError):
             opened = _check_out(repository, revision, path, Path(name))
-            yield _generate_sound(opened, standalone=standalone)
+            yield _generate_sound(opened)
 
 
 def _check_out(repository: Repository, revision: str, path: str, folder: Path) -> OpenProject:
@@ -88,9 +86,9 @@ def _check_out(repository: Repository, revision: str, path: str, folder: Path) -
     return open_project(folder)
 
 
-def _generate_sound(opened: OpenProject, *, standalone: bool) -> Mapping[str, str]:
+def _generate_sound(opened: OpenProject) -> Mapping[str, str]:
     """The generated texts by path; empty if a design has errors."""
     sources = {name: file.relative_to(opened.folder).as_posix() for name, file in opened.files.items() if name}
     with contextlib.suppress(UnsoundDesignError):
-        return {file.path: file.text for file in generate(opened.project, standalone=standalone, sources=sources)}
+        return {file.path: file.text for file in generate(opened.project, standalone=True, sources=sources)}
     return {}

@@ -20,6 +20,7 @@ def test_component_files_precede_shared_files() -> None:
     assert [file.path for file in shown.files] == [
         "python/forward/player.py",
         "python/forward/__init__.py",
+        "python/forward/__main__.py",
         "python/forward/declarations.py",
     ]
     assert shown.files[0].text == next(file.text for file in generate(PROJECT) if file.path.endswith("player.py"))

@@ -9,6 +9,7 @@ from vicode.generators.plan import INTERFACES_MODULE, CodePlan, ComponentPlan, P
 from vicode.generators.python.component import ComponentWriter
 from vicode.generators.python.declarations import build_declarations_view
 from vicode.generators.python.interfaces import build_interfaces_view
+from vicode.generators.python.main_module import build_main_view
 from vicode.generators.python.methods import method_code
 from vicode.generators.python.names import RESERVED_MODULES, assign_global_names, component_class_name
 from vicode.generators.python.origins import find_origins
@@ -31,38 +32,38 @@ __all__ = [
 ]
 
 LANGUAGE = "python"
-RUNTIME = "vicode.bica"
+_RUNTIME_FOLDER = Path(vicode.bica.__file__).parent
 
 
 def generate_python(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ...]:
-    """Generate all files of a project; with `standalone` the package contains the runtime."""
+    """Generate all files of a project; with `standalone` also the runtime, as package `vicode.bica` beside them."""
     names = assign_global_names(plan)
-    runtime = ".bica" if standalone else RUNTIME
     folder = f"{LANGUAGE}/{plan.package.name}"
     project = f"the project {plan.name}"
     about = docstring(plan.doc or f"Components of {project}.", 0) + "\n"
     files = [OutputFile(path=f"{folder}/__init__.py", text=add_header(about, project))]
-    shared = build_declarations_view(plan, names, runtime)
+    shared = build_declarations_view(plan, names)
     if shared is not None:
         text = render("python/declarations.py.jinja", view=shared)
         files.append(OutputFile(path=f"{folder}/declarations.py", text=add_header(text, project)))
-    interfaces = build_interfaces_view(plan, names, runtime)
+    interfaces = build_interfaces_view(plan, names)
     if interfaces is not None:
         text = render("python/interfaces.py.jinja", view=interfaces)
         files.append(OutputFile(path=f"{folder}/{INTERFACES_MODULE}.py", text=add_header(text, project)))
-    files += [
-        _module(ComponentWriter(project=plan, component=item, names=names, runtime=runtime)) for item in plan.components
-    ]
-    return (*files, *(_copy_runtime(folder) if standalone else ()))
+    main = build_main_view(plan)
+    if main is not None:
+        text = render("python/main.py.jinja", view=main)
+        files.append(OutputFile(path=f"{folder}/__main__.py", text=add_header(text, project)))
+    files += [_module(ComponentWriter(project=plan, component=item, names=names)) for item in plan.components]
+    return (*files, *(_copy_runtime() if standalone else ()))
 
 
-def component_writer(plan: ProjectPlan, *, standalone: bool = False) -> Callable[[ComponentPlan], ComponentCode]:
+def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCode]:
     """Return a function that writes the module of one component."""
     names = assign_global_names(plan)
-    runtime = ".bica" if standalone else RUNTIME
 
     def write(component: ComponentPlan) -> ComponentCode:
-        file = _module(ComponentWriter(project=plan, component=component, names=names, runtime=runtime))
+        file = _module(ComponentWriter(project=plan, component=component, names=names))
         return ComponentCode(file=file, origins=find_origins(component, file.text))
 
     return write
@@ -78,11 +79,11 @@ def list_regions(component: ComponentPlan) -> Iterator[CodePlan]:
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:
     """List every path that `generate_python` may return."""
     folder = f"{LANGUAGE}/{package.name}"
-    modules = ["__init__"]
+    modules = ["__init__", "__main__"] if package.modules else ["__init__"]
     modules += ["declarations"] if package.has_declarations else []
     modules += [INTERFACES_MODULE] if package.interfaces else []
     paths = [f"{folder}/{module}.py" for module in (*modules, *package.modules.values())]
-    return (*paths, *(file.path for file in (_copy_runtime(folder) if standalone else ())))
+    return (*paths, *(file.path for file in (_copy_runtime() if standalone else ())))
 
 
 def class_path(package: PackagePlan, component: str) -> str:
@@ -99,9 +100,11 @@ def _module(writer: ComponentWriter) -> OutputFile:
     return OutputFile(path=path, text=text, component=component.component)
 
 
-def _copy_runtime(folder: str) -> tuple[OutputFile, ...]:
-    sources = sorted(Path(vicode.bica.__file__).parent.glob("*.py"))
+def _copy_runtime() -> tuple[OutputFile, ...]:
+    """The runtime under its own name, so that generated and hand-written code imports it as with vicode installed."""
+    sources = {f"bica/{source.name}": source.read_text("utf-8") for source in _RUNTIME_FOLDER.glob("*.py")}
+    sources["__init__.py"] = '"""The runtime of vicode, copied for robots without it."""\n'
     return tuple(
-        OutputFile(path=f"{folder}/bica/{source.name}", text=add_header(source.read_text("utf-8"), "vicode.bica"))
-        for source in sources
+        OutputFile(path=f"{LANGUAGE}/vicode/{name}", text=add_header(text, "vicode.bica"))
+        for name, text in sorted(sources.items())
     )

@@ -14,7 +14,7 @@ from vicode.generators.plan import (
 )
 from vicode.generators.python.expression_doc import format_statement
 from vicode.generators.python.expression_printer import PythonExpressionPrinter, format_number
-from vicode.generators.python.imports import Import, format_imports
+from vicode.generators.python.imports import RUNTIME, Import, format_imports
 from vicode.generators.python.methods import BODY_INDENT, METHOD_INDENT, MethodWriter, method_code, python_code
 from vicode.generators.python.names import component_class_name, names_in_code
 from vicode.generators.python.parameters import modulate_method
@@ -35,12 +35,11 @@ from vicode.regions import wrap_region
 
 @dataclass(frozen=True, kw_only=True)
 class ComponentWriter:
-    """Writes one component; `runtime` is the package of the runtime that the module imports."""
+    """Writes one component."""
 
     project: ProjectPlan
     component: ComponentPlan
     names: dict[str, str]
-    runtime: str
 
     @cached_property
     def expression_printer(self) -> PythonExpressionPrinter:
@@ -56,7 +55,7 @@ class ComponentWriter:
         return ComponentModuleView(
             docstring=docstring(f"The component {plan.component} of the project {self.project.name}.", 0),
             imports=self._list_imports(),
-            imports_for_types=tuple(format_imports([Import(module=self.runtime, name="Root")])),
+            imports_for_types=tuple(format_imports([Import(module=RUNTIME, name="Root")])),
             module_code=_region_text(plan.module_code, ""),
             class_name=component_class_name(plan.component),
             base=self._base,
@@ -112,15 +111,13 @@ class ComponentWriter:
         The methods must be written before, since their expressions determine the imports.
         """
         written = self.expression_printer.used_names | names_in_code(self._hand_written_code())
-        runtime = [Import(module=self.runtime, name=name) for name in (self._base, "State")]
+        runtime = [Import(module=RUNTIME, name=name) for name in (self._base, "State")]
         if "arithmetic" in written:
-            runtime.append(Import(module=self.runtime, name="arithmetic"))
+            runtime.append(Import(module=RUNTIME, name="arithmetic"))
         hand_written = [self._import_class(use) for use in self.component.uses if use.implementation or not use.module]
         own = [self._import_class(use) for use in self.component.uses if use.module]
         own += self._import_declarations(written)
-        is_inside = self.runtime.startswith(".")
-        sections = ([], hand_written, [*runtime, *own]) if is_inside else (runtime, hand_written, own)
-        return tuple(tuple(format_imports(imports)) for imports in sections if imports)
+        return tuple(tuple(format_imports(imports)) for imports in (runtime, hand_written, own) if imports)
 
     def _hand_written_code(self) -> Iterator[str]:
         for code in (self.component.module_code, self.component.members, *method_code(self.component)):

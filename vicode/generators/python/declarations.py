@@ -3,13 +3,13 @@
 from vicode.generators.plan import ProjectPlan, ValuePlan
 from vicode.generators.python.expression_doc import format_statement
 from vicode.generators.python.expression_printer import PythonExpressionPrinter
-from vicode.generators.python.imports import Import, format_imports
+from vicode.generators.python.imports import RUNTIME, Import, format_imports
 from vicode.generators.python.text import comment, declaration_description, docstring, quoted, section
 from vicode.generators.python.views import DeclarationsModuleView, EnumerationClassView
 from vicode.model.project import Enumeration
 
 
-def build_declarations_view(plan: ProjectPlan, names: dict[str, str], runtime: str) -> DeclarationsModuleView | None:
+def build_declarations_view(plan: ProjectPlan, names: dict[str, str]) -> DeclarationsModuleView | None:
     """Return the view of the declarations module; None if the project declares nothing."""
     if not plan.enumerations and not plan.constants:
         return None
@@ -20,7 +20,7 @@ def build_declarations_view(plan: ProjectPlan, names: dict[str, str], runtime: s
     standard += [Import(module="typing", name="Final")] if constants else []
     imports = format_imports(standard)
     if any("arithmetic." in line for line in constants if not line.startswith("#")):
-        imports += ["", *format_imports([Import(module=runtime, name="arithmetic")])]
+        imports += ["", *format_imports([Import(module=RUNTIME, name="arithmetic")])]
     return DeclarationsModuleView(
         docstring=docstring(f"Enumerations and constants of the project {plan.name}.", 0),
         imports=tuple(imports),

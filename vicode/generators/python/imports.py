@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 from vicode.generators.python.pretty_printer import LINE_WIDTH
 
+RUNTIME = "vicode.bica"
+"""The package that generated code imports."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Import:

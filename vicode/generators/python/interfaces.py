@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from vicode.generators.plan import FunctionPlan, InterfacePlan, ProjectPlan, ValuePlan
 from vicode.generators.python.expression_doc import format_statement
 from vicode.generators.python.expression_printer import PythonExpressionPrinter, world_name
-from vicode.generators.python.imports import Import, format_imports
+from vicode.generators.python.imports import RUNTIME, Import, format_imports
 from vicode.generators.python.methods import BODY_INDENT
 from vicode.generators.python.names import component_class_name
 from vicode.generators.python.parameters import keyword_signature, modulate_method, type_name
@@ -20,7 +20,7 @@ from vicode.model.project import INTERNAL, MISSING, WORLD
 _MARGIN = " " * BODY_INDENT
 
 
-def build_interfaces_view(plan: ProjectPlan, names: dict[str, str], runtime: str) -> InterfacesModuleView | None:
+def build_interfaces_view(plan: ProjectPlan, names: dict[str, str]) -> InterfacesModuleView | None:
     """Return the view of the module; None if there are no such components."""
     if not plan.interfaces:
         return None
@@ -29,13 +29,13 @@ def build_interfaces_view(plan: ProjectPlan, names: dict[str, str], runtime: str
     names = names | {name: f"declarations.{names[name]}" for name in shared}
     printer = PythonExpressionPrinter(names=names, nonzero_constants=plan.nonzero_constants)
     classes = tuple(_InterfaceWriter(item, printer).build_view() for item in plan.interfaces)
-    imports = [Import(module=runtime, name="Component")]
+    imports = [Import(module=RUNTIME, name="Component")]
     uses_declarations = any(name.startswith("declarations.") for name in printer.used_names)
     own = [Import(module=".", name="declarations")] if uses_declarations else []
     return InterfacesModuleView(
         docstring=docstring(f"Components of the project {plan.name} that have neither a design nor a class.", 0),
         imports=tuple(tuple(format_imports(section)) for section in (imports, own) if section),
-        imports_for_types=tuple(format_imports([Import(module=runtime, name="Root")])),
+        imports_for_types=tuple(format_imports([Import(module=RUNTIME, name="Root")])),
         classes=classes,
     )
 

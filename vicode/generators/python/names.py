@@ -10,7 +10,7 @@ from vicode.generators.plan import INTERFACES_MODULE, ProjectPlan
 from vicode.model.python_parser import parse_module
 
 RESERVED_MODULES = frozenset(
-    {*keyword.kwlist, *keyword.softkwlist, "__init__", "bica", "declarations", INTERFACES_MODULE}
+    {*keyword.kwlist, *keyword.softkwlist, "__init__", "__main__", "bica", "declarations", INTERFACES_MODULE}
 )
 """Module names that no design may use."""
 

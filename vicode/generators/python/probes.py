@@ -14,7 +14,7 @@ from vicode.generators.plan import (
 )
 from vicode.generators.python.expression_doc import ExpressionDoc
 from vicode.generators.python.expression_printer import PythonExpressionPrinter
-from vicode.generators.python.imports import Import, format_imports
+from vicode.generators.python.imports import RUNTIME, Import, format_imports
 from vicode.generators.python.names import assign_global_names
 from vicode.generators.python.pretty_printer import render_doc
 from vicode.generators.python.text import docstring, quoted
@@ -38,7 +38,7 @@ def generate_probes(plan: ProjectPlan, component: ComponentPlan) -> OutputFile:
     printer = PythonExpressionPrinter.of_component(plan, component, names)
     sources = [(COMMON, component.common_decisions), *((state.name, state.decisions) for state in component.states)]
     declared = [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]
-    imports = format_imports([Import(module="vicode.bica", name="arithmetic")])
+    imports = format_imports([Import(module=RUNTIME, name="arithmetic")])
     imports += format_imports(Import(module=".declarations", name=names[name]) for name in declared)
     view = ProbesModuleView(
         docstring=docstring(f"Evaluates the guards of {component.component} without side effects.", 0),

@@ -28,6 +28,15 @@ class ComponentModuleView:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class MainModuleView:
+    """The module that runs a package; `components` are names and class paths, and all texts are quoted."""
+
+    docstring: str
+    components: tuple[tuple[str, str], ...]
+    world: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class EnumerationClassView:
     """An enumeration; `members` are lines."""
 

@@ -60,9 +60,8 @@ def generate_xabsl(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, 
     return tuple(files)
 
 
-def component_writer(plan: ProjectPlan, *, standalone: bool = False) -> Callable[[ComponentPlan], ComponentCode]:
-    """Return a function that writes the option of one component; `standalone` has no effect."""
-    del standalone
+def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCode]:
+    """Return a function that writes the option of one component."""
     paths, name_map = _OutputPaths(plan.package), XabslNameMap(plan.project)
 
     def write(component: ComponentPlan) -> ComponentCode:

@@ -96,7 +96,6 @@ class _Search:
             project,
             "python",
             {design.component: ast.literal_eval(source[1])} if source else {},
-            standalone="\nfrom .bica import " in generated,
         )
         self.design, self._text, self._edited = design, generated, edited
         self._parts = collect_parts(generated)

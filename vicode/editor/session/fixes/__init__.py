@@ -28,8 +28,8 @@ _AMBIGUOUS = "the intended meaning is not certain"
 
 UNFIXABLE: Mapping[str, str] = {
     **dict.fromkeys(("Y101", "Y102", "Y103", "Y104", "Y105", "Y106", "Y107", "Y108", "Y109", "Y110"), _DESIGN_FILE),
-    **dict.fromkeys(("Y111", "Y112"), _DESIGN_FILE),
-    **dict.fromkeys(("P203", "P207", "P208", "P209", "P210", "P211", "P212"), _PROJECT_FILE),
+    **dict.fromkeys(("Y111", "Y112", "Y113"), _DESIGN_FILE),
+    **dict.fromkeys(("P203", "P207", "P208", "P209", "P210", "P211", "P212", "P213"), _PROJECT_FILE),
     "P201": "renaming a component also changes other designs",
     **dict.fromkeys(("E301", "E302", "E304", "E305", "E308", "E309"), _AMBIGUOUS),
     "D407": "which of the two declarations to rename is not certain",
@@ -40,7 +40,7 @@ UNFIXABLE: Mapping[str, str] = {
     "L703": "the robot program also uses the XABSL name",
     "L704": _AMBIGUOUS,
     "D425": "where to step the component is not certain",
-    **dict.fromkeys(("G501", "G502", "G503"), "Generate shows and writes generated files"),
+    **dict.fromkeys(("G501", "G502", "G503", "G504"), "Generate shows and writes generated files"),
 }
 """The reason for every rule without a quick fix."""
 

@@ -1,0 +1,205 @@
+"""Copy a runnable program to a folder or a robot: generated code, runtime, hand-written code, launcher."""
+
+import argparse
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import IO
+
+from vicode.cli.console import print_findings
+from vicode.cli.project_loader import LoadedProject, load_projects
+
+MARKER = ".vicode-deployed"
+"""A file in each deployed folder; a folder without it is never replaced."""
+
+_SKIPPED_FOLDERS = frozenset({"__pycache__", "node_modules", "venv", "build", "dist"})
+_KEPT_FOLDER = "log"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("path", metavar="DESIGN", help="design of the root component, or folder of a project with one agent")
+    add("--to", metavar="[USER@HOST:]DIR", required=True, help="the folder; everything in it but log/ is replaced")
+    add("--profile", metavar="NAME", default="", help="use the implementations and the world of this profile")
+    add("--python", metavar="PROGRAM", default="python3", help="the Python of the robot (default: %(default)s)")
+    add("--arguments", metavar="TEXT", default="--real-time", help="arguments of the launcher (default: %(default)s)")
+    add("--dry-run", action="store_true", help="list the files and copy nothing")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Build the folder in a temporary one and copy it; return 1 if the project has errors."""
+    from vicode.cli.run import find_root_component, find_unsynced_edits
+
+    projects = load_projects([args.path], args.profile)
+    if len(projects) > 1:
+        print(f"vicode: {args.path} contains {len(projects)} projects; specify a design", file=sys.stderr)
+        return 2
+    opened = projects[0]
+    errors = (*opened.errors_for("python"), *(each for each in opened.findings if each.rule.code == "P212"))
+    if errors:
+        print_findings(errors, to_stderr=True)
+        return 1
+    component = find_root_component(opened)
+    if component is None:
+        print(f"vicode: {args.path} has several components; specify the design to deploy", file=sys.stderr)
+        return 2
+    edits = () if args.profile else find_unsynced_edits(opened, component)
+    if edits:
+        print_findings(edits, to_stderr=True)
+        return 1
+    with tempfile.TemporaryDirectory(prefix="vicode-deploy-") as name:
+        folder = Path(name)
+        build_program(opened, component, folder, args)
+        if args.dry_run:
+            print("".join(f"{path}\n" for path in _list_files(folder)), end="")
+        else:
+            _copy(folder, args.to)
+            print(f"deployed {component} to {args.to}: start it with {_launcher_of(args.to)}")
+    return 0
+
+
+def build_program(opened: LoadedProject, component: str, folder: Path, args: argparse.Namespace) -> None:
+    """Write all files of the program to a folder.
+
+    Raises:
+        OSError: A hand-written folder has the name of a generated package.
+    """
+    from vicode.generators import generate, python_class_path
+
+    project = opened.open_project.project
+    files = generate(
+        project, components=[component], languages=["python"], standalone=True, sources=opened.design_paths
+    )
+    _copy_hand_written(opened.open_project.folder, folder, Path(project.generated).parts[:1])
+    for file in files:
+        target = folder / file.path.removeprefix("python/")
+        if target.exists():
+            raise OSError(f"{target.relative_to(folder)} is generated, but the project has a file of this name")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(file.text, encoding="utf-8")
+    class_path = python_class_path(project, component)
+    package = class_path.partition(".")[0]
+    _write_launcher(folder, package, _component_name(opened, component), args)
+    (folder / MARKER).write_text(f"{package}\n", encoding="utf-8")
+
+
+def _component_name(opened: LoadedProject, component: str) -> str:
+    """The name of a root component on the command line of its package."""
+    agents = (agent.name for agent in opened.open_project.project.agents if agent.root == component)
+    return next(agents, component)
+
+
+def _copy_hand_written(source: Path, target: Path, generated: tuple[str, ...]) -> None:
+    """Copy the files of a project but hidden, generated and temporary ones."""
+    skipped = _SKIPPED_FOLDERS | set(generated)
+
+    def ignore(folder: str, names: list[str]) -> list[str]:
+        is_top = Path(folder) == source
+        return [
+            name for name in names if name.startswith(".") or (name in skipped and (is_top or name in _SKIPPED_FOLDERS))
+        ]
+
+    shutil.copytree(source, target, ignore=ignore, dirs_exist_ok=True)
+
+
+def _write_launcher(folder: Path, package: str, component: str, args: argparse.Namespace) -> None:
+    launcher = folder / "run"
+    command = f"exec {shlex.quote(args.python)} -m {package} {shlex.quote(component)} {args.arguments}".rstrip()
+    launcher.write_text(
+        "#!/bin/sh\n# Ctrl-C and SIGTERM close the components and the world.\n"
+        f'cd "$(dirname "$0")" || exit 1\n{command} "$@"\n'
+    )
+    launcher.chmod(0o755)
+    place = args.to.partition(":")[2] if _is_remote(args.to) else str(Path(args.to).resolve())
+    (folder / f"{package}.service").write_text(
+        f"""\
+# systemctl --user enable --now {place}/{package}.service
+[Unit]
+Description={package} ({component})
+
+[Service]
+WorkingDirectory={place}
+ExecStart={place}/run
+Restart=on-failure
+# The program stops the robot after SIGTERM.
+KillSignal=SIGTERM
+TimeoutStopSec=10
+
+[Install]
+WantedBy=default.target
+"""
+    )
+
+
+def _list_files(folder: Path) -> Iterator[str]:
+    return iter(sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()))
+
+
+def _is_remote(target: str) -> bool:
+    head = target.partition(":")[0]
+    return ":" in target and "/" not in head
+
+
+def _launcher_of(target: str) -> str:
+    if _is_remote(target):
+        host, _colon, folder = target.partition(":")
+        return f"ssh {host} {folder}/run"
+    return f"{target}/run"
+
+
+def _copy(folder: Path, target: str) -> None:
+    """Copy a program to its folder, here or over ssh.
+
+    Raises:
+        OSError: The folder has other files, or a program for copying is missing or fails.
+    """
+    if _is_remote(target):
+        _copy_over_ssh(folder, target)
+    else:
+        _copy_here(folder, Path(target))
+
+
+def _copy_here(folder: Path, target: Path) -> None:
+    if target.exists() and not target.is_dir():
+        raise OSError(f"{target} is not a folder")
+    if target.is_dir() and any(target.iterdir()) and not (target / MARKER).is_file():
+        raise OSError(f"{target} has files that vicode did not deploy; choose an empty folder")
+    target.mkdir(parents=True, exist_ok=True)
+    for path in target.iterdir():
+        if path.name == _KEPT_FOLDER:
+            continue
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        else:
+            path.unlink()
+    shutil.copytree(folder, target, dirs_exist_ok=True)
+
+
+def _copy_over_ssh(folder: Path, target: str) -> None:
+    host, _colon, place = target.partition(":")
+    if not place or host.startswith("-"):
+        raise OSError(f"invalid target '{target}'; write user@host:folder")
+    quoted = shlex.quote(place)
+    check = f'mkdir -p {quoted} && cd {quoted} && {{ test -e {MARKER} || test -z "$(ls -A)"; }}'
+    if _call(["ssh", "--", host, check]):
+        raise OSError(f"{target} cannot be reached, or has files that vicode did not deploy")
+    if shutil.which("rsync"):
+        copy = ["rsync", "-a", "--delete", f"--exclude=/{_KEPT_FOLDER}/", "--", f"{folder}/", f"{host}:{place}/"]
+        failed = _call(copy)
+    else:
+        unpack = f"cd {quoted} && find . -mindepth 1 -maxdepth 1 ! -name {_KEPT_FOLDER} -exec rm -rf {{}} + && tar xf -"
+        with subprocess.Popen(["tar", "cf", "-", "-C", str(folder), "."], stdout=subprocess.PIPE) as tar:
+            failed = _call(["ssh", "--", host, unpack], stdin=tar.stdout)
+    if failed:
+        raise OSError(f"copying to {target} failed")
+
+
+def _call(command: list[str], stdin: int | IO[bytes] | None = subprocess.DEVNULL) -> int:
+    try:
+        return subprocess.run(command, stdin=stdin, check=False).returncode
+    except FileNotFoundError:
+        raise OSError(f"the program {command[0]} is not installed") from None
