@@ -33,6 +33,8 @@ class SideTabs:
     """Both tab bars, which stay while the window shows other designs."""
 
     def __init__(self) -> None:
+        self.has_shown_robot = False
+        """Whether the live view of a robot was opened; later, the user chooses the tab."""
         add_splitters()
         with ui.element("section").classes("dock").props('aria-label="Bottom panel"'):
             dock_splitter()
@@ -51,7 +53,7 @@ class SidePanels:
 
     def __init__(self, context: WindowContext, canvas: Canvas, findings: FindingNavigator, tabs: SideTabs) -> None:
         self._context, self._canvas, self._finding_navigator = context, canvas, findings
-        self._dock, self._side = tabs.dock, tabs.side
+        self._tabs, self._dock, self._side = tabs, tabs.dock, tabs.side
         self._simulator: SimulationController | None = None
 
     def build(self) -> None:
@@ -61,6 +63,12 @@ class SidePanels:
         from vicode.editor.panels.inspector import Inspector
 
         context = self._context
+        if context.workspace.robots.is_open:
+            # The canvas shows the robot whichever tab is open.
+            self._simulate()
+            if not self._tabs.has_shown_robot:
+                self._tabs.has_shown_robot = True
+                self._dock.show(_SIMULATE)
         self._side.build({_INSPECT: lambda: Inspector(context), _CODE: lambda: CodePanel(context)})
         self._dock.build(
             {

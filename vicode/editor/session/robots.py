@@ -287,6 +287,9 @@ class RobotLink:
 
     def _greet(self, hello: Hello) -> None:
         self.control = hello.control
+        if not hello.robots:
+            # The program ends: what was received stays visible.
+            return
         known, self.robots = self.robots, {}
         for description in hello.robots:
             robot = known.get(description.name) or WatchedRobot(description=description)

@@ -3,12 +3,14 @@
 import asyncio
 import time
 from collections.abc import Callable
+from typing import Any
 
 from nicegui import run
 
 from vicode.editor.canvas import Canvas
 from vicode.editor.panels import texts
 from vicode.editor.panels.code_choices import ask_to_resolve_code
+from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.panels.simulation.trust_dialog import ask_for_trust
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.code_sync import find_lacking
@@ -16,12 +18,14 @@ from vicode.editor.session.simulation import (
     Breakpoints,
     NotReadyError,
     PreparedRun,
+    Recording,
     RunConfig,
     RunStatus,
     Simulation,
     behavior_key,
     prepare_run,
 )
+from vicode.editor.session.simulation.guard_values import evaluate_guards, latest_steps
 from vicode.editor.session.simulation.traces import input_script, read_iterations
 from vicode.editor.view import ItemRef
 from vicode.generators import UnsoundDesignError
@@ -69,20 +73,32 @@ class SimulationController:
         canvas.on_inside = self._show_active
         context.disconnects.subscribe(self.pause)
         context.closings.subscribe(self.close)
+        self.robot = RobotView(self)
 
     async def restart(self) -> None:
+        if self.robot.is_shown:
+            return
         self.pause()
         async with self._starting:
             await self._start()
 
     async def step(self) -> None:
+        if self._asks_robot:
+            self.robot.ask("step")
+            return
         await self._run(1, StopConditions())
 
     async def step_to_change(self) -> None:
         """Run until the state changes, a breakpoint is hit, or the recording is full."""
+        if self._asks_robot:
+            self.robot.toggle_pause()
+            return
         await self._run(_UNLIMITED, self._stop_conditions(changes=True))
 
     async def run_to(self, state: str) -> None:
+        if self.robot.is_shown:
+            self.context.show_toast("A robot is not run to a state: set a breakpoint on it", "info")
+            return
         await self._run(_UNLIMITED, self._stop_conditions(also=state))
 
     async def run_to_time(self, seconds: float) -> None:
@@ -103,6 +119,9 @@ class SimulationController:
         self.refresh_panel()
 
     def toggle_play(self) -> None:
+        if self.robot.is_shown:
+            self.robot.toggle_pause()
+            return
         if self.is_playing or self.is_running:
             self.pause()
             return
@@ -140,6 +159,7 @@ class SimulationController:
     def toggle_breakpoints(self, *items: ItemRef) -> None:
         self.breakpoints = self.breakpoints.toggled(*items)
         self._show_breakpoints()
+        self.robot.tell_breakpoints()
         self._notify()
 
     def check_project(self) -> None:
@@ -154,7 +174,12 @@ class SimulationController:
         if kept != self.breakpoints:
             self.breakpoints = kept
             self._show_breakpoints()
+            self.robot.tell_breakpoints()
         simulation = self.simulation
+        if self.robot.is_shown:
+            if simulation is None or simulation.prepared.design is not self.context.design:
+                self.robot.design_changed()
+            return
         if simulation is None or simulation.status is RunStatus.ENDED:
             return
         if behavior_key(self.context.workspace.project, self.context.design) != self._behavior_key:
@@ -175,6 +200,23 @@ class SimulationController:
         self.is_stale = False
         self._notify()
 
+    def show_simulation(self, simulation: Simulation | None) -> None:
+        """Show a simulation that runs elsewhere, or none."""
+        if simulation is not None or self.simulation is not None:
+            self._discard_simulation()
+            self.simulation = simulation
+            self.is_stale, self.start_error = False, ""
+        self._notify()
+
+    def simulation_changed(self) -> None:
+        """Show the simulation again."""
+        self._notify()
+
+    @property
+    def _asks_robot(self) -> bool:
+        """Whether a step is one of the robot, and not one through its recorded past."""
+        return self.robot.is_shown and (self.simulation is None or not self.simulation.is_past)
+
     @property
     def _current(self) -> Simulation:
         assert self.simulation is not None
@@ -193,7 +235,7 @@ class SimulationController:
             self._notify()
 
     async def _create_simulation(self) -> bool:
-        inputs = self.simulation.inputs if self.simulation and not self.simulation.replay else {}
+        inputs = self.simulation.inputs if self.simulation and not self.simulation.is_view else {}
         self._discard_simulation()
         self.start_error, self.is_stale = "", False
         prepared = await self._prepare() if await self._may_run() and self._has_all_edits() else None
@@ -205,10 +247,11 @@ class SimulationController:
                 cwd=self.context.workspace.folder,
                 script=input_script(self.trace, prepared.inputs) if self.trace and not self.is_replay else (),
                 replay=self.trace if self.is_replay else (),
+                find_guards=self._find_guards if self.is_replay else None,
                 on_change=self._notify,
             )
             simulation.restore_inputs(inputs)
-            if not simulation.replay:
+            if not simulation.is_view:
                 await simulation.start()
         return self.simulation is not None and self.simulation.failure is None
 
@@ -231,6 +274,14 @@ class SimulationController:
             with self.context.client:
                 ask_to_resolve_code(self.context, lacking)
         return not lacking
+
+    def _find_guards(self, recording: Recording, number: int) -> dict[str, dict[str, Any]]:
+        """Evaluate the guards of an iteration of a trace with its values."""
+        iteration, design = recording.iteration(number), self._current.prepared.design
+        if iteration is None:
+            return {}
+        steps = latest_steps(recording, number, frozenset(use.component for use in design.uses))
+        return evaluate_guards(self.context.workspace.project, design, iteration, steps)
 
     def _discard_simulation(self) -> None:
         if self.simulation is not None:
@@ -294,7 +345,8 @@ class SimulationController:
         taken: list[str] = []
         simulation = self.simulation
         if simulation is not None and simulation.cursor:
-            active = [simulation.recording.states[simulation.cursor - 1]]
+            state = simulation.recording.states[simulation.cursor - 1]
+            active = [state] if state else []
             latest = simulation.recording.latest_transition(simulation.cursor)
             taken = [latest] if latest and simulation.status is not RunStatus.ENDED else []
         self._seq += 1

@@ -29,16 +29,17 @@ class SimulationControls:
             with self.where:
                 ui.tooltip("Show the active state")
             ui.element("div").classes("spacer")
-            ui.label("Go to").classes("small").props('aria-hidden="true"')
+            self.simulated_only: list[ui.element] = [ui.label("Go to").classes("small").props('aria-hidden="true"')]
             self.time = ui.number(min=0, step=0.1, format="%.2f").props('dense outlined suffix="s" debounce=0')
             self.time.props('aria-label="Go to this time"').classes("simulation-time mono")
             self.time.on("keydown.enter", self._go_to_time)
-            ui.label("Speed").classes("small").props('aria-hidden="true"')
+            self.simulated_only.append(ui.label("Speed").classes("small").props('aria-hidden="true"'))
             speeds = {speed: f"{speed:g}×" for speed in SPEEDS}
             self.speed = ui.select(speeds, value=controller.speed, on_change=lambda event: self._set_speed(event.value))
             self.speed.props('dense outlined options-dense aria-label="Speed"').classes("simulation-speed")
             errors = ui.checkbox("Stop at errors", value=controller.pauses_on_errors).props("dense size=xs")
             errors.on_value_change(lambda event: self._set_pauses(flag=bool(event.value)))
+            self.simulated_only += [self.time, self.speed, errors]
         with ui.element("div").classes("simulation-message").props('role="status"') as self.message:
             self.icon = ui.icon("info").props('aria-hidden="true"')
             self.words = ui.label()
@@ -49,6 +50,12 @@ class SimulationControls:
 
     def refresh(self) -> None:
         simulator, simulation = self.controller, self.controller.simulation
+        is_robot = simulator.robot.is_shown
+        for part in (*self.simulated_only, self.restart, self.stop, self.change):
+            part.set_visibility(not is_robot)
+        if is_robot:
+            self._refresh_for_robot(simulation)
+            return
         icon = "pause" if simulator.is_playing or simulator.is_running else "play_arrow"
         if self.play.props["icon"] != icon:
             self.play.props(f"icon={icon}")
@@ -56,7 +63,20 @@ class SimulationControls:
         set_enabled(self.stop, flag=simulation is not None)
         for button in (self.play, self.step, self.change):
             set_enabled(button, flag=simulation is None or simulation.can_step or simulator.is_stale)
-        where = _where(simulation)
+        self._show_position(_where(simulation))
+
+    def _refresh_for_robot(self, simulation: Simulation | None) -> None:
+        robot, can_control = self.controller.robot.robot, not self.controller.robot.problem_of_control
+        icon = "play_arrow" if robot is not None and robot.is_paused else "pause"
+        if self.play.props["icon"] != icon:
+            self.play.props(f"icon={icon}")
+        is_past = simulation is not None and simulation.is_past
+        set_enabled(self.back, flag=simulation is not None and simulation.cursor > 1)
+        set_enabled(self.play, flag=can_control)
+        set_enabled(self.step, flag=can_control or is_past)
+        self._show_position(_where_robot(simulation))
+
+    def _show_position(self, where: str) -> None:
         if self.where.text != where:
             self.where.set_text(where)
         self._show_message()
@@ -69,8 +89,11 @@ class SimulationControls:
         icons = {"error": "error", "warning": "warning", "past": "history"}
         self.icon.set_name(icons.get(kind, "info"))
         self.message.classes(add=kind, remove=" ".join({"error", "warning", "past", "info"} - {kind}))
-        self.restart_button.set_visibility(self.controller.is_stale or kind == "error")
-        self.continue_button.set_visibility(kind == "past" and simulation is not None and not simulation.replay)
+        is_robot = self.controller.robot.is_shown
+        self.restart_button.set_visibility((self.controller.is_stale or kind == "error") and not is_robot)
+        is_past = simulation is not None and simulation.is_past and (kind == "past" or is_robot)
+        self.continue_button.set_visibility(is_past and simulation is not None and not simulation.replay)
+        self.continue_button.set_text("Back to live" if is_robot else "Continue from here")
 
     def _reveal(self) -> None:
         simulation = self.controller.simulation
@@ -78,9 +101,10 @@ class SimulationControls:
             self.controller.context.page.reveal(ItemRef(kind="states", id=simulation.shown_iteration.state))
 
     def _continue_from_here(self) -> None:
-        if self.controller.simulation is not None:
-            self.controller.simulation.truncate()
-            self.controller.simulation.go_to(self.controller.simulation.cursor)
+        simulation = self.controller.simulation
+        if simulation is not None:
+            simulation.truncate()
+            simulation.go_to(len(simulation.recording) if simulation.live is not None else simulation.cursor)
 
     async def _go_to_time(self) -> None:
         if isinstance(self.time.value, int | float):
@@ -92,6 +116,13 @@ class SimulationControls:
 
     def _set_pauses(self, *, flag: bool) -> None:
         self.controller.pauses_on_errors = flag
+
+
+def _where_robot(simulation: Simulation | None) -> str:
+    iteration = simulation.shown_iteration if simulation is not None else None
+    if iteration is None:
+        return "waiting for the robot"
+    return f"{iteration.time_ns / 1e9:.2f} s · iteration {iteration.iteration} · {iteration.state or 'not active'}"
 
 
 def _where(simulation: Simulation | None) -> str:

@@ -30,9 +30,12 @@ class GuardsList:
             self._rebuild((), "Guards", "", None)
             return
         iteration, design = simulation.shown_iteration, simulation.prepared.design
-        state = iteration.state if iteration else design.initial
+        state = iteration.state if iteration else "" if simulation.is_view else design.initial
+        if not state:
+            self._rebuild((), "Guards", "not active", None)
+            return
         rows = list_guard_rows(design, state, simulation.guards)
-        seconds = iteration.tree[0].get("state_time_ns", 0) / 1e9 if iteration else 0.0
+        seconds = iteration.step.get("state_time_ns", 0) / 1e9 if iteration else 0.0
         stops = frozenset(self.controller.breakpoints.items)
         shape = (state, tuple((row.key, row.text, row.outcome) for row in rows), stops)
         waits = "" if iteration is None or iteration.worked else " · not tested now"

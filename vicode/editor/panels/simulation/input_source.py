@@ -1,4 +1,4 @@
-"""The source of the inputs: manual, the project's components in their world, or a recorded trace."""
+"""The source: manual inputs, the project's components in their world, a recorded trace, or a running robot."""
 
 from dataclasses import replace
 
@@ -7,6 +7,7 @@ from nicegui.events import UploadEventArguments
 
 from vicode.editor.access import MAX_BODY_BYTES
 from vicode.editor.panels.simulation.controller import SimulationController
+from vicode.editor.panels.simulation.robot_form import RobotForm
 from vicode.editor.session.simulation import stubbed_components, used_components
 from vicode.simulation.trace import TraceError
 
@@ -14,11 +15,12 @@ from vicode.simulation.trace import TraceError
 _MAX_BYTES = MAX_BODY_BYTES - 65_536
 _TOO_LARGE = f"The file is too large for a trace (at most {_MAX_BYTES / 1e6:.1f} MB): record a shorter run"
 _PICK = "Choose a trace…"
-_MANUAL, _ALL_COMPONENTS, _FROM_TRACE, _REPLAY = (
+_MANUAL, _ALL_COMPONENTS, _FROM_TRACE, _REPLAY, _ROBOT = (
     "Manual inputs",
     "All components run",
     "Inputs from a trace",
     "View a trace",
+    "Robot",
 )
 
 
@@ -27,15 +29,16 @@ class InputSourceForm:
 
     def __init__(self, controller: SimulationController) -> None:
         self.controller = controller
-        self.source = _MANUAL
+        self.source = _ROBOT if controller.robot.is_shown else _MANUAL
         world = controller.context.workspace.project.world
         labels = {
             _MANUAL: _MANUAL,
             _ALL_COMPONENTS: f"All components run in {world}" if world else _ALL_COMPONENTS,
             _FROM_TRACE: _FROM_TRACE,
             _REPLAY: _REPLAY,
+            _ROBOT: _ROBOT,
         }
-        self.choice = ui.select(labels, value=_MANUAL, label="Simulate with", on_change=self._choose)
+        self.choice = ui.select(labels, value=self.source, label="Simulate with", on_change=self._choose)
         self.choice.props("dense outlined options-dense stack-label").classes("field")
         self.pick = ui.button(_PICK, icon="upload_file", color=None).props("outline dense no-caps no-wrap align=left")
         self.hint = ui.label("Record one with: vicode run DESIGN --trace FILE --values").classes("small trace-hint")
@@ -48,7 +51,9 @@ class InputSourceForm:
         self.upload.props('accept=".jsonl,.json,.txt,*"').classes("hidden")
         # The browser opens its file dialog only within the click event, without a round trip to the server.
         self.pick.classes("trace-pick").on("click", js_handler=f"() => runMethod({self.upload.id}, 'pickFiles', [])")
-        with ui.expansion("Run options").classes("section run-options").props("dense dense-toggle"):
+        self.robot_form = RobotForm(controller.robot)
+        self.options = ui.expansion("Run options").classes("section run-options").props("dense dense-toggle")
+        with self.options:
             self.seed = ui.number("Seed of the world", value=0, precision=0, on_change=self._set_numbers)
             self.tick = ui.number(
                 "Period", placeholder="fits the frequencies", min=1, max=3_600_000, on_change=self._set_numbers
@@ -62,6 +67,8 @@ class InputSourceForm:
         self._stubbed: frozenset[str] = frozenset()
 
     def refresh(self) -> None:
+        self.robot_form.refresh()
+        self.options.set_visibility(self.source != _ROBOT)
         has_trace = bool(self.controller.trace)
         self.pick.set_visibility(self.source in (_FROM_TRACE, _REPLAY))
         self.hint.set_visibility(self.source in (_FROM_TRACE, _REPLAY) and not has_trace)
@@ -94,6 +101,12 @@ class InputSourceForm:
     def _choose(self) -> None:
         self.source = str(self.choice.value)
         self.controller.clear_trace()
+        if self.source == _ROBOT:
+            self.controller.stop()
+            self.controller.robot.show()
+            return
+        if self.controller.robot.is_shown:
+            self.controller.robot.hide()
         stubbed: frozenset[str] | None = frozenset() if self.source == _ALL_COMPONENTS else None
         self.controller.set_config(replace(self.controller.config, stubbed=stubbed))
 

@@ -26,6 +26,9 @@ class InputsForm:
 
     def refresh(self) -> None:
         simulation = self.controller.simulation
+        self.body.set_visibility(not self.controller.robot.is_shown)
+        if self.controller.robot.is_shown:
+            return
         if simulation is not self._simulation or not self._rows:
             self._simulation = simulation
             self.body.clear()
@@ -35,7 +38,7 @@ class InputsForm:
             return
         values = simulation.inputs
         read = self._names_read(simulation)
-        can_set = simulation.status is not RunStatus.ENDED and not simulation.replay
+        can_set = simulation.status is not RunStatus.ENDED and not simulation.is_view
         for row in self._rows:
             row.show(values.get(row.input.component, {}).get(row.input.name))
             row.mark(is_read=(row.input.component, row.input.name) in read, can_set=can_set)

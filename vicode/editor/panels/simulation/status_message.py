@@ -2,6 +2,8 @@
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.simulation.controller import SimulationController
+from vicode.editor.panels.simulation.robot_view import NO_CONTROL, RobotView
+from vicode.editor.session.robots import LinkStatus
 from vicode.editor.session.simulation import RunStatus, Simulation
 from vicode.editor.view.activation import code_error_view
 
@@ -11,6 +13,8 @@ _HINT = "F10 steps, F6 plays and pauses, Shift+F6 runs to the next state, F9 set
 def status_message(controller: SimulationController) -> tuple[str, str]:
     """The status text and its kind: error, warning, past or info."""
     simulation = controller.simulation
+    if controller.robot.is_shown:
+        return robot_message(controller.robot, simulation)
     if controller.is_starting:
         return ("info", "Starting: generating and loading the code…")
     if controller.start_error:
@@ -23,6 +27,43 @@ def status_message(controller: SimulationController) -> tuple[str, str]:
         return ("info", _hint(controller))
     kind, text = _running_message(simulation, is_moving=controller.is_playing or controller.is_running)
     return (kind, text or _hint(controller))
+
+
+def robot_message(view: RobotView, simulation: Simulation | None) -> tuple[str, str]:
+    """The status text of a live view and its kind."""
+    link, robot = view.link, view.robot
+    if link.status is LinkStatus.CLOSED:
+        return ("info", "Not attached. Enter the address that the robot prints.")
+    if link.status is LinkStatus.REFUSED:
+        return ("error", f"Not attached: {link.problem}")
+    if link.status is LinkStatus.LOST:
+        return ("warning", f"No connection to {link.address}, trying again: {link.problem}")
+    if link.status is LinkStatus.CONNECTING or robot is None:
+        return ("info", f"Connecting to {link.address}…")
+    if simulation is not None and simulation.is_past:
+        behind = len(simulation.recording) - simulation.cursor
+        return ("past", f"Viewing the past: {behind} recorded iteration{'s' * (behind != 1)} before the latest.")
+    if view.other_versions:
+        names = ", ".join(view.other_versions[:3]) + ("…" if len(view.other_versions) > 3 else "")
+        words = f"The robot runs another version of this design ({names})."
+        return ("warning", f"{words} Generate and restart the robot, or open its version with: vicode show")
+    iteration = simulation.shown_iteration if simulation is not None else None
+    if simulation is not None and iteration is not None and iteration.errors:
+        return ("error", code_error_view(simulation.prepared.design, iteration.errors[0]).text)
+    return ("info", _describe_robot(view))
+
+
+def _describe_robot(view: RobotView) -> str:
+    robot, link = view.robot, view.link
+    assert robot is not None
+    words = f"{'Paused' if robot.is_paused else 'Live'}: {robot.name} at {link.address}"
+    if robot.missed:
+        words += f", {robot.missed} iterations not shown"
+    if robot.error_count:
+        words += f", {robot.error_count} errors"
+    if view.other_versions is None:
+        words += ". Its version was not compared: the design has errors"
+    return f"{words}." if link.control else f"{words}. {NO_CONTROL}."
 
 
 def _hint(controller: SimulationController) -> str:

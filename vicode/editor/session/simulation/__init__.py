@@ -10,6 +10,7 @@ from vicode.editor.session.simulation.setup import (
     behavior_key,
     hand_written_components,
     prepare_run,
+    prepare_view,
     stubbed_components,
     used_components,
 )
@@ -30,6 +31,7 @@ __all__ = [
     "behavior_key",
     "hand_written_components",
     "prepare_run",
+    "prepare_view",
     "stubbed_components",
     "used_components",
 ]
