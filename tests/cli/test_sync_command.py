@@ -172,3 +172,20 @@ def test_generated_code_of_two_branches_merges(generated: Path, capsys: pytest.C
     assert vicode("gen", "--check", "lamps") == 0
     edit(DESIGN, "after: 0.3", "after: 0.4")
     assert vicode("gen", "lamps") == 0
+
+
+def test_edits_of_statements_are_shown_and_taken_over_on_request(
+    generated: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    edit(FILE, "200_000_000", "400_000_000")
+    FILE.write_text(FILE.read_text() + "\nif __name__ == '__main__':\n    Lamp.demo()\n")
+    before = FILE.read_text()
+    assert vicode("sync", "lamps") == 1
+    err = capsys.readouterr().err
+    assert "the design can take over: guard of Lit → Dark: " in err
+    assert "+    Lamp.demo()" in err
+    assert (FILE.read_text(), DESIGN.read_text()) == (before, LAMP)
+    assert vicode("sync", "--statements", "lamps") == 0
+    assert DESIGN.read_text() == LAMP.replace("after: 0.2", "after: 0.4")
+    assert "+    Lamp.demo()" in FILE.with_name("lamp.py.patch").read_text()
+    assert vicode("gen", "--check", "lamps") == 0

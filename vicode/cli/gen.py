@@ -154,13 +154,29 @@ def write_plan(opened: LoadedProject, plan: "GenerationPlan", *, is_forced: bool
 
         print_findings(locate_findings(plan.findings, opened.open_project), to_stderr=True)
         print("".join(_conflict_diffs(plan)), end="", file=sys.stderr)
+        for line in _describe_statements(plan):
+            print(line, file=sys.stderr)
         return False
     _save_designs(opened, plan)
     write_generated(plan)
+    for each in plan.statements:
+        if each.leftover and each.file not in plan.edits:
+            print(f"kept the rest of the edit as {(plan.folder / each.file.path).as_posix()}.patch")
     for difference in plan.differences:
         verb = "deleted" if difference.status is FileStatus.STALE else "wrote"
         print(f"{verb} {(plan.folder / difference.path).as_posix()}")
     return True
+
+
+def _describe_statements(plan: "GenerationPlan") -> Iterator[str]:
+    """The edits of generated statements, and what the design can take over of them."""
+    for each in plan.statements:
+        path = (plan.folder / each.file.path).as_posix()
+        yield from (f"{path}:{edit.line}: the design can take over: {edit.words}" for edit in each.edits)
+        if each.edits:
+            yield "take these edits over with 'vicode sync --statements'; the rest is kept as a patch beside the file"
+        if each.leftover:
+            yield f"no meaning in the design:\n{each.leftover.rstrip()}"
 
 
 def _conflict_diffs(plan: "GenerationPlan") -> Iterator[str]:
@@ -179,6 +195,10 @@ def _save_designs(opened: LoadedProject, plan: "GenerationPlan") -> None:
     texts = {name: save_design(design, project.texts[name]) for name, design in plan.designs.items()}
     for name, text in texts.items():
         replace_text(project.files[name], project.texts[name], text)
+        for statement in (each for each in plan.statements if each.file.component == name):
+            for taken in statement.edits:
+                place = f"{(plan.folder / statement.file.path).as_posix()}:{taken.line}"
+                print(f"adopted from {place} into {project.files[name].as_posix()}: {taken.words}")
         for edit in plan.adopted:
             if edit.file.component == name:
                 place = f"{(plan.folder / edit.file.path).as_posix()}:{edit.region.line}"

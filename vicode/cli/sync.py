@@ -11,6 +11,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("paths", metavar="PATH", nargs="+", help="design file, project folder, or folder of projects")
     parser.add_argument("--check", action="store_true", help="write nothing; report edits that the designs lack")
     parser.add_argument("--watch", action="store_true", help="sync again after each change, until interrupted")
+    parser.add_argument(
+        "--statements",
+        action="store_true",
+        help="also take edits of generated statements over, where the design can; keep the rest as NAME.patch",
+    )
     add_output_arguments(parser)
 
 
@@ -27,7 +32,9 @@ def _sync(opened: LoadedProject, args: argparse.Namespace) -> int:
     from vicode.sync import plan_generation
 
     has_errors = print_errors(opened)
-    plan = plan_generation(generation_input(opened, args), adopt=not args.check, take=args.take)
+    plan = plan_generation(
+        generation_input(opened, args), adopt=not args.check, take=args.take, statements=args.statements
+    )
     if args.check:
         print_findings(plan.findings)
         return int(bool(plan.findings) or has_errors)

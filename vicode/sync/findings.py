@@ -10,7 +10,7 @@ from vicode.sync.region_merge import RegionEdit
 _ADOPT = "take the edit over into the design with 'vicode sync'"
 _CHOOSE = "keep this text with 'vicode sync --take file', or the text of the design with 'vicode sync --take design'"
 _DROP = "move the edit to where it belongs, or drop it with 'vicode sync --take design'"
-_OUTSIDE = "edit the design instead; 'vicode sync' shows the edit and what the design can take over"
+_OUTSIDE = "'vicode sync' shows what the design can take over, and 'vicode sync --statements' takes it over"
 _UNKNOWN = "generate with --force, which keeps the file as NAME.edited"
 
 

@@ -14,6 +14,7 @@ from vicode.sync.adopt import AdoptedEdit, Side, adopt_regions
 from vicode.sync.file_edits import FileEdits, find_file_edits
 from vicode.sync.findings import describe_conflict, describe_edits
 from vicode.sync.history import GeneratedHistory
+from vicode.sync.statements import StatementEdits, interpret_files
 from vicode.sync.taken import TAKEN_FILE, RegionKey, TakenEdit, format_taken, read_taken, without_paths
 from vicode.transactions import STATE_FOLDER, complete_interrupted, replace_files
 
@@ -51,6 +52,7 @@ class GenerationPlan:
         differences: The files that differ from those on disk.
         designs: The designs that contain edits of generated files, by component.
         adopted: These edits.
+        statements: The edits of generated statements with their meaning in the design.
         edits: The edits that would be lost.
         findings: Why nothing may be written.
     """
@@ -60,17 +62,22 @@ class GenerationPlan:
     differences: tuple[FileDiff, ...]
     designs: Mapping[str, Design]
     adopted: tuple[AdoptedEdit, ...] = ()
+    statements: tuple[StatementEdits, ...] = ()
     edits: tuple[FileEdits, ...] = ()
     findings: tuple[Finding, ...] = ()
 
 
-def plan_generation(job: GenerationInput, *, adopt: bool = False, take: Side | None = None) -> GenerationPlan:
+def plan_generation(
+    job: GenerationInput, *, adopt: bool = False, take: Side | None = None, statements: bool = False
+) -> GenerationPlan:
     """Generate and compare with the folder, without writing.
 
     Args:
         job: What to generate.
         adopt: Take edits of regions over into the designs.
         take: The side that wins conflicts between an edit and the design; None leaves them.
+        statements: With `adopt`, also take edits of generated statements over that have one meaning in the design;
+            otherwise they are listed only.
 
     Raises:
         OSError: A file cannot be read.
@@ -92,10 +99,22 @@ def plan_generation(job: GenerationInput, *, adopt: bool = False, take: Side | N
     new = _compare(job, project)
     edits = tuple(_without(file, settled) for file in new.edits)
     edits = tuple(file for file in edits if not file.is_empty)
+    designs = dict(adoption.designs)
+    texts = {file.path: file.text for file in new.files}
+    changed, statement_edits = interpret_files(project, edits, texts, job.history)
+    if statements:
+        designs |= changed
+        new = _compare(job, _with_designs(project, changed))
+        taken = {each.file.path for each in statement_edits if each.edits or each.leftover}
+        edits = tuple(
+            replace(file, is_edited_outside=file.path not in taken and file.is_edited_outside) for file in edits
+        )
+        edits = tuple(file for file in edits if not file.is_empty)
     return replace(
         new,
-        designs=adoption.designs,
+        designs=designs,
         adopted=adoption.adopted,
+        statements=statement_edits,
         edits=edits,
         findings=tuple(describe_edits(edits, shown)),
     )
@@ -113,6 +132,9 @@ def write_generated(plan: GenerationPlan) -> None:
         copies.setdefault(f"{STATE_FOLDER}/generated/{file.path}.base", file.text)
     if taken := read_taken(plan.folder):
         copies[TAKEN_FILE] = format_taken(without_paths(taken, (file.path for file in plan.files)))
+    for each in plan.statements:
+        if each.leftover and each.file.path not in {file.path for file in plan.edits}:
+            copies[f"{each.file.path}.patch"] = each.leftover
     outdated = {path: text for path, text in copies.items() if _read(plan.folder / path) != text}
     if texts or outdated:
         replace_files(plan.folder, texts | outdated)

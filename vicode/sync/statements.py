@@ -1,0 +1,62 @@
+"""Reads edits of generated statements back as edits of designs."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+from vicode.model.design import Design
+from vicode.model.merge import merge_lines
+from vicode.model.project import Project
+from vicode.sync.file_edits import FileEdits, History
+from vicode.sync.interpret import InterpretedEdit, interpret_edits
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StatementEdits:
+    """The edits of generated statements in one file; `leftover` is a patch of what has no meaning in the design."""
+
+    file: FileEdits
+    edits: tuple[InterpretedEdit, ...]
+    leftover: str
+
+
+def interpret_files(
+    project: Project, files: Iterable[FileEdits], texts: Mapping[str, str], history: History
+) -> tuple[dict[str, Design], tuple[StatementEdits, ...]]:
+    """Interpret all files with edits outside of their regions.
+
+    Args:
+        project: The project.
+        files: The edited files.
+        texts: The texts generated from the project, by path.
+        history: Returns earlier generated texts.
+
+    Returns:
+        The changed designs by component, and the edits.
+    """
+    designs: dict[str, Design] = {}
+    found: list[StatementEdits] = []
+    for file in files:
+        generated = texts.get(file.path)
+        if not file.is_edited_outside or generated is None:
+            continue
+        edited = _with_design_edits(file, generated, history)
+        if edited is None or not (file.component and file.language == "python"):
+            found.append(StatementEdits(file=file, edits=(), leftover=""))
+            continue
+        result = interpret_edits(project, file.component, generated=generated, edited=edited, file=file.path)
+        found.append(StatementEdits(file=file, edits=result.edits, leftover=result.leftover))
+        if result.edits:
+            designs[file.component] = result.design
+            project = replace(
+                project,
+                designs=tuple(
+                    result.design if design.component == file.component else design for design in project.designs
+                ),
+            )
+    return designs, tuple(found)
+
+
+def _with_design_edits(file: FileEdits, generated: str, history: History) -> str | None:
+    """The file with what has changed in the design since it was generated; None if both changed the same lines."""
+    base = next(iter(history(file.path)), None)
+    return None if base is None else merge_lines(base, file.old.replace("\r\n", "\n"), generated)
