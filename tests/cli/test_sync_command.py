@@ -182,7 +182,7 @@ def test_edits_of_statements_are_shown_and_taken_over_on_request(
     before = FILE.read_text()
     assert vicode("sync", "lamps") == 1
     err = capsys.readouterr().err
-    assert "the design can take over: guard of Lit → Dark: " in err
+    assert "the design can take over: time of Lit → Dark: 0.4" in err
     assert "+    Lamp.demo()" in err
     assert (FILE.read_text(), DESIGN.read_text()) == (before, LAMP)
     assert vicode("sync", "--statements", "lamps") == 0

@@ -204,6 +204,9 @@ def propose_class_code(context: EditContext, change: CodeChange) -> Iterator[Des
     text = context.source_of(added) + "\n"
     if first.depth == 0:
         is_definition = isinstance(first.node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
+        if not is_definition and change.line > context.class_line:
+            # Module code runs before the class is defined.
+            return
         for code in _extended(context.design.module, text, separator="\n\n" if is_definition else ""):
             yield replace(context.design, module=code)
     elif first.depth == 1:

@@ -74,6 +74,11 @@ class EditContext:
     def reader(self) -> ExpressionReader:
         return ExpressionReader.of(self.project, self.design)
 
+    @cached_property
+    def class_line(self) -> int:
+        """The first line of the class in the edited file; 0 without a class."""
+        return next((number for number, line in enumerate(self.lines, start=1) if line.startswith("class ")), 0)
+
     def place_of(self, scope: str) -> Place | None:
         """Return what a method belongs to, None if it is not a method of a state."""
         kind, _underscore, stem = method_name(scope).removeprefix("_").partition("_")
