@@ -134,7 +134,7 @@ class Controller:
 
     def _set(self, viewer: object, request: dict[str, Any]) -> str:
         component, name = self._component(request.get("component")), str(request.get("name"))
-        value = _convert(request.get("value"), _read_plain(component, name), f"{type(component).__name__}.{name}")
+        value = convert_value(request.get("value"), _read_plain(component, name), f"{type(component).__name__}.{name}")
         vars(component)[name] = value
         if request.get("hold"):
             self._held[type(component).__name__, name] = (viewer, value)
@@ -186,7 +186,7 @@ class Controller:
         declarations = [module for module in shared if module is not None and name in vars(module)]
         if not declarations or not owners:
             raise ControlError(f"no component uses a constant '{name}'")
-        value = _convert(request.get("value"), getattr(declarations[0], name), name)
+        value = convert_value(request.get("value"), getattr(declarations[0], name), name)
         for module in (*owners, *declarations):
             setattr(module, name, value)
         return f"constant {name} = {value}"
@@ -218,8 +218,12 @@ def _read_plain(component: Component, name: str) -> Any:
     return value
 
 
-def _convert(value: object, old: Any, name: str) -> Any:
-    """A JSON value in the type of the old value; enumerations are written "Type.element"."""
+def convert_value(value: object, old: Any, name: str) -> Any:
+    """A JSON value in the type of the old value; enumerations are written "Type.element".
+
+    Raises:
+        ControlError: It has another type.
+    """
     if isinstance(old, Enum):
         kind = type(old)
         element = str(value).removeprefix(f"{kind.__name__}.")

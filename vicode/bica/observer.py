@@ -39,6 +39,7 @@ class StepRecord(TypedDict):
     transition: str | None
     parameters: dict[str, Any]
     done: bool
+    component_time_ns: NotRequired[int]
     values: NotRequired[dict[str, Any]]
 
 
@@ -155,6 +156,7 @@ class Observer:
         record["state_time_ns"] = component.root.now_ns - component._entered_ns
         record["done"] = component.is_done
         if self._values:
+            record["component_time_ns"] = component.root.now_ns - component._started_ns
             record["values"] = to_json_value(_collect_values(component))
 
 

@@ -21,6 +21,7 @@ COMMANDS = (
     "docs",
     "run",
     "deploy",
+    "replay",
     "diff",
     "merge",
     "hook",

@@ -10,7 +10,8 @@ from vicode.bica.loader import load_component, make_world, wrap_user_errors
 from vicode.bica.observer import to_json_value
 from vicode.simulation.guards import GuardEvaluator
 from vicode.simulation.limits import CapturedOutput
-from vicode.simulation.messages import Inputs, IterationResult, Setup
+from vicode.simulation.messages import Inputs, IterationResult, Setup, Start
+from vicode.simulation.restore import restore_root
 from vicode.simulation.stubs import StubComponent, convert_value, install_stub_module
 
 
@@ -61,12 +62,22 @@ class RunHost:
             new = {name: convert_value(value, types[name], self._enumerations) for name, value in given.items()}
             cast("Any", self.main).modulate(**{**now, **new})
 
+    def continue_from(self, start: Start, inputs: Inputs) -> None:
+        """Enter a recorded run with its inputs: the next step is the iteration after `start`."""
+        self._clock.advance(max(0, start.time_ns - self._clock.now_ns()))
+        restore_root(self._root, start)
+        self.set_inputs(inputs)
+        for stub in self._stubs:
+            stub.work()
+
     def evaluate_guards(self) -> dict[str, dict[str, Any]]:
         """The current truth values of the guards."""
         return self._watch.evaluate()
 
-    def step(self) -> IterationResult:
-        """Run one iteration and advance the clock."""
+    def step(self, time_ns: int | None = None) -> IterationResult:
+        """Run one iteration and advance the clock; a recorded iteration has its own time."""
+        if time_ns is not None:
+            self._clock.advance(max(0, time_ns - self._clock.now_ns()))
         self._watch.begin_iteration()
         for stub in self._stubs:
             # Calls made while guards were inspected do not belong to the iteration.
@@ -78,7 +89,8 @@ class RunHost:
             advance(self._clock.now_ns())
         self._root.step()
         iteration = self._make_result()
-        self._clock.advance(self._setup.tick_ns)
+        if time_ns is None:
+            self._clock.advance(self._setup.tick_ns)
         return iteration
 
     def _on_record(self, record: IterationRecord) -> None:
@@ -94,6 +106,7 @@ class RunHost:
             time_ns=record["time_ns"],
             tree=[cast("dict[str, Any]", step) for step in record["tree"]],
             errors=record["errors"],
+            inputs=record.get("inputs", {}),
             world=to_json_value(snapshot()) if snapshot is not None else None,
             finished=bool(getattr(self._root.world, "finished", False)),
             guards=self._watch.evaluate(),

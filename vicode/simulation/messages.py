@@ -74,10 +74,30 @@ class StopConditions:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Start:
+    """A recorded iteration from which a run continues.
+
+    Attributes:
+        iteration: Its number.
+        time_ns: Its time.
+        tree: Its steps.
+        values: The latest values of each component.
+        worked_ns: When each component worked last.
+    """
+
+    iteration: int
+    time_ns: int
+    tree: list[dict[str, Any]]
+    values: dict[str, dict[str, Any]]
+    worked_ns: dict[str, int]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Request:
     """`run` makes up to `count` iterations, `inspect` only evaluates the guards; both set the inputs first.
 
-    With `suppress_events`, a run reports only its last iteration.
+    With `suppress_events`, a run reports only its last iteration. A `script` has the inputs before each iteration and
+    `times_ns` their times, if they were recorded; `start` is where a recorded run is entered.
     """
 
     kind: Literal["run", "inspect"]
@@ -85,6 +105,9 @@ class Request:
     count: int = 1
     stops: StopConditions = field(default_factory=StopConditions)
     suppress_events: bool = False
+    script: tuple[Inputs, ...] = ()
+    times_ns: tuple[int, ...] = ()
+    start: Start | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,6 +131,7 @@ class IterationResult:
     time_ns: int
     tree: list[dict[str, Any]]
     errors: list[dict[str, Any]] = field(default_factory=list)
+    inputs: dict[str, dict[str, Any]] = field(default_factory=dict)
     world: Any = None
     finished: bool = False
     guards: dict[str, dict[str, Any]] = field(default_factory=dict)
@@ -190,6 +214,7 @@ _FIELD_TYPES: dict[str, type | tuple[type, ...]] = {
     "time_ns": int,
     "finished": bool,
     "guards": dict,
+    "inputs": dict,
     "prints": list,
     "omitted_lines": int,
     "errors": list,
@@ -246,7 +271,10 @@ def decode_request(line: bytes) -> Request:
     try:
         stops = plain.pop("stops")
         places: dict[str, Any] = {name: tuple(stops.pop(name)) for name in ("states", "transitions")}
-        return Request(stops=StopConditions(**places, **stops), **plain)
+        listed: dict[str, Any] = {name: tuple(plain.pop(name)) for name in ("script", "times_ns")}
+        begin = plain.pop("start")
+        start = None if begin is None else Start(**begin)
+        return Request(stops=StopConditions(**places, **stops), start=start, **listed, **plain)
     except (KeyError, TypeError, AttributeError) as error:
         raise ProtocolError(f"not a request: {error}") from error
 

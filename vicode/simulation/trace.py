@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from vicode.bica.recorder import find_segments
 from vicode.simulation.messages import IterationResult, ProtocolError, decode_iteration
 
 VERSION = 1
@@ -25,6 +27,61 @@ class Trace:
     summary: dict[str, Any] | None
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TraceFiles:
+    """A trace on the disk, read in pieces; a record of a robot has several files."""
+
+    files: tuple[Path, ...]
+    header: dict[str, Any]
+
+    def iterations(self) -> Iterator[IterationResult]:
+        """Read the iterations one by one.
+
+        Raises:
+            TraceError: A line is not part of a trace.
+        """
+        is_empty = True
+        for file in self.files:
+            for number, line in _complete_lines(file):
+                record = _parse(number, line)
+                if "summary" not in record and "vicode-trace" not in record:
+                    is_empty = False
+                    yield _iteration(number, record)
+        if is_empty:
+            raise TraceError("the trace has no iterations")
+
+
+def open_trace(path: Path) -> TraceFiles:
+    """Open a trace, or the latest run of a record (`Root.record`) by its name.
+
+    Raises:
+        TraceError: It is not a trace.
+        OSError: It does not exist or cannot be read.
+    """
+    runs = {} if path.is_file() else find_segments(path)
+    files = tuple(runs[max(runs)]) if runs else (path,)
+    with files[0].open("rb") as stream:
+        line = stream.readline(10_000)
+    header = _parse_header(1, line.decode(errors="replace"))
+    return TraceFiles(files=files, header=header)
+
+
+def _complete_lines(file: Path) -> Iterator[tuple[int, str]]:
+    """The numbered lines of a file; a last line without an end was cut off by a crash and is left out."""
+    with file.open(encoding="utf-8", errors="replace", newline="\n") as stream:
+        for number, line in enumerate(stream, start=1):
+            if line.strip() and (line.endswith("\n") or _is_json(line)):
+                yield number, line
+
+
+def _is_json(line: str) -> bool:
+    try:
+        json.loads(line)
+    except (ValueError, RecursionError):
+        return False
+    return True
+
+
 def trace_schema() -> dict[str, Any]:
     """The JSON Schema of one line of a trace."""
     schema: dict[str, Any] = json.loads(Path(__file__).with_name("trace.schema.json").read_text(encoding="utf-8"))
@@ -38,13 +95,7 @@ def read_trace(text: str, max_iterations: int | None = None) -> Trace:
         TraceError: A line is not part of a trace, or the trace has another version.
     """
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
-    header = _parse(*lines[0]) if lines else {}
-    if "vicode-trace" not in header:
-        raise TraceError("this is not a trace: its first line is no header; record one with vicode run --trace FILE")
-    if header["vicode-trace"] != VERSION:
-        raise TraceError(
-            f"this trace has version {str(header['vicode-trace'])[:20]}; this vicode reads version {VERSION}"
-        )
+    header = _parse_header(*lines[0]) if lines else _parse_header(1, "{}")
     iterations: list[IterationResult] = []
     summary = None
     for number, line in lines[1:]:
@@ -56,6 +107,17 @@ def read_trace(text: str, max_iterations: int | None = None) -> Trace:
     if not iterations:
         raise TraceError("the trace has no iterations")
     return Trace(runtime=str(header.get("runtime", "")), iterations=tuple(iterations), summary=summary)
+
+
+def _parse_header(number: int, line: str) -> dict[str, Any]:
+    header = _parse(number, line)
+    if "vicode-trace" not in header:
+        raise TraceError("this is not a trace: its first line is no header; record one with vicode run --trace FILE")
+    if header["vicode-trace"] != VERSION:
+        raise TraceError(
+            f"this trace has version {str(header['vicode-trace'])[:20]}; this vicode reads version {VERSION}"
+        )
+    return header
 
 
 def _iteration(number: int, record: dict[str, Any]) -> IterationResult:

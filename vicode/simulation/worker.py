@@ -12,6 +12,7 @@ import sys
 import threading
 from collections.abc import Callable
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import BinaryIO
 
@@ -120,8 +121,8 @@ class _Worker:
     def _run(self, request: Request) -> Failed | None:
         reason = COUNT_REACHED
         iteration: IterationResult | None = None
-        for _step in range(request.count):
-            failed = self._run_limited(self._setup.limit_s, self._step)
+        for index in range(request.count):
+            failed = self._run_limited(self._setup.limit_s, partial(self._step, request, index))
             if failed is not None:
                 return failed
             iteration = self._result
@@ -130,7 +131,7 @@ class _Worker:
             if request.suppress_events:
                 continue
             self._send(iteration)
-            if stop:
+            if stop and not request.script:
                 reason = stop
                 break
         if request.suppress_events and iteration is not None:
@@ -138,8 +139,10 @@ class _Worker:
         self._send(Stopped(reason=reason))
         return None
 
-    def _step(self) -> None:
-        self._result = self._running.step()
+    def _step(self, request: Request, index: int) -> None:
+        if index < len(request.script):
+            self._running.set_inputs(request.script[index])
+        self._result = self._running.step(request.times_ns[index] if index < len(request.times_ns) else None)
 
     @property
     def _running(self) -> RunHost:
@@ -147,7 +150,10 @@ class _Worker:
         return self._host
 
     def _apply_inputs(self, request: Request) -> None:
-        self._running.set_inputs(request.inputs)
+        if request.start is None:
+            self._running.set_inputs(request.inputs)
+        else:
+            self._running.continue_from(request.start, request.inputs)
         if request.kind == "inspect":
             self._send(Inspected(guards=self._running.evaluate_guards()))
 

@@ -93,7 +93,15 @@ class RunClient:
         Raises:
             RunFailedError: The run cannot continue.
         """
-        await self._send(encode_request(Request(kind="inspect", inputs=inputs)))
+        return await self.run_inspection(Request(kind="inspect", inputs=inputs))
+
+    async def run_inspection(self, request: Request) -> Inspected:
+        """Answer a request without a step.
+
+        Raises:
+            RunFailedError: The run cannot continue.
+        """
+        await self._send(encode_request(request))
         answer = await self._receive(self._limit_s + _GRACE_S)
         if not isinstance(answer, Inspected):
             raise RunFailedError("Protocol error: unexpected response.")
