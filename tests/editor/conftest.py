@@ -72,8 +72,9 @@ def started_editor(
     *,
     is_trusted: bool = True,
     autosave_s: float = 3600,
+    command: tuple[str, ...] = (),
 ) -> Iterator[str]:
-    """An editor on a folder of projects; its URL.
+    """An editor on a folder of projects, started by `vicode edit` or another command; its URL.
 
     The tour is left out, as it would stand in the way of other tests, and nothing is saved by itself: what is unsaved
     stays so until the test has looked at it.
@@ -89,7 +90,7 @@ def started_editor(
         (storage / "state" / "trusted").write_text(f"{folder.resolve()}\n")
     said = storage / "said.log"
     said.write_text("")
-    arguments = ["edit", str(folder), "--no-open", "--port", "0", *options]
+    arguments = [*(command or ("edit", str(folder))), "--no-open", "--port", "0", *options]
     brood = _fork_server()
     assert brood.stdin is not None
     assert brood.stdout is not None

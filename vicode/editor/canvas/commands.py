@@ -103,6 +103,7 @@ CANVAS_COMMANDS = (
     CanvasCommand("links", "Show or hide links to components", _VIEW, menus=("nothing",)),
     CanvasCommand("breakpoint", "Toggle breakpoint", _RUN, menus=_STATES_AND_TRANSITIONS),
     CanvasCommand("simulate-here", "Run to here", _RUN, menus=("states",)),
+    CanvasCommand("robot-enter", "Go to this state", _RUN, menus=("states",)),
     CanvasCommand("menu", "Open context menu", _NAVIGATE, ("Shift+F10", "ContextMenu"), keys_label="Shift+F10"),
     CanvasCommand("help", "Keyboard shortcuts and gestures", _NAVIGATE, ("?",), menus=("nothing",)),
     CanvasCommand("next", "Select next element", _NAVIGATE, ("Tab",), keys_label="Tab"),

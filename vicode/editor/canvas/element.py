@@ -63,6 +63,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._active: tuple[list[str], int, list[str], dict[str, str]] = ([], -1, [], {})
         self._inside: dict[ItemRef, list[dict[str, Any]]] = {}
         self._breakpoints: list[dict[str, str]] = []
+        self._controls_robot = False
         self._acknowledged = -1
         self._sent = -1
         # NiceGUI remounts an element when handlers are added after its first rendering.
@@ -176,6 +177,12 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._breakpoints = [item_json(item) for item in items]
         self._call("setBreakpoints", self._breakpoints)
 
+    def set_controls_robot(self, flag: bool) -> None:
+        """Offer in menus what needs control of a robot."""
+        if flag != self._controls_robot:
+            self._controls_robot = flag
+            self._call("commands.setControlsRobot", flag)
+
     def show_presence(self, others: Sequence[RemoteUser]) -> None:
         """Show selections and pointers of other users; only the newest call is sent once the last one was painted."""
         self._presence, self._presence_pending = list(others), True
@@ -273,6 +280,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             self._call("scrollToInitial", *self._initial_target)
             self._initial_target = None
         self._call("setBreakpoints", self._breakpoints)
+        self._call("commands.setControlsRobot", self._controls_robot)
         self._send_presence()
         for item, machines in self._inside.items():
             self._call("insets.show", item_json(item), machines)

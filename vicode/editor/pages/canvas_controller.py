@@ -54,7 +54,7 @@ _FOCUS_GUARD = """
 
 _MENU_GROUPS = {CommandGroup.VIEW: MenuGroup.VIEW, CommandGroup.NAVIGATE: MenuGroup.VIEW}
 # Commands of the page that the menu and the keys of the canvas trigger.
-_PAGE_COMMAND_NAMES = ("undo", "redo", "lay-out", "links", "help", "breakpoint", "simulate-here")
+_PAGE_COMMAND_NAMES = ("undo", "redo", "lay-out", "links", "help", "breakpoint", "simulate-here", "robot-enter")
 
 _G = TypeVar("_G")
 

@@ -2,9 +2,10 @@
 
 import hashlib
 from collections.abc import Mapping
+from itertools import product
 
 from vicode.generators import UnsoundDesignError, generate, list_component_paths
-from vicode.model.project import Project
+from vicode.model.project import Project, select_profile
 from vicode.simulation.robots import RobotDescription
 
 
@@ -12,6 +13,8 @@ def find_other_versions(
     project: Project, sources: Mapping[str, str], robot: RobotDescription
 ) -> tuple[str, ...] | None:
     """The designs whose generated file differs from that of the robot; None if they cannot be generated.
+
+    The robot may use any profile, with or without its own copy of the runtime.
 
     Args:
         project: The project with its current designs.
@@ -21,9 +24,10 @@ def find_other_versions(
     known = {name: each.code for name, each in robot.components.items() if each.code and project.design(name)}
     hashes: dict[str, set[str]] = {name: set() for name in known}
     try:
-        for standalone in (False, True):
+        projects = (project, *(select_profile(project, each.name) for each in project.profiles))
+        for each, standalone in product(projects, (False, True)):
             files = generate(
-                project, components=list(known), languages=("python",), sources=sources, standalone=standalone
+                each, components=list(known), languages=("python",), sources=sources, standalone=standalone
             )
             texts = {file.path: file.text for file in files}
             for name, found in hashes.items():

@@ -29,6 +29,11 @@ export class Commands {
     return this.handlers[name].can?.() ?? true;
   }
 
+  /** Sets whether a running robot can be sent to another state. */
+  setControlsRobot(flag) {
+    this.controlsRobot = flag;
+  }
+
   /** Returns the commands of the context menu for the selection. */
   menuEntries() {
     const { selection, scene } = this.canvas;
@@ -131,6 +136,7 @@ function viewHandlers(canvas) {
     help: { run: () => canvas.report("command", { name: "help" }) },
     breakpoint: { can: () => selection.keys.size > 0, run: () => canvas.report("command", { name: "breakpoint" }) },
     "simulate-here": { can: () => selection.keys.size === 1, run: () => canvas.report("command", { name: "simulate-here" }) },
+    "robot-enter": { can: () => canvas.commands.controlsRobot && selection.keys.size === 1, run: () => canvas.report("command", { name: "robot-enter" }) },
     menu: { run: () => canvas.menu.openAtSelection() },
   };
 }

@@ -46,6 +46,7 @@ def simulation_commands(
             "Shift+F6",
         ),
         ("simulate-here", "Simulate: run to the selected state", shown(_run_to), "adjust", "Ctrl+F10"),
+        ("robot-enter", "Robot: go to the selected state", shown(_enter), "login", ""),
         ("simulate-stop", "Simulate: stop", shown(lambda it: it.stop()), "stop", ""),
         ("breakpoint", "Toggle breakpoint on the selection", toggle, "stop_circle", "F9"),
     )
@@ -61,6 +62,10 @@ async def _run_to(simulator: "SimulationController") -> None:
         simulator.context.show_toast("Select a state to run to", "info")
         return
     await simulator.run_to(only.id)
+
+
+def _enter(simulator: "SimulationController") -> None:
+    simulator.robot.enter(simulator.context.single_selection)
 
 
 def _toggle_breakpoint(simulator: "SimulationController") -> None:

@@ -146,7 +146,10 @@ class RobotView:
 
     def _on_change(self) -> None:
         """Show what arrived; called for each message."""
-        if not self.is_shown or self._context.is_closed:
+        if self._context.is_closed:
+            return
+        self._controller.canvas.set_controls_robot(not self.problem_of_control)
+        if not self.is_shown:
             return
         robot = self.robot
         if robot is None:

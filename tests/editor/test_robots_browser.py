@@ -1,0 +1,87 @@
+"""A running robot in the browser: the active state on the canvas, control, and tuning."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.editor.conftest import started_editor
+from tests.editor.player_page import state
+from tests.editor.simulation.robot_program import RobotProgram, running_robot, write_robot
+from tests.editor.test_accessibility_browser import complaints
+
+expect.set_options(timeout=20_000)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return write_robot(tmp_path / "designs" / "lamps")
+
+
+@pytest.fixture
+def robot(folder: Path) -> Iterator[RobotProgram]:
+    with running_robot(folder) as program:
+        yield program
+
+
+def active(page: Page) -> Locator:
+    return page.locator("g.node.active")
+
+
+def open_lamp(page: Page, url: str) -> None:
+    page.set_viewport_size({"width": 1366, "height": 768})
+    page.goto(url + "design/lamps/Lamp")
+    expect(state(page, "Dark")).to_be_visible()
+
+
+def test_the_active_state_is_shown_at_once(robot: RobotProgram, folder: Path, tmp_path: Path, page: Page) -> None:
+    attaching = ("attach", robot.address, str(folder.parent), "--token", robot.token)
+    with started_editor(folder.parent, tmp_path / "storage", (), command=attaching) as url:
+        open_lamp(page, url)
+        expect(active(page)).to_have_attribute("data-id", "Dark")
+        guard = page.locator(".guard", has_text="→ Lit")
+        expect(guard).to_contain_text("false")
+        expect(guard).to_contain_text("eye.seen = false, eye.light = 3")
+        robot.eye.seen = True
+        expect(active(page)).to_have_attribute("data-id", "Lit")
+        expect(page.locator('g.edge.taken[data-id="Dark/0"]')).to_have_count(1)
+        expect(page.locator(".robot-card.is-followed")).to_contain_text("Lit")
+        assert not complaints(page)
+
+
+def test_a_robot_is_paused_stepped_and_changed(robot: RobotProgram, editor_of: str, page: Page) -> None:
+    open_lamp(page, editor_of)
+    page.get_by_role("tab", name="Simulate").click()
+    page.get_by_role("combobox", name="Simulate with").click()
+    page.get_by_role("option", name="Robot").click()
+    page.get_by_label("Address").fill(robot.address)
+    page.get_by_label("Token").fill(robot.token)
+    page.get_by_role("button", name="Attach").click()
+    expect(active(page)).to_have_attribute("data-id", "Dark")
+
+    page.get_by_role("button", name="Play or pause (F6)").click()
+    expect(page.get_by_text(re.compile("^Paused: Lamp at"))).to_be_visible()
+    page.get_by_role("button", name="Set Eye.seen").click()
+    page.get_by_role("textbox", name="Value").fill("true")
+    page.get_by_role("button", name="Set once").click()
+    expect(active(page)).to_have_attribute("data-id", "Dark")
+    page.get_by_role("button", name="Step (F10)").click()
+    expect(active(page)).to_have_attribute("data-id", "Lit")
+
+    state(page, "Dark").click(button="right")
+    page.get_by_role("menuitem", name="Go to this state").click()
+    page.get_by_role("button", name="Play or pause (F6)").click()
+    expect(page.get_by_text(re.compile("^Live: Lamp at"))).to_be_visible()
+    page.get_by_role("button", name="Disconnect").click()
+    expect(page.get_by_text("Not attached. Enter the address")).to_be_visible()
+    state(page, "Dark").click(button="right")
+    expect(page.get_by_role("menuitem", name="Toggle breakpoint")).to_be_visible()
+    expect(page.get_by_role("menuitem", name="Go to this state")).to_have_count(0)
+
+
+@pytest.fixture
+def editor_of(folder: Path, tmp_path: Path) -> Iterator[str]:
+    with started_editor(folder.parent, tmp_path / "storage") as url:
+        yield url
