@@ -196,7 +196,8 @@ def list_component_paths(project: Project, component: str) -> tuple[str, ...]:
         package = plan_package(project, generator.reserved_modules)
         if component not in package.modules:
             continue
-        shared = replace(package, modules={})
+        # Files that all designs share are also written for another one.
+        shared = replace(package, modules={"": ""})
         own = replace(package, modules={component: package.modules[component]})
         others = generator.list_paths(shared, standalone=False)
         paths += (path for path in generator.list_paths(own, standalone=False) if path not in others)

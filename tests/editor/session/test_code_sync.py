@@ -188,6 +188,10 @@ def test_edits_wait_while_the_design_has_errors(workspace: Workspace, player: Do
     assert code_of(player.design) == "self._seen += 2"
 
 
+def test_only_the_file_of_a_design_is_followed(workspace: Workspace) -> None:
+    assert workspace.generated_paths.find(workspace, "Player") == ("python/forward/player.py",)
+
+
 def test_used_designs_are_opened_for_their_edits(workspace: Workspace, player: DocumentSession) -> None:
     assert code_sync.find_lacking(workspace, "Player") == ()
     assert len(workspace.documents) == 1
