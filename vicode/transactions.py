@@ -34,7 +34,7 @@ def replace_files(root: Path, texts: Mapping[str, str | bytes | None]) -> None:
     """
     targets = {path: _resolve_target(root, path) for path in texts}
     with _lock(root) as state:
-        _complete(root, state)
+        _complete_found(root, state)
         pending = state / _PENDING
         try:
             journal = _write_pending(pending, texts, targets)
@@ -45,7 +45,7 @@ def replace_files(root: Path, texts: Mapping[str, str | bytes | None]) -> None:
         except BaseException:
             shutil.rmtree(pending, ignore_errors=True)
             raise
-        _complete(root, state)
+        _complete(state, journal, targets)
 
 
 def is_interrupted(root: Path) -> bool:
@@ -57,13 +57,15 @@ def complete_interrupted(root: Path) -> None:
     """Complete the replacement that a killed program began below a folder, or drop what it had only prepared."""
     if is_interrupted(root):
         with _lock(root) as state:
-            _complete(root, state)
+            _complete_found(root, state)
 
 
 @contextlib.contextmanager
 def _lock(root: Path) -> Iterator[Path]:
     """The state folder, which only one program changes at a time."""
     state = root / STATE_FOLDER
+    if state.is_symlink():
+        raise OSError(errno.ELOOP, "expected a folder, found a symbolic link; delete it", str(state))
     if not state.is_dir():
         state.mkdir(parents=True)
         write_atomically(state / ".gitignore", "*\n", is_durable=False)
@@ -93,15 +95,48 @@ def _write_pending(
     return journal
 
 
-def _complete(root: Path, state: Path) -> None:
+def _complete_found(root: Path, state: Path) -> None:
+    """Complete what another program left, perhaps one of a stranger: nothing outside of the folder is touched.
+
+    Raises:
+        OSError: The journal is not one of vicode.
+    """
     pending = state / _PENDING
-    journal = pending / _JOURNAL
-    if journal.is_file():
-        for path, name in json.loads(journal.read_text("utf-8")).items():
-            _move(None if name is None else pending / name, _resolve_target(root, path))
+    if pending.is_symlink():
+        raise OSError(errno.ELOOP, "expected a folder, found a symbolic link; delete it", str(pending))
+    journal = _read_journal(pending)
+    targets = {path: _resolve_target(root, path) for path in journal}
+    for path, target in targets.items():
+        if not target.is_relative_to(root.resolve()) or ".git" in path.casefold().split("/"):
+            raise PermissionError(
+                errno.EACCES, f"{pending} would replace it, outside of {root}; delete that folder", path
+            )
+    _complete(state, journal, targets)
+
+
+def _read_journal(pending: Path) -> dict[str, str | None]:
+    file = pending / _JOURNAL
+    if not file.is_file():
+        return {}
+    try:
+        journal = json.loads(file.read_text("utf-8"))
+    except (ValueError, RecursionError):
+        journal = None
+    if not isinstance(journal, dict) or not all(
+        "\0" not in path and (name is None or (isinstance(name, str) and name.isdecimal()))
+        for path, name in journal.items()
+    ):
+        raise OSError(errno.EINVAL, f"it is no journal of vicode; delete {pending}", str(file))
+    return journal
+
+
+def _complete(state: Path, journal: Mapping[str, str | None], targets: Mapping[str, Path]) -> None:
+    pending = state / _PENDING
+    for path, name in journal.items():
+        _move(None if name is None else pending / name, targets[path])
     if pending.is_dir():
         # The journal goes first: without it, the rest means nothing.
-        journal.unlink(missing_ok=True)
+        (pending / _JOURNAL).unlink(missing_ok=True)
         shutil.rmtree(pending)
 
 
@@ -119,7 +154,7 @@ def _move(source: Path | None, target: Path) -> None:
 
 
 def _resolve_target(root: Path, path: str) -> Path:
-    """The target of a path, which must be below the root folder: a journal may come from a stranger."""
+    """The target of a path, which must be below the root folder; symbolic links are followed."""
     if Path(path).is_absolute() or ".." in Path(path).parts:
         raise PermissionError(errno.EACCES, f"it is outside of {root}", path)
     return (root / path).resolve()

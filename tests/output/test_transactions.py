@@ -68,6 +68,48 @@ def test_a_journal_cannot_write_elsewhere(tmp_path: Path, path: str) -> None:
     assert not (tmp_path / "outside.py").exists()
 
 
+def leave_journal(root: Path, journal: object) -> Path:
+    pending = root / ".vicode/pending"
+    pending.mkdir(parents=True)
+    (pending / "0").write_text("evil")
+    (pending / "journal.json").write_text(journal if isinstance(journal, str) else json.dumps(journal))
+    return pending
+
+
+@pytest.mark.parametrize("path", ["link/outside.py", "inner/.git/hooks/pre-commit", ".GIT/config"])
+def test_a_journal_cannot_write_through_a_link_or_into_git(tmp_path: Path, path: str) -> None:
+    root = tmp_path / "root"
+    leave_journal(root, {path: "0"})
+    (root / "link").symlink_to(tmp_path)
+    with pytest.raises(PermissionError, match="delete that folder"):
+        complete_interrupted(root)
+    assert read(root) == {}
+    assert not (tmp_path / "outside.py").exists()
+
+
+@pytest.mark.parametrize(
+    "journal", [{"a": "../../../secret"}, {"a": 1}, {"a\0b": "0"}, ["a"], "{", "[" * 100_000], ids=range(6)
+)
+def test_what_is_no_journal_is_refused(tmp_path: Path, journal: object) -> None:
+    (tmp_path / "secret").write_text("secret")
+    pending = leave_journal(tmp_path / "root", journal)
+    with pytest.raises(OSError, match="no journal of vicode; delete"):
+        complete_interrupted(tmp_path / "root")
+    assert read(tmp_path) == {"secret": "secret"}
+    assert pending.is_dir()
+
+
+@pytest.mark.parametrize("link", [".vicode", ".vicode/pending"])
+def test_the_state_folder_is_no_link(tmp_path: Path, link: str) -> None:
+    root = tmp_path / "root"
+    (root / link).parent.mkdir(parents=True)
+    (root / link).symlink_to(tmp_path)
+    (tmp_path / "pending").mkdir()
+    with pytest.raises(OSError, match="symbolic link; delete it"):
+        replace_files(root, {"a.py": "new"})
+    assert read(root) == {}
+
+
 @pytest.mark.parametrize("moves", range(4))
 def test_a_replacement_interrupted_after_the_journal_is_completed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, moves: int
