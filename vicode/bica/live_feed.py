@@ -64,6 +64,7 @@ class LiveFeed:
         self._observed_step = self._plain_step
         root._step_main = self._step
         root._set_step = self._set_plain_step
+        root._before_reload.append(self._stop_observing)
 
     def describe(self) -> dict[str, Any]:
         """Describe the robot: its components with their design, the hash of their code, states and frequencies."""
@@ -96,6 +97,10 @@ class LiveFeed:
 
     def _set_plain_step(self, step: Callable[[], None]) -> None:
         self._plain_step = step
+
+    def _stop_observing(self) -> None:
+        if self._is_observing:
+            self._set_observing(False)
 
     def _set_observing(self, is_observing: bool) -> None:
         root, self._is_observing = self.root, is_observing

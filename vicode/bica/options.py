@@ -23,6 +23,7 @@ def make_parser(
     parser = argparse.ArgumentParser(prog=f"python -m {program or __package__}", description=description)
     add = parser.add_argument
     _add_root_arguments(parser, components, world)
+    add("--reload", action="store_true", help=argparse.SUPPRESS)
     add("--watch", metavar="ADDRESS", help="let viewers connect: PORT, HOST:PORT or unix:PATH")
     add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
     add("--path", metavar="DIR", action="append", default=[], help="add DIR to the import path; may be repeated")

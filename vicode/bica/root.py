@@ -71,6 +71,7 @@ class Root:
         except BaseException:
             self.close()
             raise
+        self._before_reload: list[Callable[[], None]] = []
         self._step_main = self._find_step()
         self._set_step: Callable[[Callable[[], None]], None] = partial(setattr, self, "_step_main")
         if "VICODE_RECORD" in os.environ:

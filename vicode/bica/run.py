@@ -20,6 +20,7 @@ from .errors import ComponentError, CyclicUseError, print_error
 from .loader import UserCodeError, describe_user_error, load_component, make_world, wrap_user_errors
 from .observer import TRACE_HEADER, IterationRecord, Observer, to_json_value
 from .options import make_parser
+from .reload import Reloader
 from .root import Root
 from .stop_signals import StopSignals
 from .tick import choose_tick_ns, describe_wrong_frequencies
@@ -52,6 +53,8 @@ def run_project(components: Mapping[str, str], *, world: str = "", arguments: Se
 
 def _run_command(options: argparse.Namespace) -> int:
     sys.path[:0] = [str(Path(folder).resolve()) for folder in options.path]
+    # Bytecode has the time of its source in seconds, and would be taken for that of a later edit.
+    sys.dont_write_bytecode = sys.dont_write_bytecode or options.reload
     _open_missing_streams()
     signals = StopSignals(is_silent=options.stream)
     try:
@@ -236,10 +239,13 @@ def _loop(root: Root, options: argparse.Namespace, tick_ns: int, signals: StopSi
     most_iterations = math.inf if options.ticks is None else options.ticks
     end_ns = math.inf if options.seconds is None else round(options.seconds * 1e9)
     advance_world = getattr(world, "advance", None)
+    reloader = Reloader(root, options.path) if options.reload else None
     signals.is_deferred = True
     if isinstance(clock, PacedClock):
         clock.start()
     while root.iteration < most_iterations and clock.now_ns() < end_ns and not signals.was_received():
+        for message in reloader.reload_if_asked() if reloader is not None else ():
+            print_error(message, kind="reload")
         if advance_world is not None:
             advance_world(clock.now_ns())
         root.step()

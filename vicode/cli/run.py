@@ -37,6 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--seed", type=int, default=0, metavar="N", help="random seed of the world (default: %(default)s)")
     add("--profile", metavar="NAME", default="", help="use the implementations and the world of this profile")
     add("--world", metavar="MODULE:CLASS", help="use another world than that of project.yaml")
+    add("--reload", action="store_true", help="exchange the code while it runs when a design or a module changes")
     add("--watch", metavar="ADDRESS", help="let 'vicode attach' connect: PORT, HOST:PORT or unix:PATH (docs/live.md)")
     add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
     add("--trace", metavar="FILE", help="write a trace (docs/traces.md) to FILE; - is the standard output")
@@ -80,7 +81,11 @@ def run(args: argparse.Namespace) -> int:
         print_findings(edits, to_stderr=True)
         return 1
     with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
-        class_path = _generate(opened, component, Path(folder))
+        class_path = generate_for_run(opened, component, Path(folder))
+        if args.reload:
+            from vicode.cli.run_reload import start_watching
+
+            start_watching(args, Path(folder))
         if args.trace != "-":
             return _run_process(_command(opened, (component, class_path), folder, args), is_plain=args.plain)
         with _duplicate_stdout() as descriptor, contextlib.redirect_stdout(sys.stderr):
@@ -108,7 +113,7 @@ def find_root_component(opened: LoadedProject) -> str | None:
     return roots[0] if len(roots) == 1 else None
 
 
-def _generate(opened: LoadedProject, component: str, folder: Path) -> str:
+def generate_for_run(opened: LoadedProject, component: str, folder: Path) -> str:
     """Generate the component and all it uses; return the path of its class."""
     from vicode.generators import generate, python_class_path
     from vicode.output import apply_diffs, compare_files
@@ -168,6 +173,7 @@ def _command(opened: LoadedProject, names: tuple[str, str], folder: str, args: a
         "--real-time": args.real_time,
         "--until-done": args.until_done,
         "--control": args.control,
+        "--reload": args.reload,
     }
     return command + [name for name, is_given in flags.items() if is_given]
 

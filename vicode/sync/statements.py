@@ -4,10 +4,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from vicode.model.design import Design
-from vicode.model.merge import merge_lines
 from vicode.model.project import Project
 from vicode.sync.file_edits import FileEdits, History
 from vicode.sync.interpret import InterpretedEdit, interpret_edits
+from vicode.sync.outside_edits import rebase_outside_edits
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,7 +39,7 @@ def interpret_files(
         generated = texts.get(file.path)
         if not file.is_edited_outside or generated is None:
             continue
-        edited = _with_design_edits(file, generated, history)
+        edited = rebase_outside_edits(replace(file, new=generated), next(iter(history(file.path)), None))
         if edited is None or not (file.component and file.language == "python"):
             found.append(StatementEdits(file=file, edits=(), leftover=""))
             continue
@@ -54,9 +54,3 @@ def interpret_files(
                 ),
             )
     return designs, tuple(found)
-
-
-def _with_design_edits(file: FileEdits, generated: str, history: History) -> str | None:
-    """The file with what has changed in the design since it was generated; None if both changed the same lines."""
-    base = next(iter(history(file.path)), None)
-    return None if base is None else merge_lines(base, file.old.replace("\r\n", "\n"), generated)

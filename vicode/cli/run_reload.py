@@ -1,0 +1,43 @@
+"""`vicode run --reload`: generates again after each change, and asks the running process to exchange its code."""
+
+import argparse
+import sys
+import threading
+from pathlib import Path
+
+from vicode.bica.reload import STAMP
+from vicode.cli.console import describe_os_error, print_findings
+from vicode.cli.docs_watch import iter_changes
+from vicode.cli.project_loader import DESIGN_SUFFIXES, load_projects
+from vicode.cli.run import find_root_component, generate_for_run
+
+
+def start_watching(args: argparse.Namespace, folder: Path) -> None:
+    """Watch the project in a thread that ends with the process; `folder` has the generated code."""
+    threading.Thread(target=_watch, args=(args, folder), daemon=True).start()
+
+
+def _watch(args: argparse.Namespace, folder: Path) -> None:
+    (opened,) = load_projects([args.path], args.profile)
+    project_folder = opened.open_project.folder.resolve()
+    while project_folder.is_dir():
+        changes = iter_changes([project_folder], (".py", *DESIGN_SUFFIXES))
+        # The first is no change.
+        next(changes, None)
+        for _change in changes:
+            try:
+                _generate_again(args, folder)
+            except OSError as error:
+                print(f"vicode: {describe_os_error(error)}", file=sys.stderr)
+
+
+def _generate_again(args: argparse.Namespace, folder: Path) -> None:
+    (opened,) = load_projects([args.path], args.profile)
+    component = find_root_component(opened)
+    errors = opened.errors_for("python")
+    if errors or component is None:
+        print_findings(errors, to_stderr=True)
+        print("vicode: not reloaded; the old code goes on", file=sys.stderr)
+        return
+    generate_for_run(opened, component, folder)
+    (folder / "python" / STAMP).touch()
