@@ -85,3 +85,19 @@ def test_a_robot_is_paused_stepped_and_changed(robot: RobotProgram, editor_of: s
 def editor_of(folder: Path, tmp_path: Path) -> Iterator[str]:
     with started_editor(folder.parent, tmp_path / "storage") as url:
         yield url
+
+
+def test_a_tuned_constant_is_written_back(robot: RobotProgram, folder: Path, tmp_path: Path, page: Page) -> None:
+    attaching = ("attach", robot.address, str(folder.parent), "--token", robot.token)
+    with started_editor(folder.parent, tmp_path / "attached", (), command=attaching) as url:
+        open_lamp(page, url)
+        robot.eye.seen, robot.eye.light = True, 20.0
+        expect(page.locator(".guard", has_text="→ Lit")).to_contain_text("false")
+        page.get_by_role("spinbutton", name="Tune bright, number").fill("30")
+        expect(active(page)).to_have_attribute("data-id", "Lit")
+        page.get_by_role("button", name="Write bright back").click()
+        expect(page.get_by_role("button", name="Write bright back")).to_be_hidden()
+        assert "bright: {value: 30, tunable: true, range: [0, 50]}" in (folder / "project.yaml").read_text()
+        page.keyboard.press("Control+z")
+        expect(page.get_by_role("button", name="Write bright back")).to_be_visible()
+        assert "bright: {value: 10," in (folder / "project.yaml").read_text()

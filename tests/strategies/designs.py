@@ -78,7 +78,9 @@ def _pairs(largest: int = 3) -> st.SearchStrategy[tuple[tuple[str, str], ...]]:
     return st.dictionaries(names, expressions, max_size=largest).map(lambda entries: tuple(entries.items()))
 
 
-def declarations(arguments: st.SearchStrategy[Any] | None = None) -> st.SearchStrategy[Declaration]:
+def declarations(
+    arguments: st.SearchStrategy[Any] | None = None, *, is_tunable: bool = False
+) -> st.SearchStrategy[Declaration]:
     """Draw declarations; of functions, if `arguments` draws a tuple."""
     return st.builds(
         Declaration,
@@ -89,6 +91,7 @@ def declarations(arguments: st.SearchStrategy[Any] | None = None) -> st.SearchSt
         range=points,
         doc=st.just("") | texts,
         xabsl_name=st.just("") | texts,
+        tunable=st.booleans() if is_tunable else st.just(False),
         arguments=st.none() if arguments is None else arguments,
     )
 
@@ -145,7 +148,7 @@ _fields: dict[str, st.SearchStrategy[Any]] = {
     "arithmetic": st.sampled_from(["", "xabsl"]),
     "time_unit": st.sampled_from(["", "s", "ms"]),
     "uses": _unique(uses, "alias"),
-    "parameters": _unique(declarations(), "name", 2),
+    "parameters": _unique(declarations(is_tunable=True), "name", 2),
     "outputs": _unique(outputs, "name", 2),
     "variables": _unique(declarations(), "name", 2),
     "initial": st.just("") | names,
@@ -186,7 +189,7 @@ interfaces = st.builds(
     xabsl_name=st.just("") | texts,
     implementation=st.just("") | st.just("field.head:Head") | texts,
     frequency_hz=frequencies,
-    parameters=_unique(declarations(), "name", 2),
+    parameters=_unique(declarations(is_tunable=True), "name", 2),
     outputs=_unique(outputs, "name", 2),
     variables=_unique(declarations(), "name", 2),
 )
@@ -212,7 +215,7 @@ projects = st.builds(
     world=st.just("") | texts,
     generated=st.sampled_from(["generated", "../out", ""]),
     enumerations=_unique(enumerations, "name", 2),
-    constants=_unique(declarations(), "name", 2),
+    constants=_unique(declarations(is_tunable=True), "name", 2),
     components=_unique(interfaces, "component", 2),
     agents=_unique(agents, "name", 2),
     profiles=_unique(profiles, "name", 2),

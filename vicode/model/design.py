@@ -31,7 +31,8 @@ class Declaration:
 
     `type` is "bool", "int", "float" or the name of an enumeration. If empty, it is inferred from `initial`, else float.
     `initial` is an expression: the default of a parameter, the initial value of a variable or output, or the value of a
-    constant. `range` includes both bounds, in `unit`; it is used for documentation and checks only.
+    constant. `range` includes both bounds, in `unit`; it is used for documentation and checks only. Parameters
+    and constants that are `tunable` get a slider in the live view of robots.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Declaration:
     range: tuple[float, float] | None = None
     doc: str = ""
     xabsl_name: str = ""
+    tunable: bool = False
     arguments: tuple["Declaration", ...] | None = None
 
 

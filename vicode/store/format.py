@@ -96,9 +96,12 @@ def declarations(record: RecordSchema) -> MapSchema:
     return MapSchema(description="a mapping of names to declarations", value_schema=record, name_field="name")
 
 
-PARAMETER = _declaration("parameter", "default", "value if the caller does not set it")
+_TUNABLE = KeySchema(
+    "tunable", FLAG, "whether the live view of robots shows a slider for it, from end to end of `range`"
+)
+PARAMETER = _declaration("parameter", "default", "value if the caller does not set it", _TUNABLE)
 VARIABLE = _declaration("variable", "initial", "initial value")
-CONSTANT = _declaration("constant", "value", "value")
+CONSTANT = _declaration("constant", "value", "value", _TUNABLE)
 ARGUMENT = _declaration("argument", "default", "value if the caller does not set it")
 OUTPUT = _declaration(
     "output",

@@ -38,7 +38,7 @@ PROJECT = """\
 vicode: 1
 project: %s
 languages: [python]
-constants: {bright: {value: 10, range: [0, 50]}}
+constants: {bright: {value: 10, tunable: true, range: [0, 50]}}
 components:
   Eye:
     implementation: %s:Eye

@@ -12,6 +12,7 @@ from vicode.editor.panels.fields import (
     FieldBinding,
     FieldKind,
     attribute_binding,
+    checkbox_field,
     choice_field,
     text_field,
 )
@@ -49,6 +50,7 @@ RANGE = Attribute(
     parse=number_text.parse_range,
     validate=number_text.validate_range,
 )
+TUNABLE = Attribute(label="Tune in running robots", name="tunable")
 _DEFAULT = Attribute(label="Default", name="initial", key="default", parse=str.strip)
 _INITIAL = Attribute(label="Initial", name="initial", parse=str.strip)
 
@@ -87,6 +89,8 @@ def _declaration(form: Form, item: TrackedItem) -> None:
                 _field(form, item, attribute)
             if kind == "output":
                 _arguments(form, item)
+            if kind == "parameter":
+                checkbox_field(form, _binding(item, TUNABLE))
 
         key = " ".join(str(step) for step in path)
         section = collapsible_section(form, key, lambda: "More", lambda: declaration_caption(item.get(), kind), more)

@@ -20,6 +20,7 @@ _DECLARATION_ATTRIBUTES = {
     "range": "range",
     "doc": "description",
     "xabsl_name": "XABSL name",
+    "tunable": "tunable",
     "arguments": "arguments",
 }
 

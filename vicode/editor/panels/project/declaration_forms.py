@@ -5,17 +5,19 @@ from nicegui import ui
 from vicode.editor.panels.collapsible import collapsible_section
 from vicode.editor.panels.declarations import (
     RANGE,
+    TUNABLE,
     TYPE,
     UNIT,
     ChangeDeclaration,
     argument_buttons,
     declaration_caption,
 )
-from vicode.editor.panels.fields import DOC, XABSL_NAME, Attribute
+from vicode.editor.panels.fields import DOC, XABSL_NAME, Attribute, checkbox_field
 from vicode.editor.panels.form import Form, ItemRows
 from vicode.editor.panels.project.project_fields import (
     node_name,
     node_path,
+    project_binding,
     project_name_field,
     project_text_field,
     write_node,
@@ -46,6 +48,8 @@ def declaration_form(form: Form, node: TrackedItem, label: str = "Name") -> None
             project_text_field(form, node, XABSL_NAME)
             if path.section == "outputs":
                 _arguments(form, node)
+            if path.section == "constants":
+                checkbox_field(form, project_binding(form, node, TUNABLE.label, TUNABLE.name))
 
         key = f"project {path.steps}"
         section = collapsible_section(

@@ -95,13 +95,13 @@ class _InputRow:
             with ui.label(label).classes("input-name mono"):
                 if tip:
                     ui.tooltip(tip)
-            self.controls = _controls(input_, f"{input_.component or 'Parameter'} {label}", self._changed)
+            self.controls = input_controls(input_, f"{input_.component or 'Parameter'} {label}", self._changed)
 
     def show(self, value: Any) -> None:
         """Show a value without an event, rounded unless the user typed it."""
-        if value is None or _short(value) in (self._shown, _short(self._shown)):
+        if value is None or short_value(value) in (self._shown, short_value(self._shown)):
             return
-        value = _short(value)
+        value = short_value(value)
         self._shown = value
         for control in self.controls:
             control.set_value(value)
@@ -160,7 +160,7 @@ class _FunctionRow(_InputRow):
         words = ", ".join(f"{name} = {format_value(value)}" for name, value in arguments.items())
         with self.rows, ui.element("div").classes("input-row"):
             ui.label(f"if {words}").classes("input-name mono")
-            _controls(self.input, f"{self.input.name} if {words}", lambda value: self._set_for(arguments, value))
+            input_controls(self.input, f"{self.input.name} if {words}", lambda value: self._set_for(arguments, value))
 
     def _set_for(self, arguments: dict[str, Any], value: Any) -> None:
         accepted = self.input.accept(value)
@@ -171,7 +171,7 @@ class _FunctionRow(_InputRow):
         self._set({"value": self._shown, "table": self._table})
 
 
-def _controls(input_: SimulationInput, name: str, changed: Callable[[Any], None]) -> list[Any]:
+def input_controls(input_: SimulationInput, name: str, changed: Callable[[Any], None]) -> list[Any]:
     """Build the controls of an input: a switch, a select, or a number field with a slider if the input has a range."""
     if input_.type == "bool":
         switch = ui.switch(value=input_.initial, on_change=lambda event: changed(event.value))
@@ -191,7 +191,7 @@ def _controls(input_: SimulationInput, name: str, changed: Callable[[Any], None]
     return [*controls, _with_aria_label(number, f"{name}, number" if controls else name)]
 
 
-def _short(value: Any) -> Any:
+def short_value(value: Any) -> Any:
     if not isinstance(value, float) or not math.isfinite(value):
         return value
     return float(f"{value:.4g}") if abs(value) < 1000 else float(round(value))

@@ -5,6 +5,7 @@ from functools import partial
 
 from nicegui import ui
 
+from vicode.editor.panels.simulation.robot_tuning import RobotTuning
 from vicode.editor.panels.simulation.robot_values import RobotValues
 from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.session.robots import LinkStatus, WatchedRobot
@@ -31,6 +32,7 @@ class RobotForm:
                 for button in (self.connect, self.leave):
                     button.props("outline dense no-caps no-wrap size=sm")
             self.strip = ui.element("div").classes("robot-cards").props('role="group" aria-label="Robots"')
+            self.tuning = RobotTuning(view)
             self.values = RobotValues(view)
 
     def refresh(self) -> None:
@@ -48,6 +50,7 @@ class RobotForm:
                 self._cards = {name: _RobotCard(name, partial(link.follow, name)) for name in link.robots}
         for name, card in self._cards.items():
             card.show(link.robots[name], is_followed=name == link.followed, is_connected=is_attached)
+        self.tuning.refresh()
         self.values.refresh()
 
     def _attach(self) -> None:

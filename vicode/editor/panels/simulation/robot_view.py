@@ -13,6 +13,7 @@ from vicode.editor.session.simulation.guard_values import evaluate_guards
 from vicode.editor.session.simulation.traces import focus_iteration
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design
+from vicode.model.project import Project
 from vicode.simulation import IterationResult
 
 if TYPE_CHECKING:
@@ -27,14 +28,14 @@ class RobotView:
 
     def __init__(self, controller: "SimulationController") -> None:
         self._controller = controller
-        self._context = controller.context
+        self.context = controller.context
         self.link = controller.context.workspace.robots
         self.is_shown = False
         self.other_versions: tuple[str, ...] | None = ()
         """Components of which the robot runs another version; None if that is not known."""
         self._compared: object = None
         self._seen: object = None
-        self._context.closings.subscribe(self.link.changes.subscribe(self._on_change))
+        self.context.closings.subscribe(self.link.changes.subscribe(self._on_change))
         if self.link.is_open:
             self.show()
 
@@ -44,7 +45,11 @@ class RobotView:
 
     @property
     def design(self) -> Design:
-        return self._context.design
+        return self.context.design
+
+    @property
+    def project(self) -> Project:
+        return self.context.workspace.project
 
     @property
     def problem_of_control(self) -> str:
@@ -87,7 +92,7 @@ class RobotView:
     def enter(self, item: ItemRef | None) -> None:
         """Go to a state of the robot."""
         if item is None or item.kind != "states":
-            self._context.show_toast("Select a state to go to", "info")
+            self.context.show_toast("Select a state to go to", "info")
             return
         self.ask("enter", component=self._component, state=item.id)
 
@@ -99,7 +104,7 @@ class RobotView:
     def ask(self, do: str, then: Callable[[], object] = lambda: None, **fields: Any) -> None:
         """Ask the robot for something, and show a message if it was not done."""
         if problem := self.problem_of_control:
-            self._context.show_toast(problem, "info")
+            self.context.show_toast(problem, "info")
             return
 
         async def request() -> None:
@@ -133,20 +138,20 @@ class RobotView:
 
     @property
     def _component(self) -> str:
-        return self._context.design.component
+        return self.context.design.component
 
     def _run(self, act: Callable[[], Awaitable[object]]) -> None:
         async def guarded() -> None:
             try:
                 await act()
             except RobotRequestError as error:
-                self._context.show_toast(f"{error}", "warning")
+                self.context.show_toast(f"{error}", "warning")
 
-        self._context.run_in_background(guarded(), "ask robot")
+        self.context.run_in_background(guarded(), "ask robot")
 
     def _on_change(self) -> None:
         """Show what arrived; called for each message."""
-        if self._context.is_closed:
+        if self.context.is_closed:
             return
         self._controller.canvas.set_controls_robot(not self.problem_of_control)
         if not self.is_shown:
@@ -166,10 +171,10 @@ class RobotView:
         self._compare_versions(robot)
 
     def _view(self, recording: Recording, robot: WatchedRobot) -> Simulation:
-        design = self._context.design
+        design = self.context.design
         simulation = Simulation(
             prepared=prepare_view(design),
-            cwd=self._context.workspace.folder,
+            cwd=self.context.workspace.folder,
             live=recording,
             find_guards=lambda recording, number: self._guards(robot, recording, number),
             on_change=self._controller.simulation_changed,
@@ -178,15 +183,15 @@ class RobotView:
         return simulation
 
     def _focus(self, iteration: IterationResult) -> IterationResult:
-        return focus_iteration(iteration, self._context.design)
+        return focus_iteration(iteration, self.context.design)
 
     def _guards(self, robot: WatchedRobot, recording: Recording, number: int) -> Mapping[str, Any]:
         iteration = recording.iteration(number)
         if iteration is None:
             return {}
         return evaluate_guards(
-            self._context.workspace.project,
-            self._context.design,
+            self.context.workspace.project,
+            self.context.design,
             iteration,
             # What was not stepped keeps its values; earlier iterations are shown with the latest of those.
             {**{name: seen.step for name, seen in robot.steps.items()}, **_steps(iteration)},
@@ -195,7 +200,7 @@ class RobotView:
 
     def _compare_versions(self, robot: WatchedRobot) -> None:
         """Compare the code of the robot with the designs, when either changes."""
-        workspace = self._context.workspace
+        workspace = self.context.workspace
         key = (workspace.project, robot.description)
         if self._compared is not None and self._compared == (id(key[0]), id(key[1])):
             return
@@ -207,7 +212,7 @@ class RobotView:
             )
             self._controller.simulation_changed()
 
-        self._context.run_in_background(compare(), "compare versions")
+        self.context.run_in_background(compare(), "compare versions")
 
 
 def _steps(iteration: IterationResult) -> dict[str, Mapping[str, Any]]:

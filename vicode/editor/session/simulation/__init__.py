@@ -1,7 +1,7 @@
 """Simulates an open design: its inputs, the process that runs it, and the recorded past. Independent of NiceGUI."""
 
 from vicode.editor.session.simulation.breakpoints import Breakpoints
-from vicode.editor.session.simulation.inputs import DONE, PARAMETERS, SimulationInput
+from vicode.editor.session.simulation.inputs import DONE, PARAMETERS, SimulationInput, collect_tunable
 from vicode.editor.session.simulation.recording import Recording
 from vicode.editor.session.simulation.setup import (
     NotReadyError,
@@ -29,6 +29,7 @@ __all__ = [
     "Simulation",
     "SimulationInput",
     "behavior_key",
+    "collect_tunable",
     "hand_written_components",
     "prepare_run",
     "prepare_view",

@@ -2,10 +2,11 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from vicode.generators import UnsoundDesignError
+from vicode.model.constant_folding import evaluate_constants
 from vicode.model.design import Declaration, Design
 from vicode.model.expressions import (
     BOOL,
@@ -82,6 +83,26 @@ def collect_inputs(project: Project, design: Design, stubbed: tuple[str, ...]) -
         if own is not None and any(state.final for state in own.states):
             doc = f"{component} is in a final state."
             inputs.append(SimulationInput(component=component, name=DONE, type=BOOL, initial=False, doc=doc))
+    return tuple(inputs)
+
+
+def collect_tunable(project: Project, design: Design) -> tuple[SimulationInput, ...]:
+    """The tunable constants of a project, and the tunable parameters of a design, with their declared values."""
+    constants = evaluate_constants(project)
+    inputs = []
+    for component, declared in ((PARAMETERS, project.constants), (design.component, design.parameters)):
+        for each in declared:
+            if not each.tunable:
+                continue
+            try:
+                tunable = _input(project, component, each)
+            except UnsoundDesignError:
+                continue
+            value = constants.get(each.name) if component == PARAMETERS else None
+            if value is not None:
+                value = f"{_enumeration(project, tunable)}.{value}" if tunable.options else value
+                tunable = replace(tunable, initial=value)
+            inputs.append(tunable)
     return tuple(inputs)
 
 

@@ -1,0 +1,119 @@
+"""Sliders for the tunable constants and parameters of a running robot, and a button that keeps their values."""
+
+from dataclasses import replace
+from typing import Any
+
+from nicegui import ui
+
+from vicode.editor.panels.project.project_fields import write_project
+from vicode.editor.panels.simulation.inputs_form import input_controls, short_value
+from vicode.editor.panels.simulation.robot_view import RobotView
+from vicode.editor.panels.widgets import heading, icon_button
+from vicode.editor.session.simulation import PARAMETERS, SimulationInput, collect_tunable
+from vicode.model.design import Declaration, Design
+from vicode.model.project import Project
+
+
+class RobotTuning:
+    """The list of sliders; absent unless the robot allows control."""
+
+    def __init__(self, view: RobotView) -> None:
+        self.view = view
+        self._shape: object = None
+        self._rows: list[_TuningRow] = []
+        self.body = ui.column().classes("inputs robot-tuning")
+
+    def refresh(self) -> None:
+        robot = self.view.robot
+        can_tune = robot is not None and not self.view.problem_of_control
+        inputs = self._list_inputs() if can_tune else ()
+        shape = (robot and robot.name, inputs)
+        if shape != self._shape:
+            self._shape = shape
+            self.body.clear()
+            self._rows = []
+            if inputs:
+                with self.body:
+                    heading("Tuning")
+                    self._rows = [_TuningRow(self.view, each) for each in inputs]
+        for row in self._rows:
+            row.refresh()
+
+    def _list_inputs(self) -> tuple[SimulationInput, ...]:
+        inputs = collect_tunable(self.view.project, self.view.design)
+        known = self.view.robot.description.components if self.view.robot else {}
+        return tuple(each for each in inputs if each.component == PARAMETERS or each.component in known)
+
+
+class _TuningRow:
+    """A slider and a number, and a button that writes the value into the file."""
+
+    def __init__(self, view: RobotView, input_: SimulationInput) -> None:
+        self.view, self.input = view, input_
+        self._shown = input_.initial
+        with ui.element("div").classes("tuning-row"):
+            with ui.element("div").classes("input-row"):
+                with ui.label(input_.name).classes("input-name mono"):
+                    if input_.doc:
+                        ui.tooltip(input_.doc)
+                self.controls = input_controls(input_, f"Tune {input_.name}", self._tune)
+            self.keep = icon_button("save_alt", f"Write {input_.name} back", self._write_back)
+            with self.keep:
+                ui.tooltip("Write the value into the file")
+
+    def refresh(self) -> None:
+        value = self._value
+        if short_value(value) != short_value(self._shown):
+            self._shown = value
+            for control in self.controls:
+                control.set_value(short_value(value))
+        # The button keeps its place, so that the slider does not move below the pointer.
+        self.keep.style(f"visibility: {'hidden' if value == self.input.initial else 'visible'}")
+
+    @property
+    def _value(self) -> Any:
+        """The value that was tuned from here, else that of the file."""
+        robot, input_ = self.view.robot, self.input
+        if robot is None:
+            return input_.initial
+        if input_.component == PARAMETERS:
+            return robot.tuned.get(input_.name, input_.initial)
+        return robot.held.get((input_.component, input_.name), input_.initial)
+
+    def _tune(self, value: Any) -> None:
+        accepted = self.input.accept(value)
+        if accepted is None or accepted == self._shown:
+            return
+        self._shown = accepted
+        for control in self.controls:
+            if control.value != accepted:
+                control.set_value(accepted)
+        if self.input.component == PARAMETERS:
+            self.view.tune(self.input.name, accepted)
+        else:
+            self.view.set_value(self.input.component, self.input.name, accepted, hold=True)
+
+    def _write_back(self) -> None:
+        """Write the value into the file, as one undo step."""
+        name, text = self.input.name, _expression(self._value)
+
+        def change_project(project: Project) -> Project:
+            return replace(project, constants=_changed(project.constants, name, text))
+
+        def change_design(design: Design) -> Design:
+            return replace(design, parameters=_changed(design.parameters, name, text))
+
+        if self.input.component == PARAMETERS:
+            error = write_project(self.view.context, change_project, f"set {name} to {text}")
+            if error:
+                self.view.context.show_toast(error, "warning")
+        else:
+            self.view.context.edit(f"Set {name} to {text}", change_design)
+
+
+def _changed(declared: tuple[Declaration, ...], name: str, text: str) -> tuple[Declaration, ...]:
+    return tuple(replace(each, initial=text) if each.name == name else each for each in declared)
+
+
+def _expression(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
