@@ -98,25 +98,34 @@ def plan_generation(
     settled = {(file.path, region.id) for file in plan.edits for region in file.regions}
     new = _compare(job, project)
     edits = tuple(_without(file, settled) for file in new.edits)
-    edits = tuple(file for file in edits if not file.is_empty)
-    designs = dict(adoption.designs)
-    texts = {file.path: file.text for file in new.files}
-    changed, statement_edits = interpret_files(project, edits, texts, job.history)
-    if statements:
-        designs |= changed
-        new = _compare(job, _with_designs(project, changed))
-        taken = {each.file.path for each in statement_edits if each.edits or each.leftover}
-        edits = tuple(
-            replace(file, is_edited_outside=file.path not in taken and file.is_edited_outside) for file in edits
-        )
-        edits = tuple(file for file in edits if not file.is_empty)
-    return replace(
+    new = replace(
         new,
-        designs=designs,
+        designs=adoption.designs,
         adopted=adoption.adopted,
-        statements=statement_edits,
-        edits=edits,
-        findings=tuple(describe_edits(edits, shown)),
+        edits=tuple(file for file in edits if not file.is_empty),
+    )
+    new = _interpret_statements(job, project, new, is_taken=statements)
+    return replace(new, findings=tuple(describe_edits(new.edits, shown)))
+
+
+def _interpret_statements(
+    job: GenerationInput, project: Project, plan: GenerationPlan, *, is_taken: bool
+) -> GenerationPlan:
+    """Add the meaning of edits outside of regions, and take them over if asked."""
+    texts = {file.path: file.text for file in plan.files}
+    changed, statements = interpret_files(project, plan.edits, texts, job.history)
+    plan = replace(plan, statements=statements)
+    if not is_taken:
+        return plan
+    new = _compare(job, _with_designs(project, changed))
+    taken = {each.file.path for each in statements if each.edits or each.leftover}
+    edits = (replace(file, is_edited_outside=file.is_edited_outside and file.path not in taken) for file in plan.edits)
+    return replace(
+        plan,
+        files=new.files,
+        differences=new.differences,
+        designs={**plan.designs, **changed},
+        edits=tuple(file for file in edits if not file.is_empty),
     )
 
 
