@@ -172,6 +172,30 @@ def test_a_recorded_trace_is_viewed(editor: str, page: Page, tmp_path: Path) -> 
     expect(active(page)).to_have_attribute("data-id", "LookForBall")
 
 
+def test_a_trace_of_the_project_folder_is_viewed_at_a_time(editor: str, page: Page, project: Path) -> None:
+    root = {"component": "Player", "by": None, "link": "root", "changed_from": None}
+    lines: list[object] = [{"vicode-trace": 1, "runtime": "bica"}]
+    for number in range(3000):
+        name = "LookForBall" if number < 1500 else "GetUp"
+        values = {"kicks": number // 100}
+        lines.append(
+            {
+                "iteration": number + 1,
+                "time_ns": number * 22 * 10**6,
+                "tree": [{**root, "state": name, "values": values}],
+            }
+        )
+    (project / "forward" / "match.jsonl").write_text("\n".join(json.dumps(line) for line in lines) + "\n")
+    open_simulation(page, editor)
+    choose(page, "Simulate with", "View a trace")
+    choose(page, "Trace in the project folder", "match.jsonl")
+    where(page, "before the first step")
+    page.get_by_label("Go to this time").fill("44")
+    page.get_by_label("Go to this time").press("Enter")
+    where(page, "44.00 s · iteration 2001 · GetUp")
+    expect(page.locator("svg.plot rect.plot-state")).to_have_count(2)
+
+
 def test_the_menu_runs_to_a_state_and_sets_breakpoints(editor: str, page: Page) -> None:
     open_simulation(page, editor)
     expect(state(page, "FollowBall")).to_be_in_viewport()

@@ -120,6 +120,15 @@ def _parse_header(number: int, line: str) -> dict[str, Any]:
     return header
 
 
+def decode_line(number: int, line: bytes) -> IterationResult:
+    """Decode the line of an iteration.
+
+    Raises:
+        TraceError: It is not an iteration record.
+    """
+    return _iteration(number, _parse(number, line.decode(errors="replace")))
+
+
 def _iteration(number: int, record: dict[str, Any]) -> IterationResult:
     try:
         return decode_iteration(record)

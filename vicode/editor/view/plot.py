@@ -27,16 +27,27 @@ def render_plot(curves: Sequence[PlotSeries], states: Sequence[str], cursor: int
 
     The drawing has a fixed width and is stretched by the browser, so it contains no text elements.
     """
+    return add_cursor(render_series(curves, states), curves, states, cursor)
+
+
+def render_series(curves: Sequence[PlotSeries], states: Sequence[str]) -> str:
+    """The part of a plot that does not depend on the cursor."""
     count = max(len(states), 1)
-    height = len(curves) * (STRIP + GAP) + BAND
     parts = [_strip(curve, index, count) for index, curve in enumerate(curves)]
     parts.append(_band(states, len(curves) * (STRIP + GAP), count))
+    return "".join(parts)
+
+
+def add_cursor(series: str, curves: Sequence[PlotSeries], states: Sequence[str], cursor: int) -> str:
+    """The plot with its cursor."""
+    count = max(len(states), 1)
+    height = len(curves) * (STRIP + GAP) + BAND
     x = WIDTH * max(cursor - 0.5, 0) / count
-    parts.append(f'<line class="plot-cursor" x1="{x:.1f}" x2="{x:.1f}" y1="0" y2="{height}"/>')
+    line = f'<line class="plot-cursor" x1="{x:.1f}" x2="{x:.1f}" y1="0" y2="{height}"/>'
     label = f"{len(curves)} values over {len(states)} iterations"
     return (
         f'<svg class="plot" viewBox="0 0 {WIDTH} {height}" preserveAspectRatio="none" '
-        f'style="height:{height}px" role="img" aria-label="{label}">{"".join(parts)}</svg>'
+        f'style="height:{height}px" role="img" aria-label="{label}">{series}{line}</svg>'
     )
 
 
@@ -97,7 +108,7 @@ def state_runs(states: Sequence[str]) -> list[tuple[str, int, int]]:
 def _band(states: Sequence[str], top: int, count: int) -> str:
     order = list(dict.fromkeys(states))
     parts = []
-    for state, start, end in state_runs(states):
+    for state, start, end in _merge_narrow(state_runs(states), count):
         x, width = WIDTH * start / count, WIDTH * (end - start) / count
         colour = order.index(state) % _COLOURS
         parts.append(
@@ -105,6 +116,24 @@ def _band(states: Sequence[str], top: int, count: int) -> str:
             f"<title>{escape(state)}</title></rect>"
         )
     return "".join(parts)
+
+
+def _merge_narrow(runs: list[tuple[str, int, int]], count: int) -> list[tuple[str, int, int]]:
+    """Runs of which none is narrower than a pixel: of narrow neighbors, the longest stands for all."""
+    if len(runs) <= WIDTH:
+        return runs
+    pixel = count / WIDTH
+    merged: list[tuple[str, int, int]] = []
+    longest = 0
+    for state, start, end in runs:
+        if merged and end - merged[-1][1] <= pixel:
+            name = state if end - start > longest else merged[-1][0]
+            merged[-1] = (name, merged[-1][1], end)
+            longest = max(longest, end - start)
+        else:
+            merged.append((state, start, end))
+            longest = end - start
+    return merged
 
 
 def band_labels(states: Sequence[str]) -> list[tuple[str, float]]:

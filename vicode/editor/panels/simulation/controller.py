@@ -3,6 +3,7 @@
 import asyncio
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from nicegui import run
@@ -26,6 +27,7 @@ from vicode.editor.session.simulation import (
     prepare_run,
 )
 from vicode.editor.session.simulation.guard_values import evaluate_guards, latest_steps
+from vicode.editor.session.simulation.trace_recording import read_beginning, read_recording
 from vicode.editor.session.simulation.traces import input_script, read_iterations
 from vicode.editor.view import ItemRef
 from vicode.generators import UnsoundDesignError
@@ -48,7 +50,7 @@ class SimulationController:
         self.simulation: Simulation | None = None
         self.breakpoints = Breakpoints()
         self.config = RunConfig()
-        self.trace: tuple[IterationResult, ...] = ()
+        self.trace: tuple[IterationResult, ...] | Recording = ()
         self.is_replay = False
         self.speed = 1.0
         self.pauses_on_errors = True
@@ -106,11 +108,14 @@ class SimulationController:
         if not await self._ensure_started():
             return
         simulation = self._current
-        number = round(seconds * 1e9 / simulation.prepared.setup.tick_ns) + 1
-        if number <= len(simulation.recording):
-            simulation.go_to(number)
-        else:
-            await self._run(number - simulation.cursor, self._stop_conditions())
+        recording, time_ns = simulation.recording, round(seconds * 1e9)
+        number = recording.number_at(time_ns)
+        if number is not None or simulation.is_view:
+            simulation.go_to(number or len(recording))
+            return
+        newest_ns = recording.times_ns[-1] if len(recording) else -simulation.prepared.setup.tick_ns
+        missing = -(-(time_ns - newest_ns) // simulation.prepared.setup.tick_ns)
+        await self._run(len(recording) - simulation.cursor + missing, self._stop_conditions())
 
     def step_back(self) -> None:
         self.pause()
@@ -147,6 +152,22 @@ class SimulationController:
             TraceError: It is not a trace of this design.
         """
         self.trace, self.is_replay = read_iterations(text, self.context.design), is_replay
+        self.is_stale = self.simulation is not None
+        self._notify()
+
+    async def use_trace_file(self, path: Path, *, is_replay: bool) -> None:
+        """Use a trace on this machine, of any length, to view it or its beginning as inputs.
+
+        Raises:
+            TraceError: It is not a trace of this design.
+            OSError: It cannot be read.
+        """
+        design = self.context.design
+        if is_replay:
+            self.trace = await run.io_bound(read_recording, path, design) or ()
+        else:
+            self.trace = await run.io_bound(read_beginning, path, design) or ()
+        self.is_replay = is_replay
         self.is_stale = self.simulation is not None
         self._notify()
 
@@ -245,7 +266,9 @@ class SimulationController:
             self.simulation = simulation = Simulation(
                 prepared=prepared,
                 cwd=self.context.workspace.folder,
-                script=input_script(self.trace, prepared.inputs) if self.trace and not self.is_replay else (),
+                script=input_script(self.trace, prepared.inputs)
+                if isinstance(self.trace, tuple) and not self.is_replay
+                else (),
                 replay=self.trace if self.is_replay else (),
                 find_guards=self._find_guards if self.is_replay else None,
                 on_change=self._notify,

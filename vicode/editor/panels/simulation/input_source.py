@@ -8,12 +8,13 @@ from nicegui.events import UploadEventArguments
 from vicode.editor.access import MAX_BODY_BYTES
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.panels.simulation.robot_form import RobotForm
+from vicode.editor.panels.simulation.trace_files import TraceFileChoice
 from vicode.editor.session.simulation import stubbed_components, used_components
 from vicode.simulation.trace import TraceError
 
 # The file is sent in a multipart body.
 _MAX_BYTES = MAX_BODY_BYTES - 65_536
-_TOO_LARGE = f"The file is too large for a trace (at most {_MAX_BYTES / 1e6:.1f} MB): record a shorter run"
+_TOO_LARGE = f"The file is too large for a trace (at most {_MAX_BYTES / 1e6:.1f} MB): place it in the project folder"
 _PICK = "Choose a trace…"
 _MANUAL, _ALL_COMPONENTS, _FROM_TRACE, _REPLAY, _ROBOT = (
     "Manual inputs",
@@ -51,6 +52,7 @@ class InputSourceForm:
         self.upload.props('accept=".jsonl,.json,.txt,*"').classes("hidden")
         # The browser opens its file dialog only within the click event, without a round trip to the server.
         self.pick.classes("trace-pick").on("click", js_handler=f"() => runMethod({self.upload.id}, 'pickFiles', [])")
+        self.files = TraceFileChoice(controller, lambda: self.source == _REPLAY)
         self.robot_form = RobotForm(controller.robot)
         self.options = ui.expansion("Run options").classes("section run-options").props("dense dense-toggle")
         with self.options:
@@ -70,6 +72,7 @@ class InputSourceForm:
         self.robot_form.refresh()
         self.options.set_visibility(self.source != _ROBOT)
         has_trace = bool(self.controller.trace)
+        self.files.set_visibility(self.source in (_FROM_TRACE, _REPLAY))
         self.pick.set_visibility(self.source in (_FROM_TRACE, _REPLAY))
         self.hint.set_visibility(self.source in (_FROM_TRACE, _REPLAY) and not has_trace)
         if not has_trace:

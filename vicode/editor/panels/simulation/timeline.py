@@ -9,7 +9,7 @@ from nicegui.events import GenericEventArguments
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.panels.simulation.range_input import RangeInput
 from vicode.editor.session.simulation import Simulation
-from vicode.editor.view.plot import PlotSeries, band_labels, render_plot
+from vicode.editor.view.plot import PlotSeries, add_cursor, band_labels, render_series
 
 _DEFAULT_CURVES = 3
 _MAX_CURVES = 6
@@ -27,6 +27,10 @@ class Timeline:
         self._shown: object = None
         self._names: tuple[str, ...] = ()
         self._drawn_length = 0
+        self._series_key: object = None
+        self._series = ""
+        self._curves: list[PlotSeries] = []
+        self._labels: list[tuple[str, float]] = []
         self.choice = ui.select([], value=[], multiple=True, label="Values to plot", on_change=self._draw)
         self.choice.props("dense outlined options-dense stack-label").classes("field plot-choice")
         self.slider = RangeInput("Shown iteration", low=0, high=1, step=1, value=0, on_move=self._go_to)
@@ -72,12 +76,17 @@ class Timeline:
             return
         recording = simulation.recording
         chosen = [str(name) for name in self.choice.value or []][:_MAX_CURVES]
-        curves = [PlotSeries(name=name, values=recording.column(name)) for name in chosen]
-        self.drawing.set_content(render_plot(curves, recording.states, simulation.cursor))
+        key = (recording, tuple(chosen))
+        if key != self._series_key or not simulation.replay:
+            # A long trace takes long to draw; the cursor moves without that.
+            self._series_key = key
+            self._curves = [PlotSeries(name=name, values=recording.column(name)) for name in chosen]
+            self._series = render_series(self._curves, recording.states)
+            self._labels = band_labels(recording.states)
+        curves = self._curves
+        self.drawing.set_content(add_cursor(self._series, curves, recording.states, simulation.cursor))
         self.names.set_content("".join(_name(curve, simulation.cursor) for curve in curves))
-        labels = (
-            f'<span style="left:{left:.2f}%">{escape(name)}</span>' for name, left in band_labels(recording.states)
-        )
+        labels = (f'<span style="left:{left:.2f}%">{escape(name)}</span>' for name, left in self._labels)
         self.band.set_content("".join(labels))
 
     def _go_to(self, value: Any) -> None:

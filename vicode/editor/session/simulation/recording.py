@@ -3,7 +3,7 @@
 import math
 import zlib
 from array import array
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -60,6 +60,11 @@ class Recording:
         iteration = decode_response(zlib.decompress(self._packed[number - 1]))
         assert isinstance(iteration, IterationResult)
         return iteration
+
+    def number_at(self, time_ns: int) -> int | None:
+        """The number of the first iteration at a time or after it; None if it is not recorded yet."""
+        index = bisect_left(self.times_ns, time_ns)
+        return index + 1 if index < len(self) else None
 
     def changes_before(self, number: int) -> Inputs:
         return self._changes.get(number, {})

@@ -50,7 +50,7 @@ class Simulation:
         prepared: what to run.
         cwd: the working directory of the process, the project folder.
         script: inputs to set before each iteration, if a trace provides them.
-        replay: recorded iterations to view instead of running anything.
+        replay: recorded iterations, or a recording, to view instead of running anything.
         live: the recording of a robot, to view instead of running anything; `follow` shows what was added.
         find_guards: evaluates the guards of a viewed iteration by its number.
         start_client: starts the program that runs the component.
@@ -59,7 +59,7 @@ class Simulation:
     prepared: PreparedRun
     cwd: Path
     script: Sequence[Inputs] = ()
-    replay: Sequence[IterationResult] = ()
+    replay: Sequence[IterationResult] | Recording = ()
     live: Recording | None = None
     find_guards: Callable[[Recording, int], Mapping[str, Any]] | None = None
     on_change: Callable[[], None] = field(default=lambda: None)
@@ -87,8 +87,11 @@ class Simulation:
 
     def __post_init__(self) -> None:
         """Load the iterations of a replay; otherwise the initial inputs are the first change."""
-        for iteration in self.replay:
-            self.recording.add(iteration, {})
+        if isinstance(self.replay, Recording):
+            self.recording = self.replay
+        else:
+            for iteration in self.replay:
+                self.recording.add(iteration, {})
         if self.live is not None:
             self.recording, self._dropped = self.live, self.live.dropped
             self.cursor = len(self.live)

@@ -1,7 +1,7 @@
 """Reads a recorded trace (JSON lines of `vicode run --trace`) to view it or to use its values as inputs."""
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -25,12 +25,20 @@ def read_iterations(text: str, design: Design) -> tuple[IterationResult, ...]:
     if len(text) > MAX_BYTES:
         raise TraceError(f"the trace is longer than {MAX_BYTES // 1_000_000} MB")
     iterations = read_trace(text, MAX_ITERATIONS).iterations
+    require_root(iterations, design)
+    return tuple(map(TransitionKeys(design).complete, iterations))
+
+
+def require_root(iterations: Iterable[IterationResult], design: Design) -> None:
+    """Check that a trace is one of a design.
+
+    Raises:
+        TraceError: It is a trace of another component.
+    """
     names = (str(iteration.tree[0]["component"]) for iteration in iterations)
     other = next((name for name in names if name != design.component), None)
     if other is not None:
         raise TraceError(f"this is a trace of {other[:60]}, not of {design.component}")
-    found = _transitions_by_ends(design)
-    return tuple(_with_transition_key(iteration, design, found) for iteration in iterations)
 
 
 def input_script(iterations: Iterable[IterationResult], inputs: Iterable[SimulationInput]) -> tuple[Inputs, ...]:
@@ -70,31 +78,34 @@ def focus_iteration(iteration: IterationResult, design: Design) -> IterationResu
         focused = replace(focused, tree=[{**step, **took} if step is focused.step else step for step in focused.tree])
     if focused.changed_from is None:
         return focused
-    return _with_transition_key(focused, design, _transitions_by_ends(design))
+    return TransitionKeys(design).complete(focused)
 
 
-def _with_transition_key(
-    iteration: IterationResult, design: Design, found: Mapping[tuple[str, str], list[str]]
-) -> IterationResult:
-    own, key = iteration.step, _transition(iteration, design, found)
-    return replace(iteration, tree=[{**step, "transition": key} if step is own else step for step in iteration.tree])
+class TransitionKeys:
+    """Finds the keys of recorded transitions in a design."""
 
-
-def _transition(iteration: IterationResult, design: Design, found: Mapping[tuple[str, str], list[str]]) -> str | None:
-    """The key of the transition taken: by its id, else by its source and target if only one matches."""
-    given, came_from, state = iteration.transition, iteration.changed_from, iteration.state
-    if came_from is None:
-        return None
-    if given:
+    def __init__(self, design: Design) -> None:
+        self._by_id: dict[str, str] = {}
+        self._by_ends: dict[tuple[str, str], list[str]] = defaultdict(list)
         for located in iter_transitions(design):
-            if located.decision.id == given:
-                return transition_key(located.path)
-    keys = [*found.get((came_from, state), ()), *found.get((COMMON, state), ())]
-    return keys[0] if len(keys) == 1 else None
+            key, given = transition_key(located.path), located.decision.id
+            if given:
+                self._by_id.setdefault(given, key)
+            self._by_ends[located.source, getattr(located.decision, "to", "")].append(key)
 
+    def find(self, left: str | None, state: str, given: str | None) -> str | None:
+        """The key of the transition taken: by its id, else by its source and target if only one matches."""
+        if left is None:
+            return None
+        if given in self._by_id:
+            return self._by_id[given]
+        keys = [*self._by_ends.get((left, state), ()), *self._by_ends.get((COMMON, state), ())]
+        return keys[0] if len(keys) == 1 else None
 
-def _transitions_by_ends(design: Design) -> dict[tuple[str, str], list[str]]:
-    found: dict[tuple[str, str], list[str]] = defaultdict(list)
-    for located in iter_transitions(design):
-        found[(located.source, getattr(located.decision, "to", ""))].append(transition_key(located.path))
-    return found
+    def complete(self, iteration: IterationResult) -> IterationResult:
+        """The iteration with the key of its transition."""
+        own = iteration.step
+        key = self.find(iteration.changed_from, iteration.state, iteration.transition)
+        return replace(
+            iteration, tree=[{**step, "transition": key} if step is own else step for step in iteration.tree]
+        )
