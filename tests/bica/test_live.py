@@ -4,17 +4,19 @@ import contextlib
 import json
 import random
 import socket
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 from enum import Enum
 from pathlib import Path
+from types import ModuleType
 from typing import Any, ClassVar
 
 import pytest
 
 from vicode.bica import Component, Root, SimulatedClock, State
-from vicode.bica.live_server import LiveServer
+from vicode.bica.live_server import MAX_VIEWERS, LiveServer
 
 LIMIT_S = 10.0
 MOST_STEPS = 20_000
@@ -359,6 +361,46 @@ def test_random_bytes_harm_nobody(root: Root, capsys: pytest.CaptureFixture[str]
     before = root.iteration
     assert good.get(lambda line: is_iteration(line) and line["iteration"] > before)
     assert "live view ended" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("rate_hz", [1e-300, 5e-324, 0, -1, 10**400, float("nan"), "fast", None])
+def test_an_odd_rate_does_not_end_the_server(root: Root, rate_hz: object) -> None:
+    server = root.watch()
+    good = Viewer(server, root)
+    Viewer(server, root, rate_hz=rate_hz).get(is_iteration)
+    good.get(is_iteration)
+    for _step in range(20):
+        good.get(is_iteration)
+
+
+def test_a_viewer_that_never_reads_its_answers_is_disconnected(root: Root) -> None:
+    server = root.watch(control=True)
+    viewer = Viewer(server)
+    with pytest.raises(OSError, match=r"reset|Broken pipe"):
+        viewer.socket.sendall(b'{"robot": 1}\n' * 5_000_000)
+    assert Viewer(server, root).get(is_iteration)
+
+
+def test_an_iteration_handles_a_limited_number_of_requests(root: Root, control: Viewer) -> None:
+    control.send(*({"id": number, "robot": "Lamp", "do": "unset"} for number in range(2_000)))
+    answers = [control.get(lambda line: "answer" in line) for _number in range(2_000)]
+    refused = [answer for answer in answers if "too many requests" in answer.get("error", "")]
+    assert 0 < len(refused) < len(answers)
+    assert "done" in control.ask(do="unset")
+
+
+def test_strangers_do_not_keep_viewers_out(root: Root) -> None:
+    server = root.watch()
+    port = int(server.address.rpartition(":")[2])
+    with contextlib.ExitStack() as strangers:
+        for _number in range(MAX_VIEWERS):
+            strangers.enter_context(socket.create_connection(("127.0.0.1", port)))
+        assert Viewer(server, root).get(is_iteration)
+
+
+def test_only_constants_are_tuned(control: Viewer, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, f"{__package__}.declarations", ModuleType("declarations"))
+    assert "no component uses" in control.ask(do="tune", name="__name__", value="other")["error"]
 
 
 def test_a_port_in_use_does_not_keep_a_robot_from_starting(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -121,6 +122,26 @@ def test_a_signal_ends_the_run_after_the_iteration(folder: Path, number: signal.
     process.send_signal(number)
     out, err = process.communicate(timeout=60)
     assert process.returncode == 128 + number, err
+    assert (read_summary(out)["stopped"], read_summary(out)["world"]) == ("interrupted", CLOSED)
+
+
+def test_a_signal_ends_a_run_that_a_viewer_has_paused(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("VICODE_WATCH", f"unix:{folder / 'live'}")
+    monkeypatch.setenv("VICODE_WATCH_CONTROL", "1")
+    process = start(folder, "--stream", "--real-time", "--path", "run")
+    assert process.stdout is not None
+    process.stdout.readline()
+    with socket.socket(socket.AF_UNIX) as viewer:
+        viewer.connect(str(folder / "live"))
+        viewer.sendall(b'{}\n{"id": 7, "robot": "Car", "do": "pause"}\n')
+        with viewer.makefile() as lines:
+            assert any('"answer":7' in line for line in lines)
+        process.send_signal(signal.SIGTERM)
+        try:
+            out, err = process.communicate(timeout=30)
+        finally:
+            process.kill()
+    assert process.returncode == 128 + signal.SIGTERM, err
     assert (read_summary(out)["stopped"], read_summary(out)["world"]) == ("interrupted", CLOSED)
 
 

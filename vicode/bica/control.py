@@ -184,7 +184,7 @@ class Controller:
         owners = [module for module in modules if name in vars(module)]
         shared = {sys.modules.get(f"{module.__package__}.declarations") for module in modules}
         declarations = [module for module in shared if module is not None and name in vars(module)]
-        if not declarations or not owners:
+        if not declarations or not owners or name.startswith("_"):
             raise ControlError(f"no component uses a constant '{name}'")
         value = convert_value(request.get("value"), getattr(declarations[0], name), name)
         for module in (*owners, *declarations):

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from .root import Root
 
 _MAX_CHANGES = 256
+_MAX_REQUESTS = 64
+"""So many requests wait for the next iteration at most, which handles them all."""
 _PAUSED_POLL_S = 0.05
 
 
@@ -74,14 +76,20 @@ class LiveFeed:
             "components": {type(each).__name__: _describe_component(each) for each in self.root.components},
         }
 
-    def request(self, viewer: object, request: dict[str, Any]) -> None:
-        """Queue a request of a viewer; called by the thread of the server."""
-        self._requests.append((viewer, request))
-        self._has_requests.set()
+    def request(self, viewer: object, request: dict[str, Any]) -> bool:
+        """Queue a request of a viewer unless too many wait; called by the thread of the server."""
+        if len(self._requests) >= _MAX_REQUESTS:
+            return False
+        self._queue(viewer, request)
+        return True
 
     def forget(self, viewer: object) -> None:
         """Undo what a viewer holds, such as a pause; called by the thread of the server."""
-        self.request(viewer, {"do": "release"})
+        self._queue(viewer, {"do": "release"})
+
+    def _queue(self, viewer: object, request: dict[str, Any]) -> None:
+        self._requests.append((viewer, request))
+        self._has_requests.set()
 
     def _step(self) -> None:
         if self._requests:
@@ -141,7 +149,8 @@ class LiveFeed:
 
     def _handle_requests(self) -> None:
         self._has_requests.clear()
-        while self._requests:
+        # What comes in meanwhile waits: the iteration must not.
+        for _ in range(len(self._requests)):
             viewer, request = self._requests.popleft()
             answer: dict[str, Any] = {"answer": request.get("id"), "robot": self.name}
             try:
@@ -165,7 +174,7 @@ class LiveFeed:
         number, message = self.newest
         self.newest = (number + 1, {**message, "paused": True})
         self._notify()
-        while self._controller.is_paused and self.is_watched:
+        while self._controller.is_paused and self.is_watched and not self.root._is_stopping():
             self._has_requests.wait(_PAUSED_POLL_S)
             self._handle_requests()
         self.root._skip_time(self.root.clock.now_ns() - begin_ns)

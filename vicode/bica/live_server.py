@@ -27,7 +27,9 @@ PROTOCOL_VERSION = 1
 MAX_LINE_BYTES = 65_536
 MAX_VIEWERS = 32
 DEFAULT_RATE_HZ = 30.0
-MAX_RATE_HZ = 200.0
+MIN_RATE_HZ, MAX_RATE_HZ = 0.01, 200.0
+_MAX_UNSENT_BYTES = 1_000_000
+"""A viewer that asks for more answers without reading them is disconnected."""
 _HANDSHAKE_LIMIT_S = 5.0
 _UNIX = "unix:"
 _RECEIVED_BYTES = 65_536
@@ -148,8 +150,12 @@ class LiveServer:
         with suppress(OSError):
             connection, _address = self._listener.accept()
             if len(self._viewers) >= MAX_VIEWERS:
-                connection.close()
-                return
+                # Connections without a token must not keep viewers out.
+                stranger = next((each for each in self._viewers if not each.is_admitted), None)
+                if stranger is None:
+                    connection.close()
+                    return
+                self._drop(stranger)
             connection.setblocking(False)
             if connection.family != getattr(socket, "AF_UNIX", None):
                 connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -184,14 +190,15 @@ class LiveServer:
             self._send(viewer, {**answer, "error": "this robot may only be watched; start it with control"})
         else:
             viewer.has_control = True
-            feed.request(viewer, request)
+            if not feed.request(viewer, request):
+                self._send(viewer, {**answer, "error": "too many requests at once; the robot did not handle this one"})
 
     def _admit(self, viewer: _Viewer, request: dict[str, Any]) -> None:
         token = request.get("token", "")
         if self.token and not (isinstance(token, str) and hmac.compare_digest(token.encode(), self.token.encode())):
             raise ValueError("wrong token")
         rate_hz = request.get("rate_hz", DEFAULT_RATE_HZ)
-        if isinstance(rate_hz, int | float) and 0 < rate_hz <= MAX_RATE_HZ:
+        if isinstance(rate_hz, int | float) and MIN_RATE_HZ <= rate_hz <= MAX_RATE_HZ:
             viewer.period_s = 1 / rate_hz
         viewer.is_admitted = True
         self._greet(viewer)
@@ -220,10 +227,14 @@ class LiveServer:
         for feed in self._feeds:
             feed.is_watched = is_watched
             while feed.answers:
-                viewer_of, answer = feed.answers.popleft()
-                if isinstance(viewer_of, _Viewer) and viewer_of in self._viewers:
-                    with suppress(OSError):
-                        self._send(viewer_of, answer)
+                self._send_answer(*feed.answers.popleft())
+
+    def _send_answer(self, viewer: object, answer: dict[str, Any]) -> None:
+        if isinstance(viewer, _Viewer) and viewer in self._viewers:
+            try:
+                self._send(viewer, answer)
+            except (OSError, ValueError, RecursionError):
+                self._drop(viewer)
 
     def _send_newest(self, viewer: _Viewer, now_s: float) -> None:
         lines: list[bytes] = []
@@ -243,6 +254,8 @@ class LiveServer:
             self._write(viewer)
 
     def _send(self, viewer: _Viewer, message: dict[str, Any]) -> None:
+        if len(viewer.unsent) > _MAX_UNSENT_BYTES:
+            raise ConnectionAbortedError
         viewer.unsent += _encode(message)
         self._write(viewer)
 

@@ -62,6 +62,8 @@ class Root:
         self._components: dict[type[Component], Component] = {}
         self._under_construction: list[type[Component]] = []
         self._cycle_times: dict[str, CycleTimes] | None = None
+        self._is_stopping: Callable[[], bool] = bool
+        """Whether the run ends after this iteration, so that nothing may hold it up."""
         self._closing = ExitStack()
         self._closing.callback(self._close_world)
         try:

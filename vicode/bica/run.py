@@ -240,6 +240,7 @@ def _loop(root: Root, options: argparse.Namespace, tick_ns: int, signals: StopSi
     end_ns = math.inf if options.seconds is None else round(options.seconds * 1e9)
     advance_world = getattr(world, "advance", None)
     reloader = Reloader(root, options.path) if options.reload else None
+    root._is_stopping = signals.was_received
     signals.is_deferred = True
     if isinstance(clock, PacedClock):
         clock.start()
