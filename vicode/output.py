@@ -69,6 +69,18 @@ def compare_files(
     return tuple(sorted(differences, key=lambda difference: difference.path))
 
 
+def require_unchanged(differences: Iterable[FileDiff], folder: Path) -> None:
+    """Require that files still have their `old` texts.
+
+    Raises:
+        OSError: A file has changed since it was compared.
+    """
+    for difference in differences:
+        path = folder / difference.path
+        if _read(path) != difference.old:
+            raise OSError(errno.EAGAIN, "it was changed at the same time; run the command again", str(path))
+
+
 def apply_diffs(differences: Iterable[FileDiff], folder: Path) -> tuple[Path, ...]:
     """Write new and changed files and delete stale ones; returns the paths of these files."""
     written = []

@@ -10,7 +10,7 @@ import fcntl
 import json
 import os
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 from vicode.output import write_atomically
@@ -22,12 +22,15 @@ _PENDING = "pending"
 _JOURNAL = "journal.json"
 
 
-def replace_files(root: Path, texts: Mapping[str, str | bytes | None]) -> None:
+def replace_files(
+    root: Path, texts: Mapping[str, str | bytes | None], *, validate: Callable[[], None] = lambda: None
+) -> None:
     """Write or delete (None) files below a folder, all of them or none; symbolic links are followed.
 
     Args:
         root: The folder; it is created.
         texts: The new texts, or contents, by path relative to `root`.
+        validate: Raises an `OSError` if the files must not be replaced; no other program replaces files meanwhile.
 
     Raises:
         OSError: A file cannot be written; the error names it, and all files are unchanged.
@@ -35,6 +38,7 @@ def replace_files(root: Path, texts: Mapping[str, str | bytes | None]) -> None:
     targets = {path: _resolve_target(root, path) for path in texts}
     with _lock(root) as state:
         _complete_found(root, state)
+        validate()
         pending = state / _PENDING
         try:
             journal = _write_pending(pending, texts, targets)

@@ -9,6 +9,9 @@ from pathlib import Path
 import pytest
 
 from tests.cli.command_runner import LAMP, lamps, vicode
+from vicode.cli.gen import write_plan
+from vicode.cli.project_loader import LoadedProject
+from vicode.sync import GenerationPlan
 
 __all__ = ["lamps"]
 
@@ -60,6 +63,23 @@ def test_edits_of_different_lines_are_merged(generated: Path, capsys: pytest.Cap
     assert vicode("sync", "lamps") == 0
     assert "merged Dark.enter" in capsys.readouterr().out
     assert "self.count = 2\n      pass\n      self.b = 3\n" in DESIGN.read_text()
+
+
+@pytest.mark.parametrize("command", ["sync", "gen"])
+def test_an_edit_of_the_same_moment_is_not_overwritten(
+    generated: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, command: str
+) -> None:
+    def write_late(opened: LoadedProject, plan: GenerationPlan, *, is_forced: bool = False) -> bool:
+        edit(FILE, "self.count = 1", "self.count = 5")
+        return write_plan(opened, plan, is_forced=is_forced)
+
+    edit(DESIGN, "self.count = 1", "self.count = 1\n      self.b = 3")
+    design = DESIGN.read_text()
+    monkeypatch.setattr(f"vicode.cli.{command}.write_plan", write_late)
+    assert vicode(command, "lamps") == 2
+    assert "changed at the same time" in capsys.readouterr().err
+    assert "self.count = 5" in FILE.read_text()
+    assert DESIGN.read_text() == design
 
 
 @pytest.mark.parametrize(("side", "kept", "lost"), [("file", 2, 3), ("design", 3, 2)])

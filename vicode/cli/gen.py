@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from vicode.cli.console import describe_os_error, print_findings
 from vicode.cli.project_loader import LoadedProject, load_projects
 from vicode.findings import Finding, Severity, SourceLocation, get_rule
-from vicode.output import FileDiff, FileStatus, format_diff
+from vicode.output import FileDiff, FileStatus, format_diff, require_unchanged
 
 if TYPE_CHECKING:
     from vicode.model.project import Project
@@ -157,6 +157,7 @@ def write_plan(opened: LoadedProject, plan: "GenerationPlan", *, is_forced: bool
         for line in _describe_statements(plan):
             print(line, file=sys.stderr)
         return False
+    require_unchanged(plan.differences, plan.folder)
     _save_designs(opened, plan)
     write_generated(plan)
     for each in plan.statements:

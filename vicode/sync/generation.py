@@ -8,7 +8,7 @@ from vicode.check import check_project
 from vicode.findings import Finding, Severity, SourceLocation
 from vicode.model.design import Design
 from vicode.model.project import Project
-from vicode.output import FileDiff, FileStatus, OutputFile, back_up_edited, compare_files
+from vicode.output import FileDiff, FileStatus, OutputFile, back_up_edited, compare_files, require_unchanged
 from vicode.regions import has_header
 from vicode.sync.adopt import AdoptedEdit, Side, adopt_regions
 from vicode.sync.file_edits import FileEdits, find_file_edits
@@ -133,7 +133,7 @@ def write_generated(plan: GenerationPlan) -> None:
     """Write and delete the files of a plan, all of them or none, and keep a copy of what was generated.
 
     Raises:
-        OSError: A file cannot be written.
+        OSError: A file cannot be written, or has changed since the plan was made.
     """
     texts = {difference.path: difference.new for difference in plan.differences}
     copies = {f"{STATE_FOLDER}/generated/{path}.base": text for path, text in texts.items()}
@@ -146,7 +146,7 @@ def write_generated(plan: GenerationPlan) -> None:
             copies[f"{each.file.path}.patch"] = each.leftover
     outdated = {path: text for path, text in copies.items() if _read(plan.folder / path) != text}
     if texts or outdated:
-        replace_files(plan.folder, texts | outdated)
+        replace_files(plan.folder, texts | outdated, validate=lambda: require_unchanged(plan.differences, plan.folder))
 
 
 def back_up(plan: GenerationPlan) -> tuple[Path, ...]:
