@@ -32,13 +32,13 @@ def generated(lamps: Path, capsys: pytest.CaptureFixture[str]) -> Path:
     return lamps
 
 
-@pytest.mark.parametrize("command", [["sync"], ["gen", "--adopt"]])
+@pytest.mark.parametrize("command", [["sync"], ["gen", "--apply"]])
 def test_an_edited_region_goes_into_the_design(
     generated: Path, capsys: pytest.CaptureFixture[str], command: list[str]
 ) -> None:
     edit(FILE, "self.count = 1", "self.count = 2  # two\n        self.total = 0")
     assert vicode(*command, "lamps") == 0
-    assert capsys.readouterr().out.startswith(f"adopted Dark.enter from {FILE}:")
+    assert capsys.readouterr().out.startswith(f"applied Dark.enter from {FILE}:")
     assert DESIGN.read_text() == LAMP.replace("self.count = 1", "self.count = 2  # two\n      self.total = 0")
     assert "self.total = 0" in FILE.read_text()
     assert vicode("gen", "--check", "lamps") == 0
@@ -173,7 +173,7 @@ def test_a_fresh_clone_finds_what_was_generated_in_git(generated: Path, capsys: 
     edit(DESIGN, "after: 0.3", "after: 0.1")
     capsys.readouterr()
     assert vicode("gen", "lamps") == 1
-    assert "edited outside its regions" in capsys.readouterr().err
+    assert "edited outside regions" in capsys.readouterr().err
 
 
 def test_generated_code_of_two_branches_merges(generated: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -202,10 +202,10 @@ def test_edits_of_statements_are_shown_and_taken_over_on_request(
     before = FILE.read_text()
     assert vicode("sync", "lamps") == 1
     err = capsys.readouterr().err
-    assert "the design can take over: time of Lit → Dark: 0.4" in err
+    assert "the design can express: time of Lit → Dark: 0.4" in err
     assert "+    Lamp.demo()" in err
     assert (FILE.read_text(), DESIGN.read_text()) == (before, LAMP)
-    assert vicode("sync", "--statements", "lamps") == 0
+    assert vicode("sync", "--outside-regions", "lamps") == 0
     assert DESIGN.read_text() == LAMP.replace("after: 0.2", "after: 0.4")
     assert "+    Lamp.demo()" in FILE.with_name("lamp.py.patch").read_text()
     assert vicode("gen", "--check", "lamps") == 0

@@ -101,7 +101,7 @@ def test_a_conflict_is_listed_and_overwriting_keeps_a_copy(editor: str, page: Pa
     file = code(project)
     file.write_text(file.read_text().replace("import logging\n", "import logging +\n"))
     open_code(page)
-    edits = page.get_by_role("list", name="Edits that the design lacks")
+    edits = page.get_by_role("list", name="Edits missing from the design")
     expect(edits).to_contain_text("Invalid Python")
     edits.get_by_role("button", name="Show difference of module").click()
     expect(dialog.locator("tr.changed", has_text="import logging +")).to_be_visible()
@@ -110,7 +110,7 @@ def test_a_conflict_is_listed_and_overwriting_keeps_a_copy(editor: str, page: Pa
 
     page.get_by_role("button", name="Generate", exact=True).click()
     expect(dialog.get_by_text("Edited by hand: player.py")).to_be_visible()
-    expect(dialog.get_by_role("button", name="Take over and write")).to_be_disabled()
+    expect(dialog.get_by_role("button", name="Apply and write")).to_be_disabled()
     dialog.get_by_role("button", name="Overwrite").click()
     expect(notification(page).filter(has_text="Generated player.py")).to_have_count(1)
     assert "import logging +" not in file.read_text()

@@ -146,7 +146,7 @@ def interpret_back(kind: str, design: Design, edited: Design) -> bool:
 def is_equivalent(result: str, after: str, before: str) -> bool:
     """Whether two texts are the same code; actions that were added may be methods of their own.
 
-    A region of `before` with another body in `after` counts as an edit of the region, which others take over.
+    A region of `before` with another body in `after` counts as an edit of the region, which others apply.
     """
     parts = collect_parts(before)
     form, wanted = (

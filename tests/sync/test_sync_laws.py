@@ -22,7 +22,7 @@ from vicode.model.project import Project
 from vicode.model.traversal import iter_code
 from vicode.regions import find_regions, wrap_region
 from vicode.sync import GeneratedHistory, GenerationInput, GenerationPlan, Side, plan_generation, write_generated
-from vicode.sync.adopt import set_code
+from vicode.sync.apply_regions import set_code
 
 _T = TypeVar("_T")
 _HALF = 5
@@ -50,17 +50,17 @@ class Workspace:
     def file(self) -> Path:
         return next(file for file in self.folder.glob("python/*/*.py") if "<vicode" in file.read_text("utf-8"))
 
-    def plan(self, *, adopt: bool = True, take: Side | None = None) -> GenerationPlan:
+    def plan(self, *, applies_edits: bool = True, take: Side | None = None) -> GenerationPlan:
         job = GenerationInput(
             project=self.project,
             folder=self.folder,
             generate=lambda project: generate(project, languages=["python"]),
             history=GeneratedHistory(folder=self.folder),
         )
-        return plan_generation(job, adopt=adopt, take=take)
+        return plan_generation(job, applies_edits=applies_edits, take=take)
 
     def sync(self, take: Side | None = None) -> tuple[str, ...]:
-        """Take edits over and write; return the codes of the findings that prevent it."""
+        """Apply edits and write; return the codes of the findings that prevent it."""
         plan = self.plan(take=take)
         if plan.findings:
             assert not plan.designs

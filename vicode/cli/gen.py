@@ -23,9 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("paths", metavar="PATH", nargs="+", help="design file, project folder, or folder of projects")
     parser.add_argument("--check", action="store_true", help="write nothing; report missing, changed, and stale files")
     parser.add_argument("--diff", action="store_true", help="write nothing; print a diff")
-    parser.add_argument(
-        "--adopt", action="store_true", help="take edits of generated files over into the designs first"
-    )
+    parser.add_argument("--apply", action="store_true", help="apply edits of generated files to the designs first")
     add_output_arguments(parser)
     parser.add_argument("--force", action="store_true", help="overwrite edited files, keeping a copy as NAME.edited")
 
@@ -35,7 +33,7 @@ def add_output_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--take",
         choices=("file", "design"),
-        help="where an edit and the design changed the same lines, take the text of this side (with --adopt)",
+        help="on a conflict, take the text of the generated file or of the design (in gen: with --apply)",
     )
     parser.add_argument(
         "--out", metavar="DIR", help="output folder (default: as set in project.yaml, else generated/ next to it)"
@@ -81,7 +79,7 @@ def _generate(opened: LoadedProject, args: argparse.Namespace) -> int:
     from vicode.sync import plan_generation
 
     has_errors = print_errors(opened)
-    plan = plan_generation(generation_input(opened, args), adopt=args.adopt, take=args.take)
+    plan = plan_generation(generation_input(opened, args), applies_edits=args.apply, take=args.take)
     if args.diff:
         print("".join(format_diff(difference) for difference in plan.differences), end="")
     if args.check:
@@ -154,13 +152,13 @@ def write_plan(opened: LoadedProject, plan: "GenerationPlan", *, is_forced: bool
 
         print_findings(locate_findings(plan.findings, opened.open_project), to_stderr=True)
         print("".join(_conflict_diffs(plan)), end="", file=sys.stderr)
-        for line in _describe_statements(plan):
+        for line in _describe_outside_readings(plan):
             print(line, file=sys.stderr)
         return False
     require_unchanged(plan.differences, plan.folder)
     _save_designs(opened, plan)
     write_generated(plan)
-    for each in plan.statements:
+    for each in plan.outside_readings:
         if each.leftover and each.file not in plan.edits:
             print(f"kept the rest of the edit as {(plan.folder / each.file.path).as_posix()}.patch")
     for difference in plan.differences:
@@ -169,15 +167,15 @@ def write_plan(opened: LoadedProject, plan: "GenerationPlan", *, is_forced: bool
     return True
 
 
-def _describe_statements(plan: "GenerationPlan") -> Iterator[str]:
-    """The edits of generated statements, and what the design can take over of them."""
-    for each in plan.statements:
+def _describe_outside_readings(plan: "GenerationPlan") -> Iterator[str]:
+    """The edits outside regions: which of them the design can express, and the rest."""
+    for each in plan.outside_readings:
         path = (plan.folder / each.file.path).as_posix()
-        yield from (f"{path}:{edit.line}: the design can take over: {edit.words}" for edit in each.edits)
+        yield from (f"{path}:{edit.line}: the design can express: {edit.words}" for edit in each.edits)
         if each.edits:
-            yield "take these edits over with 'vicode sync --statements'; the rest is kept as a patch beside the file"
+            yield "apply these edits with 'vicode sync --outside-regions'; it keeps the rest as NAME.patch"
         if each.leftover:
-            yield f"no meaning in the design:\n{each.leftover.rstrip()}"
+            yield f"the design cannot express:\n{each.leftover.rstrip()}"
 
 
 def _conflict_diffs(plan: "GenerationPlan") -> Iterator[str]:
@@ -196,15 +194,15 @@ def _save_designs(opened: LoadedProject, plan: "GenerationPlan") -> None:
     texts = {name: save_design(design, project.texts[name]) for name, design in plan.designs.items()}
     for name, text in texts.items():
         replace_text(project.files[name], project.texts[name], text)
-        for statement in (each for each in plan.statements if each.file.component == name):
-            for taken in statement.edits:
-                place = f"{(plan.folder / statement.file.path).as_posix()}:{taken.line}"
-                print(f"adopted from {place} into {project.files[name].as_posix()}: {taken.words}")
-        for edit in plan.adopted:
+        for reading in (each for each in plan.outside_readings if each.file.component == name):
+            for applied in reading.edits:
+                place = f"{(plan.folder / reading.file.path).as_posix()}:{applied.line}"
+                print(f"applied from {place} to {project.files[name].as_posix()}: {applied.words}")
+        for edit in plan.applied:
             if edit.file.component == name:
                 place = f"{(plan.folder / edit.file.path).as_posix()}:{edit.region.line}"
-                verb = "merged" if edit.region.is_merged else "adopted"
-                print(f"{verb} {edit.region.id} from {place} into {project.files[name].as_posix()}")
+                verb = "merged" if edit.region.is_merged else "applied"
+                print(f"{verb} {edit.region.id} from {place} to {project.files[name].as_posix()}")
 
 
 def _outdated_findings(plan: "GenerationPlan") -> Iterator[Finding]:

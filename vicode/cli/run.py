@@ -125,7 +125,7 @@ def generate_for_run(opened: LoadedProject, component: str, folder: Path) -> str
 
 
 def find_unsynced_edits(opened: LoadedProject, component: str) -> tuple[Finding, ...]:
-    """Edits of generated code that the designs lack: the run would not contain them."""
+    """Edits of generated code that are missing from the designs: the run would not contain them."""
     from vicode.cli.gen import output_folder
     from vicode.generators import generate
     from vicode.sync import GeneratedHistory, GenerationInput, describe_edits, plan_generation

@@ -1,4 +1,4 @@
-"""Take edits of generated code over into the designs, then generate."""
+"""Apply edits of generated code to the designs, then generate."""
 
 import argparse
 
@@ -9,18 +9,18 @@ from vicode.cli.project_loader import LoadedProject
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("paths", metavar="PATH", nargs="+", help="design file, project folder, or folder of projects")
-    parser.add_argument("--check", action="store_true", help="write nothing; report edits that the designs lack")
+    parser.add_argument("--check", action="store_true", help="write nothing; report edits missing from the designs")
     parser.add_argument("--watch", action="store_true", help="sync again after each change, until interrupted")
     parser.add_argument(
-        "--statements",
+        "--outside-regions",
         action="store_true",
-        help="also take edits of generated statements over, where the design can; keep the rest as NAME.patch",
+        help="also apply edits outside regions that the design can express; keep the rest as NAME.patch",
     )
     add_output_arguments(parser)
 
 
 def run(args: argparse.Namespace) -> int:
-    """Sync every project; return 1 on conflicts or, with --check, if designs lack edits."""
+    """Sync every project; return 1 on conflicts or, with --check, if edits are missing from designs."""
     if args.watch:
         from vicode.cli.sync_watch import watch_projects
 
@@ -33,7 +33,10 @@ def _sync(opened: LoadedProject, args: argparse.Namespace) -> int:
 
     has_errors = print_errors(opened)
     plan = plan_generation(
-        generation_input(opened, args), adopt=not args.check, take=args.take, statements=args.statements
+        generation_input(opened, args),
+        applies_edits=not args.check,
+        take=args.take,
+        outside_regions=args.outside_regions,
     )
     if args.check:
         print_findings(plan.findings)

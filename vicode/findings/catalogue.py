@@ -106,7 +106,7 @@ _RECORDS = (
     ("L703", "bad-xabsl-name", Severity.ERROR, "name invalid or not unique in XABSL"),
     ("L704", "code-is-not-xabsl", Severity.ERROR, "invalid XABSL code"),
     # Generated files
-    ("G501", "edited-generated", Severity.ERROR, "an edit in a generated file that the design lacks"),
+    ("G501", "edited-generated", Severity.ERROR, "an edit of a generated file that is missing from the design"),
     ("G502", "stale-output", Severity.ERROR, "generated file that is out of date"),
     ("G503", "broken-marks", Severity.ERROR, "region marks that do not match"),
     ("G504", "region-conflict", Severity.ERROR, "code that was edited in a generated file and in the design"),

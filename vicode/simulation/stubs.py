@@ -44,7 +44,7 @@ class StubComponent(Component):
         return self._shown[DONE] is True and self.root.iteration - self._stepped_in <= 1
 
     def work(self) -> None:
-        """Take over the values that the user set."""
+        """Apply the values that the user set."""
         self._held = self._given
         self._show(self._held)
 

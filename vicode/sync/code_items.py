@@ -57,7 +57,7 @@ def split_items(text: str) -> tuple[CodeItem, ...]:
     """Split a module into items, in the order of their lines.
 
     Raises:
-        SyntaxError: The text outside of the regions is not Python.
+        SyntaxError: The text outside regions is not Python.
     """
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     masked, last_lines = _mask_regions(text)

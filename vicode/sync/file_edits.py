@@ -1,4 +1,4 @@
-"""Finds the edits in generated files: in regions, which the design can take over, and outside of them."""
+"""Finds the edits in generated files: in regions and outside regions."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -8,10 +8,10 @@ from vicode.findings import Finding, SourceLocation, get_rule
 from vicode.model.merge import contains_edits
 from vicode.output import FileDiff, FileStatus, OutputFile
 from vicode.regions import ParsedRegions, Region, find_regions, get_comment_prefix, has_header, is_edited, strip_bodies
+from vicode.sync.applied_edits import RecordedEdit, RegionKey
 from vicode.sync.git_conflicts import split_sides
 from vicode.sync.region_merge import RegionEdit, merge_region_edits
 from vicode.sync.same_code import is_same_code
-from vicode.sync.taken import RegionKey, TakenEdit
 
 History = Callable[[str], Iterable[str]]
 """Returns the texts that were generated for a path before, the last one first."""
@@ -27,7 +27,7 @@ class FileEdits:
         old: The text of the file.
         new: The text generated now, None if no design generates the file any more.
         regions: The edited regions.
-        is_edited_outside: Whether generated statements were edited, or may have been.
+        is_edited_outside: Whether the file was edited outside regions, or may have been.
         is_origin_known: Whether an earlier generated text of the file is known.
         problems: Errors in the file, such as broken marks.
     """
@@ -55,7 +55,7 @@ def find_file_edits(
     files: Iterable[OutputFile],
     history: History = lambda _path: (),
     *,
-    taken: Mapping[RegionKey, TakenEdit | None] = MappingProxyType({}),
+    applied: Mapping[RegionKey, RecordedEdit | None] = MappingProxyType({}),
     display_folder: str = "",
 ) -> tuple[FileEdits, ...]:
     """Find the edits that generation would overwrite, by file; files without edits are left out.
@@ -64,7 +64,7 @@ def find_file_edits(
         differences: The files on disk and their new texts.
         files: The files that are generated now.
         history: Returns earlier generated texts.
-        taken: The edits that the designs contain already.
+        applied: The edits that the designs contain already.
         display_folder: The folder of the files as findings show it.
     """
     differences = tuple(differences)
@@ -73,7 +73,7 @@ def find_file_edits(
         components={file.path: file.component for file in files},
         added_regions=tuple(region for each in added for region in _regions(each.new or "", each.path)),
         history=history,
-        taken=taken,
+        applied=applied,
         display_folder=display_folder,
     )
     edits = (finder.find(each) for each in differences if each.old is not None and each.old != each.new)
@@ -86,7 +86,7 @@ class _EditFinder:
     added_regions: Sequence[Region]
     """The regions of new files, which may be those of a component that was renamed."""
     history: History
-    taken: Mapping[RegionKey, TakenEdit | None]
+    applied: Mapping[RegionKey, RecordedEdit | None]
     display_folder: str
 
     def find(self, difference: FileDiff) -> FileEdits:
@@ -113,7 +113,7 @@ class _EditFinder:
             edit
             for each in parsed
             for edit in merge_region_edits(
-                each.regions, targets, base_texts.find, lambda region: self.taken.get((path, region)), comment=comment
+                each.regions, targets, base_texts.find, lambda region: self.applied.get((path, region)), comment=comment
             )
         )
         # The statements of a merge conflict were generated in two branches.
@@ -131,7 +131,7 @@ class _EditFinder:
         return tuple(region for region in self.added_regions if region.checksum in checksums)
 
     def _is_edited_outside(self, path: str, old: str, new: str | None) -> bool:
-        """Whether generated statements were edited in the file, and not only in the design."""
+        """Whether the file was edited outside regions, and not only the design."""
         comment = get_comment_prefix(path)
         if new is not None and is_same_code(old, new, comment):
             return False
@@ -164,7 +164,7 @@ def _later(history: History, path: str) -> Iterator[str]:
 
 
 def _has_all_edits(path: str, base: str, old: str, new: str) -> bool:
-    """Whether the new text contains all that was changed in the old one outside of regions, as after a merge in git."""
+    """Whether the new text contains all that was changed in the old one outside regions, as after a merge in git."""
     comment = get_comment_prefix(path)
     stripped = [strip_bodies(text, comment) for text in (base, old, new)]
     return contains_edits(*stripped)

@@ -7,11 +7,11 @@ from vicode.findings import DesignPath, Finding, FindingSubject, Note, SourceLoc
 from vicode.sync.file_edits import FileEdits
 from vicode.sync.region_merge import RegionEdit
 
-_ADOPT = "take the edit over into the design with 'vicode sync'"
+_APPLY = "apply the edit to the design with 'vicode sync'"
 _CHOOSE = "keep this text with 'vicode sync --take file', or the text of the design with 'vicode sync --take design'"
 _DROP = "move the edit to where it belongs, or drop it with 'vicode sync --take design'"
-_OUTSIDE = "'vicode sync' shows what the design can take over, and 'vicode sync --statements' takes it over"
-_UNKNOWN = "generate with --force, which keeps the file as NAME.edited"
+_OUTSIDE = "'vicode sync' lists the edits that the design can express; 'vicode sync --outside-regions' applies them"
+_UNKNOWN = "'vicode gen --force' overwrites it and keeps a copy as NAME.edited"
 
 
 def describe_edits(edits: Iterable[FileEdits], display_folder: str = "") -> Iterator[Finding]:
@@ -37,7 +37,7 @@ class _Describer:
     def describe_region(self, region: RegionEdit) -> Finding:
         if region.is_conflict:
             return self.describe_conflict(region)
-        return self._finding("G501", f"the code of region '{region.id}' was edited here", _ADOPT, region.line)
+        return self._finding("G501", f"the code of region '{region.id}' was edited here", _APPLY, region.line)
 
     def describe_conflict(self, region: RegionEdit, path: DesignPath = ()) -> Finding:
         message = f"the code of region '{region.id}' was edited here"
@@ -49,8 +49,8 @@ class _Describer:
 
     def describe_outside(self) -> Finding:
         if self.file.is_origin_known:
-            return self._finding("G501", "this file was edited outside its regions", _OUTSIDE, 1)
-        message = "this file may have been edited outside its regions: nothing tells what was generated"
+            return self._finding("G501", "this file was edited outside regions", _OUTSIDE, 1)
+        message = "this file may have been edited outside regions: the generated text is not known"
         return self._finding("G501", message, _UNKNOWN, 1)
 
     def _finding(self, code: str, message: str, fix: str, line: int, path: DesignPath = ()) -> Finding:

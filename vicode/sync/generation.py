@@ -1,4 +1,4 @@
-"""Plans what generation writes, with the edits of generated files taken over into the designs, and writes it."""
+"""Plans what generation writes, with the edits of generated files applied to the designs, and writes it."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -10,12 +10,12 @@ from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import FileDiff, FileStatus, OutputFile, back_up_edited, compare_files, require_unchanged
 from vicode.regions import has_header
-from vicode.sync.adopt import AdoptedEdit, Side, adopt_regions
+from vicode.sync.applied_edits import APPLIED_FILE, RecordedEdit, RegionKey, format_applied, read_applied, without_paths
+from vicode.sync.apply_regions import AppliedEdit, Side, apply_regions
 from vicode.sync.file_edits import FileEdits, find_file_edits
 from vicode.sync.findings import describe_conflict, describe_edits
 from vicode.sync.history import GeneratedHistory
-from vicode.sync.statements import StatementEdits, interpret_files
-from vicode.sync.taken import TAKEN_FILE, RegionKey, TakenEdit, format_taken, read_taken, without_paths
+from vicode.sync.outside_readings import OutsideReading, interpret_files
 from vicode.transactions import STATE_FOLDER, complete_interrupted, replace_files
 
 
@@ -30,7 +30,7 @@ class GenerationInput:
         kept_paths: Paths of further generated files, which are not stale.
         may_delete: Whether files that no design generates are stale; they are not if a design cannot be read.
         history: Finds texts that were generated before.
-        taken: Edits that unsaved designs contain (None: no longer), in addition to those recorded in the folder.
+        applied: Edits that unsaved designs contain (None: no longer), in addition to those recorded in the folder.
     """
 
     project: Project
@@ -39,7 +39,7 @@ class GenerationInput:
     kept_paths: Sequence[str] = ()
     may_delete: bool = True
     history: GeneratedHistory
-    taken: Mapping[RegionKey, TakenEdit | None] = field(default_factory=dict)
+    applied: Mapping[RegionKey, RecordedEdit | None] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,8 +51,8 @@ class GenerationPlan:
         files: All generated files.
         differences: The files that differ from those on disk.
         designs: The designs that contain edits of generated files, by component.
-        adopted: These edits.
-        statements: The edits of generated statements with their meaning in the design.
+        applied: These edits.
+        outside_readings: The edits outside regions with their meaning in the design.
         edits: The edits that would be lost.
         findings: Why nothing may be written.
     """
@@ -61,22 +61,22 @@ class GenerationPlan:
     files: Sequence[OutputFile]
     differences: tuple[FileDiff, ...]
     designs: Mapping[str, Design]
-    adopted: tuple[AdoptedEdit, ...] = ()
-    statements: tuple[StatementEdits, ...] = ()
+    applied: tuple[AppliedEdit, ...] = ()
+    outside_readings: tuple[OutsideReading, ...] = ()
     edits: tuple[FileEdits, ...] = ()
     findings: tuple[Finding, ...] = ()
 
 
 def plan_generation(
-    job: GenerationInput, *, adopt: bool = False, take: Side | None = None, statements: bool = False
+    job: GenerationInput, *, applies_edits: bool = False, take: Side | None = None, outside_regions: bool = False
 ) -> GenerationPlan:
     """Generate and compare with the folder, without writing.
 
     Args:
         job: What to generate.
-        adopt: Take edits of regions over into the designs.
+        applies_edits: Apply edits of regions to the designs.
         take: The side that wins conflicts between an edit and the design; None leaves them.
-        statements: With `adopt`, also take edits of generated statements over that have one meaning in the design;
+        outside_regions: With `applies_edits`, also apply edits outside regions that have one meaning in the design;
             otherwise they are listed only.
 
     Raises:
@@ -85,14 +85,14 @@ def plan_generation(
     complete_interrupted(job.folder)
     shown = job.folder.as_posix()
     plan = _compare(job, job.project)
-    if not adopt or not plan.edits:
+    if not applies_edits or not plan.edits:
         return replace(plan, findings=tuple(describe_edits(plan.edits, shown)))
-    adoption = adopt_regions(job.project, plan.edits, take)
-    if adoption.conflicts:
-        conflicts = (describe_conflict(file, region, path, shown) for file, region, path in adoption.conflicts)
+    outcome = apply_regions(job.project, plan.edits, take)
+    if outcome.conflicts:
+        conflicts = (describe_conflict(file, region, path, shown) for file, region, path in outcome.conflicts)
         return replace(plan, findings=tuple(conflicts))
-    project = _with_designs(job.project, adoption.designs)
-    errors = tuple(find_new_errors(job.project, project, adoption.adopted, shown))
+    project = _with_designs(job.project, outcome.designs)
+    errors = tuple(find_new_errors(job.project, project, outcome.applied, shown))
     if errors:
         return replace(plan, findings=errors)
     settled = {(file.path, region.id) for file in plan.edits for region in file.regions}
@@ -100,26 +100,26 @@ def plan_generation(
     edits = tuple(_without(file, settled) for file in new.edits)
     new = replace(
         new,
-        designs=adoption.designs,
-        adopted=adoption.adopted,
+        designs=outcome.designs,
+        applied=outcome.applied,
         edits=tuple(file for file in edits if not file.is_empty),
     )
-    new = _interpret_statements(job, project, new, is_taken=statements)
+    new = _interpret_outside_regions(job, project, new, is_applied=outside_regions)
     return replace(new, findings=tuple(describe_edits(new.edits, shown)))
 
 
-def _interpret_statements(
-    job: GenerationInput, project: Project, plan: GenerationPlan, *, is_taken: bool
+def _interpret_outside_regions(
+    job: GenerationInput, project: Project, plan: GenerationPlan, *, is_applied: bool
 ) -> GenerationPlan:
-    """Add the meaning of edits outside of regions, and take them over if asked."""
+    """Add the meaning of edits outside regions, and apply them on request."""
     texts = {file.path: file.text for file in plan.files}
-    changed, statements = interpret_files(project, plan.edits, texts, job.history)
-    plan = replace(plan, statements=statements)
-    if not is_taken:
+    changed, readings = interpret_files(project, plan.edits, texts, job.history)
+    plan = replace(plan, outside_readings=readings)
+    if not is_applied:
         return plan
     new = _compare(job, _with_designs(project, changed))
-    taken = {each.file.path for each in statements if each.edits or each.leftover}
-    edits = (replace(file, is_edited_outside=file.is_edited_outside and file.path not in taken) for file in plan.edits)
+    done = {each.file.path for each in readings if each.edits or each.leftover}
+    edits = (replace(file, is_edited_outside=file.is_edited_outside and file.path not in done) for file in plan.edits)
     return replace(
         plan,
         files=new.files,
@@ -139,9 +139,9 @@ def write_generated(plan: GenerationPlan) -> None:
     copies = {f"{STATE_FOLDER}/generated/{path}.base": text for path, text in texts.items()}
     for file in plan.files:
         copies.setdefault(f"{STATE_FOLDER}/generated/{file.path}.base", file.text)
-    if taken := read_taken(plan.folder):
-        copies[TAKEN_FILE] = format_taken(without_paths(taken, (file.path for file in plan.files)))
-    for each in plan.statements:
+    if applied := read_applied(plan.folder):
+        copies[APPLIED_FILE] = format_applied(without_paths(applied, (file.path for file in plan.files)))
+    for each in plan.outside_readings:
         if each.leftover and each.file.path not in {file.path for file in plan.edits}:
             copies[f"{each.file.path}.patch"] = each.leftover
     outdated = {path: text for path, text in copies.items() if _read(plan.folder / path) != text}
@@ -159,8 +159,8 @@ def _compare(job: GenerationInput, project: Project) -> GenerationPlan:
     compared = compare_files(files, job.folder, kept_paths=job.kept_paths, is_generated=has_header)
     ignored = {FileStatus.UNCHANGED} if job.may_delete else {FileStatus.UNCHANGED, FileStatus.STALE}
     differences = tuple(difference for difference in compared if difference.status not in ignored)
-    taken = {**read_taken(job.folder), **job.taken}
-    edits = find_file_edits(differences, files, job.history, taken=taken, display_folder=job.folder.as_posix())
+    applied = {**read_applied(job.folder), **job.applied}
+    edits = find_file_edits(differences, files, job.history, applied=applied, display_folder=job.folder.as_posix())
     return GenerationPlan(folder=job.folder, files=files, differences=differences, designs={}, edits=edits)
 
 
@@ -172,9 +172,9 @@ def _without(file: FileEdits, settled: set[tuple[str, str]]) -> FileEdits:
     return replace(file, regions=tuple(each for each in file.regions if (file.path, each.id) not in settled))
 
 
-def find_new_errors(before: Project, after: Project, adopted: Iterable[AdoptedEdit], folder: str) -> Iterable[Finding]:
+def find_new_errors(before: Project, after: Project, applied: Iterable[AppliedEdit], folder: str) -> Iterable[Finding]:
     """The errors that edits bring into designs, located in the generated files."""
-    edits = tuple(adopted)
+    edits = tuple(applied)
     components = {edit.file.component for edit in edits}
     known = {(finding.rule.code, finding.message) for finding in check_project(before, components)}
     for finding in check_project(after, components):
@@ -183,7 +183,7 @@ def find_new_errors(before: Project, after: Project, adopted: Iterable[AdoptedEd
             yield _located(finding, edits, folder)
 
 
-def _located(finding: Finding, edits: Iterable[AdoptedEdit], folder: str) -> Finding:
+def _located(finding: Finding, edits: Iterable[AppliedEdit], folder: str) -> Finding:
     subject = finding.subject
     for edit in edits:
         if subject and subject.component == edit.file.component and subject.path[: len(edit.path)] == edit.path:

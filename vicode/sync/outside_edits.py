@@ -1,4 +1,4 @@
-"""Separates the edits of a generated file outside of its regions from what changed in the design since."""
+"""Separates the edits of a generated file outside regions from what changed in the design since."""
 
 from vicode.model.merge import merge_lines
 from vicode.regions import find_regions, get_comment_prefix
@@ -6,7 +6,7 @@ from vicode.sync.file_edits import FileEdits
 
 
 def rebase_outside_edits(file: FileEdits, base: str | None) -> str | None:
-    """Return the text generated now with the edits outside of regions.
+    """Return the text generated now with the edits outside regions.
 
     Args:
         file: The edited file.
@@ -25,7 +25,7 @@ def rebase_outside_edits(file: FileEdits, base: str | None) -> str | None:
 
 
 def _with_regions_of(text: str, other: str, path: str) -> str:
-    """The text with the regions of another text: only statements outside of regions are compared."""
+    """The text with the regions of another text: only statements outside regions are compared."""
     comment = get_comment_prefix(path)
     lines, others = text.replace("\r\n", "\n").split("\n"), other.split("\n")
     blocks = {region.id: others[region.line - 1 : region.end_line] for region in find_regions(other, comment).regions}

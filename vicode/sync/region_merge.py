@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from vicode.model.merge import merge_lines
 from vicode.regions import Region, compute_checksum, is_edited
+from vicode.sync.applied_edits import RecordedEdit
 from vicode.sync.same_code import is_same_code
-from vicode.sync.taken import TakenEdit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,7 +47,7 @@ def merge_region_edits(
     found: Sequence[Region],
     generated: Sequence[Region],
     find_base: Callable[[str], str | None],
-    find_taken: Callable[[str], TakenEdit | None] = lambda _id: None,
+    find_applied: Callable[[str], RecordedEdit | None] = lambda _id: None,
     *,
     comment: str = "#",
 ) -> tuple[RegionEdit, ...]:
@@ -57,39 +57,39 @@ def merge_region_edits(
         found: The regions of the file.
         generated: The regions generated now.
         find_base: Returns a text that was generated earlier by its checksum, None if it is unknown.
-        find_taken: Returns the edit of a region that the design contains already, by the id of the region.
+        find_applied: Returns the edit of a region that the design contains already, by the id of the region.
         comment: The start of a comment in the language.
     """
     targets = _match_regions(found, generated)
     edits = []
     for region in filter(is_edited, found):
         target = targets.get(region.id)
-        taken = _applicable(find_taken(region.id), region, target)
-        edits.append(_merge(region, target, taken, find_base, comment))
+        applied = _applicable(find_applied(region.id), region, target)
+        edits.append(_merge(region, target, applied, find_base, comment))
     return tuple(edit for edit in edits if edit is not None)
 
 
-def _applicable(taken: TakenEdit | None, region: Region, target: Region | None) -> TakenEdit | None:
+def _applicable(applied: RecordedEdit | None, region: Region, target: Region | None) -> RecordedEdit | None:
     """A record of another generation does not apply, nor one of an edit that the design has lost since."""
-    if taken is None or taken.checksum != region.checksum:
+    if applied is None or applied.checksum != region.checksum:
         return None
     text = target.body if target else ""
-    is_lost = taken.design_text is not None and compute_checksum(taken.design_text) == compute_checksum(text)
-    return None if is_lost else taken
+    is_lost = applied.design_text is not None and compute_checksum(applied.design_text) == compute_checksum(text)
+    return None if is_lost else applied
 
 
 def _merge(
     region: Region,
     target: Region | None,
-    taken: TakenEdit | None,
+    applied: RecordedEdit | None,
     find_base: Callable[[str], str | None],
     comment: str,
 ) -> RegionEdit | None:
     if target is not None and is_same_code(region.body, target.body, comment):
         return None
     is_current = target is not None and target.checksum == region.checksum
-    if taken is not None:
-        base: str | None = taken.file_text
+    if applied is not None:
+        base: str | None = applied.file_text
     else:
         base = target.body if target is not None and is_current else find_base(region.checksum)
     if base is not None and is_same_code(region.body, base, comment):

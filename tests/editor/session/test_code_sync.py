@@ -58,9 +58,9 @@ def test_an_edit_is_taken_in_as_one_step_beside_unsaved_work(
     edit_file(file, "self._seen += 2")
     code_sync.follow_generated_files(workspace)
     assert (code_of(player.design), player.design.doc) == ("self._seen += 2", "mine")
-    assert player.history.current.label == "edited outside: WatchBall.enter"
+    assert player.history.current.label == "edit of generated code: WatchBall.enter"
     outside = player.shared.outside
-    assert outside.notice.text == "Edited outside, in player.py: WatchBall.enter"
+    assert outside.notice.text == "Applied from player.py: WatchBall.enter"
     assert outside.marked_items(player.history) == {ItemRef(kind="states", id="WatchBall")}
     assert (
         next(state for state in player.shared.scene(workspace.project)["states"] if state["outside"])["id"]
@@ -81,7 +81,7 @@ def test_an_edit_that_was_undone_is_not_taken_in_again(
     code_sync.follow_generated_files(workspace)
     assert code_of(player.design) == GENERATED
     assert "math" in str(player.design.module)
-    # It is lacking nevertheless, which a simulation must not hide.
+    # It is missing nevertheless, which a simulation must not hide.
     assert [edit.name for edit in player.shared.outside.waiting] == ["WatchBall.enter"]
     assert code_sync.find_lacking(workspace, "Player") == (player,)
     assert not workspace.generate(player).is_complete
@@ -197,7 +197,7 @@ def test_used_designs_are_opened_for_their_edits(workspace: Workspace, player: D
     assert len(workspace.documents) == 1
 
 
-def test_generate_offers_what_the_design_can_take_over(
+def test_generate_offers_the_edits_that_the_design_can_express(
     workspace: Workspace, player: DocumentSession, file: Path
 ) -> None:
     edit_file(file, "self.perception.ball_age > 77:", "self.perception.ball_age > lost_after:")
@@ -209,7 +209,7 @@ def test_generate_offers_what_the_design_can_take_over(
     assert len(reading.words) == 2
     assert "ball_age > 77" in reading.words[0]
     assert reading.leftover == ""
-    assert code_sync.take_over_design(player, reading.base, reading.design, reading.words)
+    assert code_sync.apply_to_design(player, reading.base, reading.design, reading.words)
     assert "ball_age > 77" in player.history.current.label
     workspace.save(player)
     assert workspace.generate(player).is_complete

@@ -65,7 +65,7 @@ class PageCommands:
 
     def generate_code(self) -> None:
         """Save, show the changes of the generated files, and write them."""
-        # Edits of the generated code are taken in before the design is saved.
+        # Edits of the generated code are applied before the design is saved.
         code_sync.find_lacking(self.context.workspace, self.context.design.component)
         if self.context.document.is_saved or self.save():
             self.context.run_in_background(self._write_code(), "generate")

@@ -111,7 +111,7 @@ class _EditChoice:
 def ask_to_resolve_code(
     context: WindowContext, documents: Sequence[DocumentSession] = (), title: str = texts.EDITED_OUTSIDE
 ) -> None:
-    """Open the dialog with the edits that designs lack, by default the open one."""
+    """Open the dialog with the edits missing from designs, by default from the open one."""
     documents = documents or (context.document,)
     if not any(document.shared.outside.waiting for document in documents):
         return

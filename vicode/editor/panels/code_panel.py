@@ -6,7 +6,7 @@ The code of the selected item is highlighted; a click in the code selects the it
 from nicegui import run, ui
 
 from vicode.editor.code import CodeAssist
-from vicode.editor.panels.lacking_edits import LackingEdits
+from vicode.editor.panels.missing_edits import MissingEdits
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import code_preview
 from vicode.editor.session.code_preview import CodePreview, PreviewFile
@@ -28,7 +28,7 @@ class CodePanel:
                 'outlined dense options-dense aria-label="Generated file"'
             )
             self.file_select.classes("code-choice mono")
-            self.edits = LackingEdits(context)
+            self.edits = MissingEdits(context)
             self.note = ui.label().classes("code-note").props('role="status"')
             self.editor = context.code_editors.create().classes("preview")
             self.editor.disable()

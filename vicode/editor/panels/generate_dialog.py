@@ -7,7 +7,7 @@ from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.diff_view import diff_view
-from vicode.editor.panels.edits_to_take_over import EditsToTakeOver
+from vicode.editor.panels.edits_to_apply import EditsToApply
 from vicode.editor.panels.texts import files_to_write
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
@@ -32,14 +32,14 @@ async def is_confirmation_disabled() -> bool:
 
 
 def confirm_writing(context: WindowContext, prepared: PendingOutput, write: Callable[[bool], None]) -> None:
-    """Show the changes, and what to do with edits of the files. On confirmation, what the user takes over is saved.
+    """Show the changes, and what to do with edits of the files. On confirmation, the chosen edits are saved.
 
     The files of the open component come first. `write` is called with whether edited files must be backed up.
     """
     name = _normalize_name(context.design.component)
     changes = tuple(sorted(prepared.changes, key=lambda each: _normalize_name(Path(each.path).stem) != name))
     with titled_dialog("Write the generated code?", "generate-dialog") as dialog:
-        edits = EditsToTakeOver(context, prepared) if prepared.manual_edits else None
+        edits = EditsToApply(context, prepared) if prepared.manual_edits else None
         ui.label(files_to_write(len(changes), prepared.folder.name, prepared.unchanged)).classes("small")
         with ui.element("div").classes("generate-files"):
             _files(prepared, changes)
@@ -51,7 +51,7 @@ def confirm_writing(context: WindowContext, prepared: PendingOutput, write: Call
             if skip_confirmation.value:
                 ui.run_javascript(f'localStorage.setItem("{_KEY}", "yes")')
             dialog.close()
-            if overwrites or edits is None or edits.take_over():
+            if overwrites or edits is None or edits.apply():
                 write(overwrites or (edits is not None and edits.has_rest))
 
         with ui.row().classes("dialog-buttons"):
@@ -60,7 +60,7 @@ def confirm_writing(context: WindowContext, prepared: PendingOutput, write: Call
                 primary_button("Write", lambda: confirm(overwrites=False)).props("autofocus")
             else:
                 ui.button("Overwrite", on_click=lambda: confirm(overwrites=True)).props("flat no-caps")
-                edits.enable(primary_button("Take over and write", lambda: confirm(overwrites=False)))
+                edits.enable(primary_button("Apply and write", lambda: confirm(overwrites=False)))
 
     dialog.on("hide", dialog.delete)
 

@@ -56,7 +56,7 @@ class Header:
         if document.shared.disk_conflict is not None:
             return "Conflict: file changed on disk", "is-conflicting"
         if document.shared.outside.conflicts:
-            return "Conflict: code edited outside", "is-conflicting"
+            return "Conflict: generated code edited", "is-conflicting"
         more = texts.ALSO_OPEN_ELSEWHERE if self.context.workspace.has_other_editor else ""
         return (f"Saved{more}", "") if document.is_saved else (f"Unsaved changes{more}", "is-unsaved")
 

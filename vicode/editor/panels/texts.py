@@ -56,17 +56,17 @@ SAVED_MERGED_VERSION = "Saved the merged version"
 CONFLICT_ALREADY_RESOLVED = "The conflict is already resolved. See History for the other version."
 CONFLICT_CHANGED = "The file changed again. Review the conflicts."
 CHANGED_OUTSIDE = "Code of this state was changed outside the editor"
-EDITED_OUTSIDE = "Generated code was edited outside"
+EDITED_OUTSIDE = "Generated code was edited"
 CHOOSE_TEXTS = "Choose a text for each. The other one stays in the undo history or in the file until Generate."
 IN_FILE = "In the generated file"
 IN_DESIGN = "In the design"
-CODE_GONE = "The design has no such code any more. Copy what you need; the edit is dropped with the next Generate."
+CODE_GONE = "This code was removed from the design. Copy what you need; the edit is dropped with the next Generate."
 SAME_LINES_CHANGED = "Both sides changed the same lines."
 DESIGN_CHANGED_GENERATE_AGAIN = "The design has changed. Generate again."
 NOT_UNDERSTOOD = "The rest cannot be expressed in the design. It stays in the copy of the file."
 NOTHING_UNDERSTOOD = "The design cannot express these edits. They stay in the copy of the file."
-EDITED_OUTSIDE_REGIONS = "Edited outside its regions. Generate shows what the design can take over."
-EDIT_WAS_UNDONE = "The edit was taken over and undone."
+EDITED_OUTSIDE_REGIONS = "Edited outside regions. Generate lists the edits that the design can express."
+EDIT_WAS_UNDONE = "The edit was applied and undone."
 RESOLVED = "Applied"
 RECOVERY_TITLE = "Recover unsaved changes?"
 RECOVERY_REASON = "The editor stopped before these changes were saved."
@@ -232,28 +232,28 @@ def not_sandboxed(problem: str) -> str:
 
 
 def edits_before_simulation(waiting: int, problem: str, file: str) -> str:
-    """Why code with edits that the design lacks is not simulated."""
+    """Why code with edits missing from the design is not simulated."""
     if waiting:
-        return f"The generated code contains {pluralize(waiting, 'edit')} that the design lacks. Resolve, then restart."
+        return f"The design lacks {pluralize(waiting, 'edit')} of the generated code. Resolve, then restart."
     if problem:
         return f"The generated code cannot be compared with the design: {problem}"
-    return f"{file} was edited outside its regions. Generate shows what the design can take over; then restart."
+    return f"{file} was edited outside regions. Generate lists the edits that the design can express; then restart."
 
 
 def edited_files(names: Sequence[str]) -> str:
     return f"Edited by hand: {', '.join(names)}. 'Overwrite' keeps a copy as NAME.edited."
 
 
-def taken_over(name: str, component: str) -> str:
-    return f"{name}: {component} takes the edit over"
+def applied_to(name: str, component: str) -> str:
+    return f"{name}: the edit is applied to {component}"
 
 
 def edited_outside_regions(name: str, *, known: bool) -> str:
-    return f"{name} {'was' if known else 'may have been'} edited outside its regions"
+    return f"{name} {'was' if known else 'may have been'} edited outside regions"
 
 
-def take_over_words(number: int) -> str:
-    return f"Take {pluralize(number, 'edit')} over into the design"
+def apply_edits_label(number: int) -> str:
+    return f"Apply {pluralize(number, 'edit')} to the design"
 
 
 def opens_with(name: str) -> str:

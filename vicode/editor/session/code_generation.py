@@ -15,8 +15,8 @@ from vicode.sync import (
     GeneratedHistory,
     GenerationInput,
     GenerationPlan,
+    RecordedEdit,
     RegionKey,
-    TakenEdit,
     back_up,
     describe_edits,
     plan_generation,
@@ -38,19 +38,19 @@ class GenerationResult:
 class GenerationRequest:
     """A project with its source files and parse findings, both by component.
 
-    `taken` are the edits of generated files that designs contain already.
+    `applied` are the edits of generated files that designs contain already.
     """
 
     project: Project
     source_paths: Mapping[str, str]
     parse_findings: Mapping[str, tuple[Finding, ...]]
-    taken: Mapping[RegionKey, TakenEdit | None]
+    applied: Mapping[RegionKey, RecordedEdit | None]
     project_folder: Path
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FileReading:
-    """The edits outside of the regions of a file, read back as edits of its design.
+    """The edits outside regions of a file, read back as edits of its design.
 
     `base` is the design that the file was compared with, `leftover` what was not understood, as a patch.
     """
@@ -67,7 +67,7 @@ class PendingOutput:
     """The files that Generate would write to a folder.
 
     `error` is why nothing can be generated; `skipped` why some languages are left out; `manual_edits` are the edits in
-    the files on disk, by path, and `readings` those outside of regions as edits of designs.
+    the files on disk, by path, and `readings` those outside regions as edits of designs.
     """
 
     folder: Path
@@ -121,7 +121,7 @@ def prepare_output(folder: Path, job: GenerationRequest, component: str) -> Pend
             ),
             kept_paths=list_outputs(project),
             history=history,
-            taken=job.taken,
+            applied=job.applied,
         )
     )
     skipped = [language for language in languages if language not in sound]

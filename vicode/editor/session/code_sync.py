@@ -1,4 +1,4 @@
-"""Takes edits of generated code by other programs over into open designs, and writes down what was taken over."""
+"""Applies edits of generated code by other programs to open designs, and records the applied edits."""
 
 import contextlib
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
@@ -18,17 +18,17 @@ from vicode.model.project import Project
 from vicode.output import FileDiff, FileStatus
 from vicode.regions import find_regions, get_comment_prefix, is_edited
 from vicode.sync import (
-    AdoptedEdit,
+    AppliedEdit,
     FileEdits,
     GeneratedHistory,
+    RecordedEdit,
     RegionKey,
-    TakenEdit,
-    adopt_regions,
+    apply_regions,
     describe_conflict,
     find_file_edits,
     find_new_errors,
-    read_taken,
-    record_taken,
+    read_applied,
+    record_applied,
     set_code,
 )
 
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 _RESOLVE = "choose a text with 'Resolve…' in the header"
-_FIX_IN_FILE = "fix it in the file; the design takes it over then"
+_FIX_IN_FILE = "fix it in the file; then it is applied to the design"
 
 
 class OutdatedChoiceError(Exception):
@@ -61,22 +61,22 @@ class GeneratedPaths:
 
 
 def follow_generated_files(workspace: "Workspace") -> None:
-    """Take in the edits of the generated files of all open designs that have changed."""
+    """Apply the edits of the generated files of all open designs that have changed."""
     for document in workspace.documents:
         outside = document.shared.outside
         files = [
             workspace.output_folder / path
             for path in workspace.generated_paths.find(workspace, document.design.component)
         ]
-        # What could not be taken in may be after a change of the design.
+        # What could not be applied may be after a change of the design.
         seen = (tuple(map(file_signature, files)), document.rev if outside.is_open else 0)
         if seen != outside.seen:
             outside.seen = seen
-            take_in(workspace, document)
+            apply_edits(workspace, document)
 
 
-def take_in(workspace: "Workspace", document: DocumentSession) -> None:
-    """Take the edits in the generated files of a design in, as one edit; conflicts and invalid code wait for a user."""
+def apply_edits(workspace: "Workspace", document: DocumentSession) -> None:
+    """Apply the edits of the generated files of a design, as one edit; conflicts and invalid code wait for a user."""
     outside = document.shared.outside
     before = (outside.waiting, outside.problems)
     try:
@@ -89,10 +89,8 @@ def take_in(workspace: "Workspace", document: DocumentSession) -> None:
     new = [edit for edit in edits if edit.finding is None and edit.version not in outside.offered]
     outside.offered |= {edit.version for edit in new}
     merged = [(edit, edit.region.merged or "") for edit in new]
-    if new and _apply(document, merged, f"edited outside: {_listed(new)}", _only_user(document)):
-        outside.announce(
-            f"Edited outside, in {PurePath(new[0].file.path).name}: {_listed(new)}", document.history.current_id
-        )
+    if new and _apply(document, merged, f"edit of generated code: {_listed(new)}", _only_user(document)):
+        outside.announce(f"Applied from {PurePath(new[0].file.path).name}: {_listed(new)}", document.history.current_id)
         edits = tuple(edit for edit in edits if edit not in new)
     outside.waiting = edits
     outside.problems = tuple(each for file in files for each in file.problems)
@@ -103,7 +101,7 @@ def take_in(workspace: "Workspace", document: DocumentSession) -> None:
 
 
 def find_lacking(workspace: "Workspace", component: str) -> tuple[DocumentSession, ...]:
-    """Take in the edits of the generated code of a design and of all it uses, which are opened if they have edits.
+    """Apply the edits of the generated code of a design and of all it uses, which are opened if they have edits.
 
     Returns:
         The designs that still lack edits.
@@ -132,21 +130,26 @@ def resolve(workspace: "Workspace", document: DocumentSession, choices: Mapping[
         OutdatedChoiceError: The file or the design has changed since; nothing is changed.
     """
     outside = document.shared.outside
-    take_in(workspace, document)
+    apply_edits(workspace, document)
     current = {_shown_version(edit): edit for edit in outside.waiting}
     if any(_shown_version(edit) not in current for edit in choices):
         raise OutdatedChoiceError
     chosen = [(current[_shown_version(edit)], text) for edit, text in choices.items()]
     outside.record((edit for edit, text in chosen if text is None), 0)
-    taken = [(edit, text) for edit, text in chosen if text is not None]
-    if taken:
-        _apply(document, taken, f"resolve edits outside: {_listed(edit for edit, _text in taken)}", document.user_id)
-    take_in(workspace, document)
+    applied = [(edit, text) for edit, text in chosen if text is not None]
+    if applied:
+        _apply(
+            document,
+            applied,
+            f"resolve generated code: {_listed(edit for edit, _text in applied)}",
+            document.user_id,
+        )
+    apply_edits(workspace, document)
     if document.is_saved:
         save_records(workspace, document)
 
 
-def take_over_design(document: DocumentSession, base: Design, design: Design, words: Sequence[str]) -> bool:
+def apply_to_design(document: DocumentSession, base: Design, design: Design, words: Sequence[str]) -> bool:
     """Merge a design that was read back from a generated file; return False on a conflict with the open one.
 
     Args:
@@ -158,25 +161,25 @@ def take_over_design(document: DocumentSession, base: Design, design: Design, wo
     merged = merge_designs(base, document.design, design)
     if merged.conflicts:
         return False
-    document.edit(f"edited outside: {_shortened(words)}", lambda _design: merged.design)
+    document.edit(f"edit of generated code: {_shortened(words)}", lambda _design: merged.design)
     return True
 
 
 def save_records(workspace: "Workspace", document: DocumentSession) -> None:
     """Write down which edits the saved design contains, for later runs of vicode."""
-    changes = document.shared.outside.taken_in(document.history)
+    changes = document.shared.outside.applied_edits(document.history)
     if changes and workspace.output_folder.is_dir():
         # Without the records, vicode asks about these edits again.
         with contextlib.suppress(OSError):
-            record_taken(workspace.output_folder, changes)
+            record_applied(workspace.output_folder, changes)
 
 
-def taken_in(workspace: "Workspace") -> dict[RegionKey, TakenEdit | None]:
+def applied_edits(workspace: "Workspace") -> dict[RegionKey, RecordedEdit | None]:
     """The edits of generated files that open designs contain; None for those that they lost again."""
     return {
-        key: taken
+        key: applied
         for document in workspace.documents
-        for key, taken in document.shared.outside.taken_in(document.history).items()
+        for key, applied in document.shared.outside.applied_edits(document.history).items()
     }
 
 
@@ -185,7 +188,7 @@ def _shown_version(edit: OutsideEdit) -> Hashable:
 
 
 def _tell_problem(document: DocumentSession, waiting: Sequence[OutsideEdit], problems: Sequence[Finding]) -> None:
-    """Announce the first new edit that could not be taken in."""
+    """Announce the first new edit that could not be applied."""
     outside = document.shared.outside
     known = {edit.version for edit in waiting if edit.finding is not None}
     findings = [edit.finding for edit in outside.waiting if edit.finding is not None and edit.version not in known]
@@ -200,7 +203,7 @@ def _located(finding: Finding) -> str:
 
 
 def _only_user(document: DocumentSession) -> str:
-    """The only user of a design, who can undo what is taken in like an own edit."""
+    """The only user of a design, who can undo an applied edit like an own edit."""
     users = {presence.user.id for presence in document.shared.presence.presences}
     return users.pop() if len(users) == 1 else DISK_USER
 
@@ -231,7 +234,7 @@ def _find_edits(workspace: "Workspace", document: DocumentSession) -> Iterator[F
         UnsoundDesignError: The design has errors.
     """
     project, folder, design = workspace.project, workspace.output_folder, document.design
-    taken = {**read_taken(folder), **taken_in(workspace)}
+    applied = {**read_applied(folder), **applied_edits(workspace)}
     for path in workspace.generated_paths.find(workspace, design.component):
         old, language = _read(folder / path), path.partition("/")[0]
         if not _has_marks(old):
@@ -241,20 +244,20 @@ def _find_edits(workspace: "Workspace", document: DocumentSession) -> Iterator[F
             raise UnsoundDesignError(design.component)
         difference = FileDiff(path=path, status=FileStatus.CHANGED, old=old, new=code.file.text)
         history = GeneratedHistory(folder=folder)
-        yield from find_file_edits([difference], [code.file], history, taken=taken, display_folder=folder.name)
+        yield from find_file_edits([difference], [code.file], history, applied=applied, display_folder=folder.name)
 
 
 def _list_edits(project: Project, files: Sequence[FileEdits], folder: str) -> Iterator[OutsideEdit]:
-    """The edits of regions with their paths; those with a finding cannot be taken in as they are."""
-    adoption = adopt_regions(project, files)
-    designs = (adoption.designs.get(design.component, design) for design in project.designs)
+    """The edits of regions with their paths; those with a finding cannot be applied as they are."""
+    outcome = apply_regions(project, files)
+    designs = (outcome.designs.get(design.component, design) for design in project.designs)
     changed = replace(project, designs=tuple(designs))
-    errors = tuple(find_new_errors(project, changed, adoption.adopted, folder))
-    for each in adoption.adopted:
+    errors = tuple(find_new_errors(project, changed, outcome.applied, folder))
+    for each in outcome.applied:
         error = next((error for error in errors if _is_at(error, each.path)), None)
-        finding = _not_taken_over(error, each) if error else None
+        finding = _not_applied(error, each) if error else None
         yield OutsideEdit(file=each.file, region=each.region, path=each.path, finding=finding)
-    for file, region, path in adoption.conflicts:
+    for file, region, path in outcome.conflicts:
         finding = replace(
             describe_conflict(file, region, path, folder),
             fix=_RESOLVE,
@@ -268,11 +271,11 @@ def _is_at(finding: Finding, path: DesignPath) -> bool:
     return finding.subject is not None and finding.subject.path[: len(path)] == path
 
 
-def _not_taken_over(error: Finding, edit: AdoptedEdit) -> Finding:
+def _not_applied(error: Finding, edit: AppliedEdit) -> Finding:
     subject = FindingSubject(component=edit.file.component, path=edit.path)
     return replace(
         error,
-        message=f"an edit of the generated code is not taken over: {error.message}",
+        message=f"an edit of the generated code is not applied: {error.message}",
         fix=_FIX_IN_FILE,
         subject=subject,
     )

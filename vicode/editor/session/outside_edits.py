@@ -1,4 +1,4 @@
-"""Edits of a design's generated code by other programs: what was taken in, and what waits for a user."""
+"""Edits of a design's generated code by other programs: which were applied, and what waits for a user."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -7,18 +7,18 @@ from vicode.editor.session.history import UndoHistory
 from vicode.editor.session.item_paths import TrackedItem
 from vicode.editor.view import ItemRef, parse_transition_key
 from vicode.findings import DesignPath, Finding
-from vicode.sync import FileEdits, RegionEdit, RegionKey, TakenEdit
+from vicode.sync import FileEdits, RecordedEdit, RegionEdit, RegionKey
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OutsideEdit:
-    """An edit of a region that the design lacks.
+    """An edit of a region that is missing from the design.
 
     Attributes:
         file: The generated file.
         region: The edited region.
         path: Its code in the design, () if the design has no such code any more.
-        finding: Why it was not taken in, None if a user has undone it.
+        finding: Why it was not applied, None if a user has undone it.
     """
 
     file: FileEdits
@@ -42,8 +42,8 @@ class OutsideEdit:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TakeOverNotice:
-    """An announcement of an edit that was taken in; `entry_id` is its entry in the undo history, 0 for none."""
+class AppliedNotice:
+    """An announcement of an applied edit; `entry_id` is its entry in the undo history, 0 for none."""
 
     text: str = ""
     entry_id: int = 0
@@ -55,12 +55,12 @@ class OutsideEdits:
     """The edits of the generated code of one open design.
 
     Attributes:
-        waiting: The edits that the design lacks.
+        waiting: The edits missing from the design.
         problems: Errors in the generated files, such as broken marks.
-        edited_outside: Files with edits outside of regions, which are read back by Generate.
+        edited_outside: Files with edits outside regions, which are read back by Generate.
         is_postponed: Whether the design has errors, so that edits cannot be found.
         notice: The last announcement.
-        offered: The versions of edits that were taken in once; after an undo they wait for a user.
+        offered: The versions of edits that were applied once; after an undo they wait for a user.
         seen: The files and the design at the last comparison.
     """
 
@@ -68,10 +68,10 @@ class OutsideEdits:
     problems: tuple[Finding, ...] = ()
     edited_outside: tuple[FileEdits, ...] = ()
     is_postponed: bool = False
-    notice: TakeOverNotice = field(default_factory=TakeOverNotice)
+    notice: AppliedNotice = field(default_factory=AppliedNotice)
     offered: set[tuple[str, str, str, str]] = field(default_factory=set)
     seen: object = None
-    _taken: dict[RegionKey, tuple[TakenEdit, int]] = field(default_factory=dict)
+    _taken: dict[RegionKey, tuple[RecordedEdit, int]] = field(default_factory=dict)
     _marked: tuple[tuple[TrackedItem, int], ...] = ()
 
     @property
@@ -101,7 +101,7 @@ class OutsideEdits:
         )
 
     def announce(self, text: str, entry_id: int) -> None:
-        self.notice = TakeOverNotice(text=text, entry_id=entry_id, number=self.notice.number + 1)
+        self.notice = AppliedNotice(text=text, entry_id=entry_id, number=self.notice.number + 1)
 
     def mark(self, items: Iterable[TrackedItem], entry_id: int) -> None:
         self._marked = (*self._marked, *((item, entry_id) for item in items))
@@ -117,14 +117,14 @@ class OutsideEdits:
         """Record edits that the design contains since an entry of its history; with 0, that a user refused them."""
         for edit in edits:
             region = edit.region
-            taken = TakenEdit(
+            applied = RecordedEdit(
                 checksum=region.checksum,
                 file_text=region.file_text,
                 design_text=region.design_text if entry_id else None,
             )
-            self._taken[edit.key] = (taken, entry_id)
+            self._taken[edit.key] = (applied, entry_id)
 
-    def taken_in(self, history: UndoHistory) -> Mapping[RegionKey, TakenEdit | None]:
+    def applied_edits(self, history: UndoHistory) -> Mapping[RegionKey, RecordedEdit | None]:
         """The edits that the current design contains; None for those that were undone."""
         done = history.done_ids
 
@@ -132,7 +132,7 @@ class OutsideEdits:
             # The oldest entries are dropped.
             return not entry_id or entry_id in done or entry_id not in history.entries
 
-        return {key: taken if is_done(entry_id) else None for key, (taken, entry_id) in self._taken.items()}
+        return {key: applied if is_done(entry_id) else None for key, (applied, entry_id) in self._taken.items()}
 
 
 def _owner(path: DesignPath) -> ItemRef:

@@ -282,7 +282,7 @@ class Workspace:
             project=replace(self.project, designs=designs),
             source_paths=self.source_paths,
             parse_findings=self._parse_findings | findings,
-            taken=code_sync.taken_in(self),
+            applied=code_sync.applied_edits(self),
             project_folder=self.folder,
         )
         return code_generation.prepare_output(self.output_folder, job, document.design.component)

@@ -1,4 +1,4 @@
-"""Reads edits outside of the regions of a generated Python file back as edits of its design."""
+"""Reads edits outside regions of a generated Python file back as edits of its design."""
 
 from vicode.sync.interpret.interpretation import Interpretation, InterpretedEdit, interpret_edits
 

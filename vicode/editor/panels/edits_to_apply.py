@@ -1,4 +1,4 @@
-"""Edits of generated files in the Generate dialog: which of them the designs take over, and what remains."""
+"""Edits of generated files in the Generate dialog: those that are applied to the designs, and the rest."""
 
 from pathlib import PurePath
 
@@ -9,12 +9,12 @@ from vicode.editor.panels.code_choices import CodeChoices
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DiskConflictError, DocumentSession
 from vicode.editor.session.code_generation import FileReading, PendingOutput
-from vicode.editor.session.code_sync import take_over_design
+from vicode.editor.session.code_sync import apply_to_design
 from vicode.editor.session.descriptions import error_reason
 
 
-class EditsToTakeOver:
-    """The list of edits; regions that need no choice are taken over as they are."""
+class EditsToApply:
+    """The list of edits; regions that need no choice are applied as they are."""
 
     def __init__(self, context: WindowContext, prepared: PendingOutput) -> None:
         self._context = context
@@ -25,12 +25,12 @@ class EditsToTakeOver:
         self._documents = [document for document in opened if document is not None]
         self._readings: list[tuple[FileReading, ui.checkbox]] = []
         ui.label(texts.edited_files([PurePath(file.path).name for file in edits])).classes("conflict-place")
-        with ui.column().classes("conflict-list take-over"):
+        with ui.column().classes("conflict-list edits-to-apply"):
             waiting = {edit.version[:2] for document in self._documents for edit in document.shared.outside.waiting}
             for file in edits:
                 for region in file.regions:
                     if (file.path, region.id) not in waiting:
-                        ui.label(texts.taken_over(region.target or region.id, file.component)).classes("small")
+                        ui.label(texts.applied_to(region.target or region.id, file.component)).classes("small")
                 for problem in file.problems:
                     ui.label(f"{file.path}: {problem.message}").classes("field-finding")
             self._choices = CodeChoices(context, self._documents, self._show_choice)
@@ -38,7 +38,7 @@ class EditsToTakeOver:
                 self._add_reading(reading)
 
     def enable(self, button: ui.button) -> None:
-        """Enable a button while there is something to take over, and each choice is made."""
+        """Enable a button while there is something to apply, and each choice is made."""
         self._button = button
         self._show_choice()
 
@@ -53,13 +53,13 @@ class EditsToTakeOver:
         read = {reading.file.path for reading, box in self._readings if box.value and not reading.leftover}
         return any(file.problems or (file.is_edited_outside and file.path not in read) for file in self._edits)
 
-    def take_over(self) -> bool:
+    def apply(self) -> bool:
         """Edit the designs and save them; return whether that worked."""
         if not self._choices.apply():
             return False
         for reading, box in self._readings:
             document = self._document_of(reading.file.component)
-            if box.value and not take_over_design(document, reading.base, reading.design, reading.words):
+            if box.value and not apply_to_design(document, reading.base, reading.design, reading.words):
                 self._context.show_toast(texts.DESIGN_CHANGED_GENERATE_AGAIN, "warning")
                 return False
         return all(map(self._save, self._documents))
@@ -68,12 +68,12 @@ class EditsToTakeOver:
         name = PurePath(reading.file.path).name
         ui.label(texts.edited_outside_regions(name, known=reading.file.is_origin_known)).classes("conflict-place")
         if reading.words:
-            label = texts.take_over_words(len(reading.words))
+            label = texts.apply_edits_label(len(reading.words))
             # Without a base, changes of the design look like edits that revert them.
             is_certain = reading.file.is_origin_known
             box = ui.checkbox(label, value=is_certain, on_change=self._show_choice).props("dense")
             self._readings.append((reading, box))
-            with ui.element("ul").classes("take-over-words"):
+            with ui.element("ul").classes("edits-to-apply-words"):
                 for words in reading.words:
                     with ui.element("li"):
                         ui.label(words)

@@ -1,4 +1,4 @@
-"""Takes edits of regions over into designs."""
+"""Applies edits of regions to designs."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -18,7 +18,7 @@ Side = Literal["file", "design"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AdoptedEdit:
+class AppliedEdit:
     """An edit of a region that a design now contains."""
 
     file: FileEdits
@@ -27,16 +27,16 @@ class AdoptedEdit:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Adoption:
-    """The designs with the edits, by component, and the edits that they could not take over."""
+class AppliedEdits:
+    """The designs with the edits, by component, and the edits that could not be applied."""
 
     designs: Mapping[str, Design]
-    adopted: tuple[AdoptedEdit, ...]
+    applied: tuple[AppliedEdit, ...]
     conflicts: tuple[tuple[FileEdits, RegionEdit, DesignPath], ...]
 
 
-def adopt_regions(project: Project, files: Iterable[FileEdits], take: Side | None = None) -> Adoption:
-    """Take all edits of regions over into the designs of a project.
+def apply_regions(project: Project, files: Iterable[FileEdits], take: Side | None = None) -> AppliedEdits:
+    """Apply all edits of regions to the designs of a project.
 
     Args:
         project: The project, of which the generated texts of `files` were made.
@@ -45,7 +45,7 @@ def adopt_regions(project: Project, files: Iterable[FileEdits], take: Side | Non
     """
     designs = {design.component: design for design in project.designs}
     changed: dict[str, Design] = {}
-    adopted: list[AdoptedEdit] = []
+    applied: list[AppliedEdit] = []
     conflicts: list[tuple[FileEdits, RegionEdit, DesignPath]] = []
     for file in files:
         # A file that no design generates any more has no component.
@@ -60,8 +60,8 @@ def adopt_regions(project: Project, files: Iterable[FileEdits], take: Side | Non
                 path = paths[region.target]
                 design = changed.get(file.component, designs[file.component])
                 changed[file.component] = set_code(design, path, file.language, text.strip("\n") or "pass")
-                adopted.append(AdoptedEdit(file=file, region=region, path=path))
-    return Adoption(designs=changed, adopted=tuple(adopted), conflicts=tuple(conflicts))
+                applied.append(AppliedEdit(file=file, region=region, path=path))
+    return AppliedEdits(designs=changed, applied=tuple(applied), conflicts=tuple(conflicts))
 
 
 def _choose(region: RegionEdit, take: Side | None) -> str | None:

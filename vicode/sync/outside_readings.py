@@ -1,4 +1,4 @@
-"""Reads edits of generated statements back as edits of designs."""
+"""Reads edits outside regions back as edits of designs."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -11,8 +11,8 @@ from vicode.sync.outside_edits import rebase_outside_edits
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class StatementEdits:
-    """The edits of generated statements in one file; `leftover` is a patch of what has no meaning in the design."""
+class OutsideReading:
+    """The edits outside regions of one file; `leftover` is a patch of what the design cannot express."""
 
     file: FileEdits
     edits: tuple[InterpretedEdit, ...]
@@ -21,8 +21,8 @@ class StatementEdits:
 
 def interpret_files(
     project: Project, files: Iterable[FileEdits], texts: Mapping[str, str], history: History
-) -> tuple[dict[str, Design], tuple[StatementEdits, ...]]:
-    """Interpret all files with edits outside of their regions.
+) -> tuple[dict[str, Design], tuple[OutsideReading, ...]]:
+    """Interpret all files with edits outside regions.
 
     Args:
         project: The project.
@@ -34,17 +34,17 @@ def interpret_files(
         The changed designs by component, and the edits.
     """
     designs: dict[str, Design] = {}
-    found: list[StatementEdits] = []
+    found: list[OutsideReading] = []
     for file in files:
         generated = texts.get(file.path)
         if not file.is_edited_outside or generated is None:
             continue
         edited = rebase_outside_edits(replace(file, new=generated), next(iter(history(file.path)), None))
         if edited is None or not (file.component and file.language == "python"):
-            found.append(StatementEdits(file=file, edits=(), leftover=""))
+            found.append(OutsideReading(file=file, edits=(), leftover=""))
             continue
         result = interpret_edits(project, file.component, generated=generated, edited=edited, file=file.path)
-        found.append(StatementEdits(file=file, edits=result.edits, leftover=result.leftover))
+        found.append(OutsideReading(file=file, edits=result.edits, leftover=result.leftover))
         if result.edits:
             designs[file.component] = result.design
             project = replace(

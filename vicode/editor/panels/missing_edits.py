@@ -1,4 +1,4 @@
-"""The list of edits in the generated files that the open design lacks, above the generated code."""
+"""The list of edits in generated files that are missing from the open design, above the generated code."""
 
 from pathlib import PurePath
 
@@ -15,13 +15,15 @@ from vicode.editor.session.outside_edits import OutsideEdit
 from vicode.sync import FileEdits
 
 
-class LackingEdits:
-    """One row per edited region, and one per file that was edited outside of regions."""
+class MissingEdits:
+    """One row per edited region, and one per file that was edited outside regions."""
 
     def __init__(self, context: WindowContext) -> None:
         self._context = context
         self._shown: object = None
-        self._list = ui.column().classes("lacking-edits").props('role="list" aria-label="Edits that the design lacks"')
+        self._list = (
+            ui.column().classes("missing-edits").props('role="list" aria-label="Edits missing from the design"')
+        )
         self._list.set_visibility(False)
 
     def refresh(self) -> bool:
@@ -42,11 +44,11 @@ class LackingEdits:
 
     def _add_region(self, edit: OutsideEdit) -> None:
         region = edit.region
-        with ui.element("div").classes("lacking-edit").props('role="listitem"'):
+        with ui.element("div").classes("missing-edit").props('role="listitem"'):
             ui.label(edit.name).classes("mono")
             ui.label(f"{PurePath(edit.file.path).name}, line {region.line}. {reason_of(edit)}").classes("small")
             with ui.row().classes("row-buttons"):
-                _button("Take over", f"Take over {edit.name}", lambda: self._take_over(edit))
+                _button("Apply", f"Apply {edit.name}", lambda: self._apply(edit))
                 _button(
                     "Show difference",
                     f"Show difference of {edit.name}",
@@ -55,7 +57,7 @@ class LackingEdits:
 
     def _add_file(self, file: FileEdits) -> None:
         name = PurePath(file.path).name
-        with ui.element("div").classes("lacking-edit").props('role="listitem"'):
+        with ui.element("div").classes("missing-edit").props('role="listitem"'):
             ui.label(name).classes("mono")
             ui.label(texts.EDITED_OUTSIDE_REGIONS).classes("small")
             with ui.row().classes("row-buttons"):
@@ -65,8 +67,8 @@ class LackingEdits:
                     lambda: _show_difference(name, file.old, file.new or ""),
                 )
 
-    def _take_over(self, edit: OutsideEdit) -> None:
-        """Take an edit over that a user had undone; ask about another one."""
+    def _apply(self, edit: OutsideEdit) -> None:
+        """Apply an edit that a user had undone; ask about another one."""
         if edit.finding is not None or edit.region.merged is None:
             ask_to_resolve_code(self._context)
             return

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from vicode.transactions import STATE_FOLDER, replace_files
 
-TAKEN_FILE = f"{STATE_FOLDER}/taken.json"
+APPLIED_FILE = f"{STATE_FOLDER}/applied.json"
 """The file with the records, relative to the folder of generated files."""
 
 RegionKey = tuple[str, str]
@@ -19,7 +19,7 @@ RegionKey = tuple[str, str]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TakenEdit:
+class RecordedEdit:
     """An edit of a region that the design contains, or that a user decided against.
 
     Attributes:
@@ -33,38 +33,38 @@ class TakenEdit:
     design_text: str | None
 
 
-def read_taken(folder: Path) -> dict[RegionKey, TakenEdit]:
+def read_applied(folder: Path) -> dict[RegionKey, RecordedEdit]:
     """Read the records of a folder of generated files; empty if there are none or they cannot be read."""
     try:
-        rows = json.loads((folder / TAKEN_FILE).read_text("utf-8"))
+        rows = json.loads((folder / APPLIED_FILE).read_text("utf-8"))
         return {(str(path), str(region)): _read_edit(**record) for path, region, record in rows}
     except (OSError, ValueError, TypeError):
         return {}
 
 
-def _read_edit(*, checksum: object, file_text: object, design_text: object) -> TakenEdit:
+def _read_edit(*, checksum: object, file_text: object, design_text: object) -> RecordedEdit:
     before = None if design_text is None else str(design_text)
-    return TakenEdit(checksum=str(checksum), file_text=str(file_text), design_text=before)
+    return RecordedEdit(checksum=str(checksum), file_text=str(file_text), design_text=before)
 
 
-def format_taken(taken: Mapping[RegionKey, TakenEdit]) -> str:
-    return json.dumps([[*key, asdict(edit)] for key, edit in sorted(taken.items())], indent=1) + "\n"
+def format_applied(applied: Mapping[RegionKey, RecordedEdit]) -> str:
+    return json.dumps([[*key, asdict(edit)] for key, edit in sorted(applied.items())], indent=1) + "\n"
 
 
-def without_paths(taken: Mapping[RegionKey, TakenEdit], paths: Iterable[str]) -> dict[RegionKey, TakenEdit]:
+def without_paths(applied: Mapping[RegionKey, RecordedEdit], paths: Iterable[str]) -> dict[RegionKey, RecordedEdit]:
     """The records of other files."""
     dropped = set(paths)
-    return {key: edit for key, edit in taken.items() if key[0] not in dropped}
+    return {key: edit for key, edit in applied.items() if key[0] not in dropped}
 
 
-def record_taken(folder: Path, changes: Mapping[RegionKey, TakenEdit | None]) -> None:
+def record_applied(folder: Path, changes: Mapping[RegionKey, RecordedEdit | None]) -> None:
     """Change the records of a folder of generated files; None removes a record.
 
     Raises:
         OSError: The records cannot be written.
     """
-    before = read_taken(folder)
+    before = read_applied(folder)
     changed = {**before, **changes}
     now = {key: edit for key, edit in changed.items() if edit is not None}
     if now != before:
-        replace_files(folder, {TAKEN_FILE: format_taken(now)})
+        replace_files(folder, {APPLIED_FILE: format_applied(now)})
