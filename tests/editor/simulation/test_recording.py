@@ -3,6 +3,8 @@
 import math
 from xml.etree import ElementTree as ET
 
+import pytest
+
 from vicode.editor.session.simulation import Recording
 from vicode.editor.view.activation import activation_rows
 from vicode.editor.view.plot import PlotSeries, band_labels, render_plot, state_runs
@@ -89,3 +91,18 @@ def test_the_activation_tree_is_indented() -> None:
         (2, "requires", "Eye"),
     ]
     assert rows[2].detail == "speed 2"
+
+
+def test_a_full_recording_loses_its_older_half(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("vicode.editor.session.simulation.recording.MAX_ITERATIONS", 4)
+    recording = recorded("Dark", "Dark", "Lit", "Lit")
+    recording.make_room()
+    recording.make_room()
+    recording.add(moment(5, "Off", turns=5), {})
+    assert recording.dropped == 2
+    assert recording.states == ["Lit", "Lit", "Off"]
+    assert list(recording.column("Lamp.turns")) == [3, 4, 5]
+    assert recording.inputs_at(1) == {"Eye": {"light": 3}}
+    last = recording.iteration(3)
+    assert last is not None
+    assert last.iteration == 5

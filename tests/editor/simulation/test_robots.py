@@ -156,6 +156,31 @@ def test_it_attaches_again_after_the_robot_was_restarted(folder: Path) -> None:
         attach(program, act)
 
 
+def test_the_last_window_that_leaves_ends_the_connection(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("vicode.editor.session.robots._LEAVE_DELAY_S", 0.0)
+
+    async def act(link: RobotLink) -> None:
+        leave_first = link.changes.subscribe(lambda: None)
+        leave_second = link.changes.subscribe(lambda: None)
+        await first_iteration(link)
+        await link.request("pause")
+        leave_first()
+        link.leave()
+        await asyncio.sleep(0.05)
+        assert link.status is LinkStatus.CONNECTED
+        leave_second()
+        link.leave()
+        await until(link, lambda: link.status is LinkStatus.CONNECTING)
+        # The pause has ended with the connection.
+        iteration = program.root.iteration
+        await until(link, lambda: program.root.iteration > iteration + 2)
+        link.start()
+        await until(link, lambda: link.status is LinkStatus.CONNECTED)
+
+    with running_robot(folder) as program:
+        attach(program, act)
+
+
 def test_another_version_of_the_design_is_noticed(folder: Path) -> None:
     project, lamp = project_and_lamp(folder)
 

@@ -8,7 +8,8 @@ import pytest
 
 from tests.editor.simulation.lamp_project import prepare_lamp, recorded_iterations, simulate, write_lamps
 from vicode.bica.observer import TRACE_HEADER
-from vicode.editor.session.simulation import Simulation
+from vicode.editor.session.simulation import Recording, Simulation
+from vicode.editor.session.simulation.guard_values import evaluate_guards, latest_steps
 from vicode.editor.session.simulation.traces import input_script, read_iterations
 from vicode.model.design import Design
 from vicode.simulation.trace import TraceError
@@ -83,3 +84,32 @@ def test_a_trace_of_another_component_is_rejected(lamps: Path) -> None:
     record = {"iteration": 1, "time_ns": 0, "tree": [{"component": "Timer", "state": "Over"}]}
     with pytest.raises(TraceError, match="a trace of Timer, not of Lamp"):
         read_iterations(f"{json.dumps(TRACE_HEADER)}\n{json.dumps(record)}", lamp_of(lamps))
+
+
+def test_guards_of_a_trace_are_evaluated_as_in_the_run(lamps: Path) -> None:
+    recordings: list[Recording] = []
+
+    async def record(simulation: Simulation) -> None:
+        await simulation.step(4)
+        await simulation.set_input(("Eye", "seen"), True)
+        await simulation.step(6)
+        recordings.append(simulation.recording)
+
+    simulate(prepare_lamp(lamps), lamps, record)
+    (recording,) = recordings
+    project, lamp = open_project(lamps).project, lamp_of(lamps)
+    for number in range(1, len(recording) + 1):
+        iteration = recording.iteration(number)
+        assert iteration is not None
+        steps = latest_steps(recording, number, frozenset({"Eye", "Timer"}))
+        found = evaluate_guards(project, lamp, iteration, steps)
+        assert found.keys() == iteration.guards.keys()
+        for key, guard in found.items():
+            # Code and functions are not called, and `done` is only known of components that were stepped.
+            known = [
+                (a, b) for a, b in zip(guard["parts"], iteration.guards[key]["parts"], strict=True) if a is not None
+            ]
+            assert all(a == b for a, b in known), (key, guard, iteration.guards[key])
+        if iteration.state == "Dark":
+            assert [found[key]["holds"] for key in ("Dark/0", "Dark/1")] != [None, None]
+    assert {"Dark", "Lit"} <= set(recording.states)

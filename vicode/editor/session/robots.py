@@ -28,6 +28,7 @@ from vicode.simulation.robots import (
 
 _ANSWER_LIMIT_S = 5.0
 _FIRST_RETRY_S, _MAX_RETRY_S = 0.5, 5.0
+_LEAVE_DELAY_S = 2.0
 _MAX_SEEDED = 600
 _RATE_WINDOW = 60
 
@@ -200,6 +201,20 @@ class RobotLink:
         self.robots, self.followed, self.control = {}, "", False
         self.status, self.problem = LinkStatus.CLOSED, ""
         self.changes.notify()
+
+    def leave(self) -> None:
+        """Disconnect soon if no window is left, so that nothing stays paused or held; a new window connects again."""
+
+        def disconnect() -> None:
+            if not self.changes and self._task is not None:
+                self._task.cancel()
+                self._task = None
+                self._end_connection()
+                self.status = LinkStatus.CONNECTING
+
+        # A window that shows another design leaves and comes back.
+        with contextlib.suppress(RuntimeError):
+            asyncio.get_running_loop().call_later(_LEAVE_DELAY_S, disconnect)
 
     def follow(self, robot: str) -> None:
         if robot in self.robots and robot != self.followed:

@@ -22,6 +22,9 @@ class Subscribers(Generic[_P]):
 
         return unsubscribe
 
+    def __bool__(self) -> bool:
+        return bool(self._functions)
+
     def notify(self, *args: _P.args, **kwargs: _P.kwargs) -> None:
         for function in tuple(self._functions):
             function(*args, **kwargs)

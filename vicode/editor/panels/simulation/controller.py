@@ -40,6 +40,7 @@ SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 20.0)
 _PLAY_INTERVAL_S = 0.04
 _MAX_STEPS_PER_INTERVAL = 100
 _UNLIMITED = 1_000_000
+_USE_BREAKPOINT = "To stop a robot at a state, set a breakpoint on the state (F9)"
 
 
 class SimulationController:
@@ -92,14 +93,14 @@ class SimulationController:
 
     async def step_to_change(self) -> None:
         """Run until the state changes, a breakpoint is hit, or the recording is full."""
-        if self._asks_robot:
-            self.robot.toggle_pause()
+        if self.robot.is_shown:
+            self.context.show_toast(_USE_BREAKPOINT, "info")
             return
         await self._run(_UNLIMITED, self._stop_conditions(changes=True))
 
     async def run_to(self, state: str) -> None:
         if self.robot.is_shown:
-            self.context.show_toast("A robot is not run to a state: set a breakpoint on it", "info")
+            self.context.show_toast(_USE_BREAKPOINT, "info")
             return
         await self._run(_UNLIMITED, self._stop_conditions(also=state))
 

@@ -57,7 +57,7 @@ class RobotForm:
         try:
             self.view.attach(str(self.address.value or ""), str(self.token.value or ""))
         except AttachError as error:
-            ui.notify(str(error), type="warning")
+            self.view.context.show_toast(str(error), "warning")
 
 
 class _RobotCard:

@@ -8,7 +8,7 @@ from nicegui import ui
 from vicode.editor.panels.project.project_fields import write_project
 from vicode.editor.panels.simulation.inputs_form import input_controls, short_value
 from vicode.editor.panels.simulation.robot_view import RobotView
-from vicode.editor.panels.widgets import heading, icon_button
+from vicode.editor.panels.widgets import icon_button
 from vicode.editor.session.simulation import PARAMETERS, SimulationInput, collect_tunable
 from vicode.model.design import Declaration, Design
 from vicode.model.project import Project
@@ -34,7 +34,8 @@ class RobotTuning:
             self._rows = []
             if inputs:
                 with self.body:
-                    heading("Tuning")
+                    with ui.row().classes("heading inputs-heading"):
+                        ui.label("Tuning")
                     self._rows = [_TuningRow(self.view, each) for each in inputs]
         for row in self._rows:
             row.refresh()

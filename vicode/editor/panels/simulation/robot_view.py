@@ -15,6 +15,7 @@ from vicode.editor.view import ItemRef
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.simulation import IterationResult
+from vicode.simulation.robots import RobotDescription
 
 if TYPE_CHECKING:
     from vicode.editor.panels.simulation.controller import SimulationController
@@ -33,9 +34,12 @@ class RobotView:
         self.is_shown = False
         self.other_versions: tuple[str, ...] | None = ()
         """Components of which the robot runs another version; None if that is not known."""
-        self._compared: object = None
+        self._compared: tuple[Project, RobotDescription] | None = None
+        self._is_comparing = False
         self._seen: object = None
-        self.context.closings.subscribe(self.link.changes.subscribe(self._on_change))
+        unsubscribe = self.link.changes.subscribe(self._on_change)
+        self.context.closings.subscribe(unsubscribe)
+        self.context.closings.subscribe(self.link.leave)
         if self.link.is_open:
             self.show()
 
@@ -201,15 +205,19 @@ class RobotView:
     def _compare_versions(self, robot: WatchedRobot) -> None:
         """Compare the code of the robot with the designs, when either changes."""
         workspace = self.context.workspace
-        key = (workspace.project, robot.description)
-        if self._compared is not None and self._compared == (id(key[0]), id(key[1])):
+        project, description = workspace.project, robot.description
+        known = self._compared
+        if self._is_comparing or (known and known[0] is project and known[1] is description):
             return
-        self._compared = (id(key[0]), id(key[1]))
+        self._compared, self._is_comparing = (project, description), True
 
         async def compare() -> None:
-            self.other_versions = await run.io_bound(
-                find_other_versions, workspace.project, workspace.source_paths, robot.description
-            )
+            try:
+                self.other_versions = await run.io_bound(
+                    find_other_versions, project, workspace.source_paths, description
+                )
+            finally:
+                self._is_comparing = False
             self._controller.simulation_changed()
 
         self.context.run_in_background(compare(), "compare versions")
