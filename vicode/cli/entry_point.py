@@ -22,6 +22,7 @@ COMMANDS = (
     "run",
     "deploy",
     "replay",
+    "trace",
     "diff",
     "merge",
     "hook",

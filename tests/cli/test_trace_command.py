@@ -1,0 +1,66 @@
+"""vicode trace: the statistics of runs, and the differences of two."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.cli.command_runner import LAMP, lamps, vicode
+
+__all__ = ["lamps"]
+
+
+def record(name: str, seconds: float) -> None:
+    assert vicode("run", "lamps/lamp.yaml", "--seconds", str(seconds), "--trace", name) == 0
+
+
+def test_states_and_transitions_of_several_runs_are_counted(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (lamps / "lamp.yaml").write_text(LAMP + "  Off: {transitions: [{to: Dark}]}\n")
+    record("one", 1)
+    record("two", 0.5)
+    capsys.readouterr()
+    assert vicode("trace", "stats", "one", "two", "--design", "lamps", "--component", "Lamp", "--svg", "heat.svg") == 0
+    out = capsys.readouterr().out
+    assert out.startswith("2 runs, 1.46 s\n\nLamp\n")
+    rows = [line.split() for line in out.splitlines()]
+    assert [row[:2] for row in rows if row and row[0] in ("Dark", "Lit", "Off")][:3] == [
+        ["Lit", "5"],
+        ["Dark", "6"],
+        ["Off", "never"],
+    ]
+    assert ["Dark", "→", "Lit", "5"] in rows
+    assert ["Off", "→", "Dark", "never"] in rows
+    svg = Path("heat.svg").read_text()
+    assert set(re.findall(r">(\d× \d+%|\d×|never)<", svg)) >= {"5×", "4×", "never"}
+    assert "never entered" in svg
+
+
+def test_two_runs_are_compared(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    record("one", 1)
+    (lamps / "lamp.yaml").write_text(LAMP.replace("after: 0.2", "after: 0.3"))
+    record("two", 0.8)
+    capsys.readouterr()
+    assert vicode("trace", "diff", "one", "one") == 0
+    assert capsys.readouterr().out.endswith("same states for 0.98 s\n")
+    assert vicode("trace", "diff", "one", "two") == 1
+    out = capsys.readouterr().out
+    assert out.endswith("first difference: 0.300 s, Lamp: Dark in A, Lit in B\n")
+    assert re.search(r"^Lamp Lit +3 +0\.60 +2 +0\.58 +-0\.02$", out, re.MULTILINE), out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("stats", "one", "--svg", "x.svg"), "--svg draws on the diagram of a design; give it with --design"),
+        (("stats", "one", "--component", "Torch"), "no trace has states of Torch; known are Lamp, Bulb"),
+        (("stats", "lamps/lamp.yaml"), "lamps/lamp.yaml: line 1 is not JSON"),
+        (("diff", "one", "nowhere"), "nowhere"),
+    ],
+)
+def test_mistakes_are_reported(
+    lamps: Path, capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], message: str
+) -> None:
+    record("one", 0.4)
+    capsys.readouterr()
+    assert vicode("trace", *arguments) == 2
+    assert message in capsys.readouterr().err

@@ -1,0 +1,198 @@
+"""Statistics of traces, and the differences of two of them."""
+
+import argparse
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vicode.bica import options
+
+if TYPE_CHECKING:
+    from vicode.findings import DesignPath
+    from vicode.model.design import Design
+    from vicode.simulation.trace_statistics import RunHistory, StateStatistics
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the commands of `vicode trace`."""
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for name, add, act in (("stats", _add_stats, _stats), ("diff", _add_diff, _diff)):
+        summary = (act.__doc__ or "").split("\n")[0]
+        command = commands.add_parser(name, help=summary, description=summary)
+        add(command)
+        command.set_defaults(act=act)
+
+
+def run(args: argparse.Namespace) -> int:
+    act: Callable[[argparse.Namespace], int] = args.act
+    return act(args)
+
+
+def _add_stats(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("traces", metavar="TRACE", nargs="+", help="traces, or names of records of robots")
+    add("--design", metavar="PATH", help="design or folder: also list what was never entered or taken")
+    add("--component", metavar="NAME", help="only this component")
+    add("--svg", metavar="FILE", help="draw the numbers on the diagram of the design; needs --design")
+
+
+def _add_diff(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("first", metavar="A", help="a trace, or the name of a robot's record")
+    parser.add_argument("second", metavar="B", help="another one")
+    parser.add_argument(
+        "--tolerance",
+        type=options.seconds,
+        default=0.0,
+        metavar="S",
+        help="how long states may differ, in seconds (default: 0)",
+    )
+
+
+def _stats(args: argparse.Namespace) -> int:
+    """Count how often states and transitions occurred, and how long states were active."""
+    from vicode.simulation.trace_statistics import sum_states
+
+    if args.svg and not args.design:
+        raise OSError("--svg draws on the diagram of a design; give it with --design")
+    histories = [_read(path) for path in args.traces]
+    states = sum_states(histories)
+    transitions = sum((history.transitions for history in histories), Counter[tuple[str, str, str, str]]())
+    if args.component and args.component not in states:
+        raise OSError(f"no trace has states of {args.component}; known are {', '.join(states)}")
+    components = [args.component] if args.component else list(states)
+    designs = _find_designs(args.design, components) if args.design else {}
+    seconds = sum(history.duration_ns for history in histories) / 1e9
+    print(f"{len(histories)} run{'s' * (len(histories) != 1)}, {seconds:.2f} s")
+    for component in components:
+        own = {key[1:]: count for key, count in transitions.items() if key[0] == component}
+        _print_component(component, states[component], own, designs.get(component))
+    if args.svg:
+        _draw(args, components[0], states, transitions, designs)
+    return 0
+
+
+def _diff(args: argparse.Namespace) -> int:
+    """Compare the states of two runs by time."""
+    from vicode.simulation.trace_statistics import StateStatistics, find_difference, sum_states
+
+    first, second = _read(args.first), _read(args.second)
+    sums = sum_states([first]), sum_states([second])
+    names = sorted({(component, state) for each in sums for component, states in each.items() for state in states})
+    width = max((len(f"{component} {state}") for component, state in names), default=10)
+    print(f"{'':{width}}  {'A times':>8} {'A s':>10}  {'B times':>8} {'B s':>10}  {'B - A s':>10}")
+    for component, state in names:
+        a, b = (each.get(component, {}).get(state, StateStatistics()) for each in sums)
+        figures = f"{a.entries:8} {a.total_ns / 1e9:10.2f}  {b.entries:8} {b.total_ns / 1e9:10.2f}"
+        print(f"{f'{component} {state}':{width}}  {figures}  {(b.total_ns - a.total_ns) / 1e9:+10.2f}")
+    found = find_difference(first, second, round(args.tolerance * 1e9))
+    if found is None:
+        shorter = min(first.duration_ns, second.duration_ns) / 1e9
+        print(f"same states for {shorter:.2f} s")
+        return 0
+    states = f"{found.first or 'not active'} in A, {found.second or 'not active'} in B"
+    print(f"first difference: {found.time_ns / 1e9:.3f} s, {found.component}: {states}")
+    return 1
+
+
+def _read(path: str) -> "RunHistory":
+    from vicode.simulation.trace import TraceError, open_trace
+    from vicode.simulation.trace_statistics import read_history
+
+    try:
+        return read_history(open_trace(Path(path)).iterations())
+    except TraceError as error:
+        raise OSError(f"{path}: {error}") from error
+
+
+def _find_designs(path: str, components: Sequence[str]) -> "dict[str, Design]":
+    from vicode.cli.project_loader import load_projects
+
+    found: dict[str, Design] = {}
+    for opened in load_projects([path]):
+        project = opened.open_project.project
+        found |= {each.component: each for each in project.designs if each.component in components}
+    if not found:
+        raise OSError(f"{path} has no design of {', '.join(components)}")
+    return found
+
+
+def _print_component(
+    component: str,
+    states: "dict[str, StateStatistics]",
+    transitions: dict[tuple[str, str, str], int],
+    design: "Design | None",
+) -> None:
+    whole_ns = sum(each.total_ns for each in states.values()) or 1
+    ends: Counter[str] = Counter()
+    for (source, target, _given), count in transitions.items():
+        ends[f"{source} → {target}"] += count
+    never = [each.name for each in design.states if each.name not in states] if design is not None else []
+    width = max(len(name) for name in ("transition", *states, *ends, *never))
+    print(f"\n{component}")
+    print(f"  {'state':{width}} {'entered':>8} {'total s':>10} {'share':>6} {'longest s':>10}")
+    for name, each in sorted(states.items(), key=lambda item: -item[1].total_ns):
+        share = f"{each.total_ns / whole_ns:.0%}"
+        print(f"  {name:{width}} {each.entries:8} {each.total_ns / 1e9:10.2f} {share:>6} {each.longest_ns / 1e9:10.2f}")
+    for name in never:
+        print(f"  {name:{width}} {'never':>8}")
+    print(f"  {'transition':{width}} {'taken':>8}")
+    for words, count in ends.most_common():
+        print(f"  {words:{width}} {count:8}")
+    if design is not None:
+        for words in _never_taken(design, transitions):
+            print(f"  {words:{width}} {'never':>8}")
+
+
+def _never_taken(design: "Design", transitions: dict[tuple[str, str, str], int]) -> Iterable[str]:
+    from vicode.model.design import COMMON
+    from vicode.model.traversal import iter_transitions
+
+    counts = _count_by_path(design, transitions)
+    for located in iter_transitions(design):
+        if not counts.get(located.path):
+            source = "common" if located.source == COMMON else located.source
+            yield f"{source} → {getattr(located.decision, 'to', '')}"
+
+
+def _count_by_path(design: "Design", transitions: dict[tuple[str, str, str], int]) -> "dict[DesignPath, int]":
+    """The counts of transitions that are known by their id or their ends.
+
+    Several transitions without ids between the same states share a count, as a trace does not tell them apart.
+    """
+    from vicode.model.design import COMMON
+    from vicode.model.traversal import iter_transitions
+
+    counts: dict[DesignPath, int] = {}
+    located_transitions = list(iter_transitions(design))
+    for (source, target, given), count in transitions.items():
+        by_id = [each for each in located_transitions if given and each.decision.id == given]
+        ends = [each for each in located_transitions if getattr(each.decision, "to", "") == target]
+        by_ends = [each for each in ends if each.source == source] or [each for each in ends if each.source == COMMON]
+        for each in by_id or by_ends:
+            counts[each.path] = counts.get(each.path, 0) + count
+    return counts
+
+
+def _draw(
+    args: argparse.Namespace,
+    component: str,
+    states: "dict[str, dict[str, StateStatistics]]",
+    transitions: Counter[tuple[str, str, str, str]],
+    designs: "dict[str, Design]",
+) -> None:
+    from vicode.diagram.heat_map import StateHeat, render_heat_map
+    from vicode.diagram.svg import write_svg
+    from vicode.output import write_atomically
+
+    design = designs.get(component)
+    if design is None:
+        raise OSError(f"{args.design} has no design of {component}; choose another with --component")
+    heat = {
+        name: StateHeat(entries=each.entries, total_s=each.total_ns / 1e9, longest_s=each.longest_ns / 1e9)
+        for name, each in states[component].items()
+    }
+    own = {key[1:]: count for key, count in transitions.items() if key[0] == component}
+    image = render_heat_map(design, heat, _count_by_path(design, own))
+    write_atomically(Path(args.svg), write_svg(image).encode())
+    print(f"\nwrote {args.svg}")
