@@ -6,6 +6,7 @@ import pytest
 
 from tests.cli.command_runner import lamps, vicode
 from tests.cli.git_folder import commit, git, init
+from vicode.git import find_repository
 
 __all__ = ["lamps"]
 
@@ -97,3 +98,19 @@ def test_a_folder_without_designs(tmp_path: Path, capsys: pytest.CaptureFixture[
     init(tmp_path)
     assert vicode("hook", "install", str(tmp_path)) == 2
     assert capsys.readouterr().err == f"vicode: no designs in {tmp_path}\n"
+
+
+def test_folders_may_begin_with_a_dash(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (repository / "lamps").rename(repository / "-lamps")
+    git(repository, "add", "--all")
+    assert vicode("hook", "pre-commit") == 0, capsys.readouterr()
+    assert vicode("hook", "pre-merge-commit") == 0, capsys.readouterr()
+
+
+def test_the_repository_is_known_in_hooks_of_additional_work_trees(
+    repository: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GIT_DIR", str(repository / ".git"))
+    monkeypatch.delenv("GIT_WORK_TREE", raising=False)
+    assert vicode("hook", "pre-commit") == 0
+    assert find_repository(repository / "lamps").root == repository.resolve()

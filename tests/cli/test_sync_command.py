@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.command_runner import LAMP, lamps, vicode
+from tests.cli.git_folder import init
 from vicode.cli.gen import write_plan
 from vicode.cli.project_loader import LoadedProject
 from vicode.sync import GenerationPlan
@@ -17,6 +18,7 @@ __all__ = ["lamps"]
 
 FILE = Path("lamps/generated/python/lamps/lamp.py")
 DESIGN = Path("lamps/lamp.yaml")
+PLAIN = "vicode: 1\ncomponent: Lamp\ninitial: On\nstates:\n  On:\n    enter: self.count = 1\n"
 
 
 def edit(file: Path, old: str, new: str) -> None:
@@ -209,3 +211,16 @@ def test_edits_of_statements_are_shown_and_taken_over_on_request(
     assert DESIGN.read_text() == LAMP.replace("after: 0.2", "after: 0.4")
     assert "+    Lamp.demo()" in FILE.with_name("lamp.py.patch").read_text()
     assert vicode("gen", "--check", "lamps") == 0
+
+
+def test_git_tells_what_a_design_without_project_file_generated(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("plain").mkdir()
+    Path("plain/lamp.yaml").write_text(PLAIN)
+    assert vicode("gen", "plain", "--out", "out") == 0
+    init(tmp_path)
+    shutil.rmtree("out/.vicode")
+    edit(Path("plain/lamp.yaml"), "self.count = 1", "self.count = 2")
+    assert vicode("gen", "plain", "--out", "out") == 0

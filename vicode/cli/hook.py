@@ -32,6 +32,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Install the hooks, or run one; return 1 if a hook could not be installed or found errors."""
     repository = find_repository(Path(args.path))
+    if "GIT_DIR" in os.environ:
+        # In additional work trees, git sets it for hooks; git would take any folder below for the work tree then.
+        os.environ["GIT_WORK_TREE"] = str(repository.root)
     if args.action == "install":
         return _install(repository, is_removed=args.uninstall)
     if args.action == "post-merge":
@@ -80,9 +83,9 @@ def _check(projects: Sequence[_TrackedProject]) -> int:
 
     folders = [project.folder for project in projects]
     tracked = [project.folder for project in projects if project.is_generated_tracked]
-    codes = [main(["check", *folders])]
-    codes += [main(["gen", "--check", *tracked])] if tracked else []
-    codes += [main(["sync", "--check", *tracked])] if tracked and "sync" in COMMANDS else []
+    codes = [main(["check", "--", *folders])]
+    codes += [main(["gen", "--check", "--", *tracked])] if tracked else []
+    codes += [main(["sync", "--check", "--", *tracked])] if tracked and "sync" in COMMANDS else []
     if any(codes):
         print("vicode: the commit is stopped; 'git commit --no-verify' skips this check", file=sys.stderr)
     return max(codes)
@@ -96,7 +99,7 @@ def _regenerate(repository: Repository, projects: Sequence[_TrackedProject]) -> 
     if not tracked:
         return 0
     merged = repository.write_tree()
-    code = main(["gen", *(project.folder for project in tracked)])
+    code = main(["gen", "--", *(project.folder for project in tracked)])
     repository.stage(sorted({project.generated for project in tracked}))
     tree = repository.write_tree()
     if tree != merged:

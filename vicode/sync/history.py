@@ -71,7 +71,8 @@ def _generate_revisions(folder: Path) -> Iterator[Mapping[str, str]]:
         return
     for revision in revisions:
         with tempfile.TemporaryDirectory(prefix="vicode-revision-") as name, contextlib.suppress(OSError):
-            opened = _check_out(repository, revision, path, Path(name))
+            # The name of a project without project.yaml is that of its folder.
+            opened = _check_out(repository, revision, path, Path(name) / folder.resolve().name)
             yield _generate_sound(opened)
 
 
