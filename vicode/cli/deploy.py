@@ -4,14 +4,13 @@ import argparse
 import shlex
 import shutil
 import subprocess
-import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import IO
 
-from vicode.cli.console import print_findings
-from vicode.cli.project_loader import LoadedProject, load_projects
+from vicode.cli.project_loader import LoadedProject
+from vicode.cli.root_selection import select_root
 
 MARKER = ".vicode-deployed"
 """A file in each deployed folder; a folder without it is never replaced."""
@@ -32,25 +31,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Build the folder in a temporary one and copy it; return 1 if the project has errors."""
-    from vicode.cli.run import find_root_component, find_unsynced_edits
-
-    projects = load_projects([args.path], args.profile)
-    if len(projects) > 1:
-        print(f"vicode: {args.path} contains {len(projects)} projects; specify a design", file=sys.stderr)
-        return 2
-    opened = projects[0]
-    errors = (*opened.errors_for("python"), *(each for each in opened.findings if each.rule.code == "P212"))
-    if errors:
-        print_findings(errors, to_stderr=True)
-        return 1
-    component = find_root_component(opened)
-    if component is None:
-        print(f"vicode: {args.path} has several components; specify the design to deploy", file=sys.stderr)
-        return 2
-    edits = () if args.profile else find_unsynced_edits(opened, component)
-    if edits:
-        print_findings(edits, to_stderr=True)
-        return 1
+    selected = select_root(args.path, args.profile, "deploy")
+    if isinstance(selected, int):
+        return selected
+    opened, component = selected
     with tempfile.TemporaryDirectory(prefix="vicode-deploy-") as name:
         folder = Path(name)
         build_program(opened, component, folder, args)

@@ -7,21 +7,17 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
-from vicode.cli.console import print_findings
-from vicode.cli.project_loader import LoadedProject, load_projects
-from vicode.findings import Finding
+from vicode.cli.project_loader import LoadedProject
+from vicode.cli.root_selection import select_root
 
 if TYPE_CHECKING:
     from vicode.cli.trace_output import TracePrinter
 
 _DEFAULT_SECONDS = 60.0
-_UNPROVIDED = ("P209", "P210")
-"""Rules about components whose outputs nothing provides during the run."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -61,25 +57,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Generate into a temporary folder, run the code in a new process, and show its progress."""
-    projects = load_projects([args.path], args.profile)
-    if len(projects) > 1:
-        print(f"vicode: {args.path} contains {len(projects)} projects; specify a design", file=sys.stderr)
-        return 2
-    opened = projects[0]
-    # Python would report a missing attribute or parameter only when a design uses it.
-    errors = (*opened.errors_for("python"), *(each for each in opened.findings if each.rule.code == "P212"))
-    if errors:
-        print_findings(errors, to_stderr=True)
-        return 1
-    component = find_root_component(opened)
-    if component is None:
-        print(f"vicode: {args.path} has several components; specify the design to run", file=sys.stderr)
-        return 2
-    print_findings((each for each in opened.findings if each.rule.code in _UNPROVIDED), to_stderr=True)
-    edits = find_unsynced_edits(opened, component)
-    if edits:
-        print_findings(edits, to_stderr=True)
-        return 1
+    selected = select_root(args.path, args.profile, "run")
+    if isinstance(selected, int):
+        return selected
+    opened, component = selected
     with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
         class_path = generate_for_run(opened, component, Path(folder))
         if args.reload:
@@ -105,14 +86,6 @@ def _duplicate_stdout() -> Iterator[int]:
         os.close(descriptor)
 
 
-def find_root_component(opened: LoadedProject) -> str | None:
-    """The component to run: the requested one, else the root of the only agent, else the only design."""
-    if opened.selected_components is not None:
-        return next(iter(opened.requested), None)
-    roots = [agent.root for agent in opened.open_project.project.agents] or list(opened.selected_designs)
-    return roots[0] if len(roots) == 1 else None
-
-
 def generate_for_run(opened: LoadedProject, component: str, folder: Path) -> str:
     """Generate the component and all it uses; return the path of its class."""
     from vicode.generators import generate, python_class_path
@@ -122,29 +95,6 @@ def generate_for_run(opened: LoadedProject, component: str, folder: Path) -> str
     files = generate(project, components=[component], languages=["python"], sources=opened.design_paths)
     apply_diffs(compare_files(files, folder), folder)
     return python_class_path(project, component)
-
-
-def find_unsynced_edits(opened: LoadedProject, component: str) -> tuple[Finding, ...]:
-    """Edits of generated code that are missing from the designs: the run would not contain them."""
-    from vicode.cli.gen import output_folder
-    from vicode.generators import generate
-    from vicode.sync import GeneratedHistory, GenerationInput, describe_edits, plan_generation
-
-    folder = output_folder(opened)
-    if not folder.is_dir():
-        return ()
-    job = GenerationInput(
-        project=opened.open_project.project,
-        folder=folder,
-        generate=lambda project: generate(
-            project, components=[component], languages=["python"], sources=opened.design_paths
-        ),
-        may_delete=False,
-        history=GeneratedHistory(folder=folder, project_folder=opened.open_project.folder),
-    )
-    edits = plan_generation(job).edits
-    certain = (replace(file, is_edited_outside=file.is_edited_outside and file.is_origin_known) for file in edits)
-    return tuple(describe_edits(certain, folder.as_posix()))
 
 
 def _command(opened: LoadedProject, names: tuple[str, str], folder: str, args: argparse.Namespace) -> list[str]:
