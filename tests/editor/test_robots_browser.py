@@ -58,7 +58,7 @@ def test_a_robot_is_paused_stepped_and_changed(robot: RobotProgram, editor_of: s
     page.get_by_role("option", name="Robot").click()
     page.get_by_label("Address").fill(robot.address)
     page.get_by_label("Token").fill(robot.token)
-    page.get_by_role("button", name="Attach").click()
+    page.get_by_role("button", name="Attach", exact=True).click()
     expect(active(page)).to_have_attribute("data-id", "Dark")
 
     page.get_by_role("button", name="Play or pause (F6)").click()

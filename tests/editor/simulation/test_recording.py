@@ -32,6 +32,8 @@ def test_iterations_are_stored_completely() -> None:
     assert recording.states == ["Dark", "Lit", "Lit"]
     assert recording.latest_transition(3) == "Lit/0"
     assert recording.latest_transition(1) == ""
+    recording.add(moment(4, "Off"), {})
+    assert recording.latest_transition(4) == "", "the change to Off is newer, its transition is not known"
 
 
 def test_the_past_is_split_into_segments_between_inputs() -> None:

@@ -74,7 +74,7 @@ class SimulationControls:
         set_enabled(self.back, flag=simulation is not None and simulation.cursor > 1)
         set_enabled(self.play, flag=can_control)
         set_enabled(self.step, flag=can_control or is_past)
-        self._show_position(_where_robot(simulation))
+        self._show_position(_where_robot(simulation) if self.controller.robot.link.is_open else "not attached")
 
     def _show_position(self, where: str) -> None:
         if self.where.text != where:

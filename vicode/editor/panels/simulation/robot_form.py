@@ -7,7 +7,7 @@ from nicegui import ui
 
 from vicode.editor.panels.simulation.robot_tuning import RobotTuning
 from vicode.editor.panels.simulation.robot_values import RobotValues
-from vicode.editor.panels.simulation.robot_view import RobotView
+from vicode.editor.panels.simulation.robot_view import NO_CONTROL, RobotView
 from vicode.editor.session.robots import LinkStatus, WatchedRobot
 from vicode.simulation.robots import AttachError
 
@@ -32,6 +32,7 @@ class RobotForm:
                 for button in (self.connect, self.leave):
                     button.props("outline dense no-caps no-wrap size=sm")
             self.strip = ui.element("div").classes("robot-cards").props('role="group" aria-label="Robots"')
+            self.hint = ui.label(NO_CONTROL).classes("small")
             self.tuning = RobotTuning(view)
             self.values = RobotValues(view)
 
@@ -44,6 +45,7 @@ class RobotForm:
         self.entry.set_visibility(not is_attached)
         self.connect.set_visibility(not is_attached)
         self.leave.set_visibility(is_attached)
+        self.hint.set_visibility(link.status is LinkStatus.CONNECTED and not link.control)
         if list(self._cards) != list(link.robots):
             self.strip.clear()
             with self.strip:

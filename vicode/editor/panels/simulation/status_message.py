@@ -2,7 +2,7 @@
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.simulation.controller import SimulationController
-from vicode.editor.panels.simulation.robot_view import NO_CONTROL, RobotView
+from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.session.robots import LinkStatus
 from vicode.editor.session.simulation import RunStatus, Simulation
 from vicode.editor.view.activation import code_error_view
@@ -44,8 +44,9 @@ def robot_message(view: RobotView, simulation: Simulation | None) -> tuple[str, 
         behind = len(simulation.recording) - simulation.cursor
         return ("past", f"Viewing the past: {behind} recorded iteration{'s' * (behind != 1)} before the latest.")
     if view.other_versions:
-        names = ", ".join(view.other_versions[:3]) + ("…" if len(view.other_versions) > 3 else "")
-        words = f"The robot runs another version of this design ({names})."
+        others = ", ".join(view.other_versions[:3]) + ("…" if len(view.other_versions) > 3 else "")
+        subject = "this design" if view.design.component in view.other_versions else others
+        words = f"The robot runs another version of {subject}."
         return ("warning", f"{words} Generate and restart the robot, or open its version with: vicode show")
     iteration = simulation.shown_iteration if simulation is not None else None
     if simulation is not None and iteration is not None and iteration.errors:
@@ -63,7 +64,7 @@ def _describe_robot(view: RobotView) -> str:
         words += f", {robot.error_count} errors"
     if view.other_versions is None:
         words += ". Its version was not compared: the design has errors"
-    return f"{words}." if link.control else f"{words}. {NO_CONTROL}."
+    return f"{words}."
 
 
 def _hint(controller: SimulationController) -> str:

@@ -122,8 +122,13 @@ class Recording:
         return self._with_output[max(0, end - limit) : end]
 
     def latest_transition(self, number: int) -> str:
-        """The last transition taken up to an iteration, or ""."""
-        return next((each for each in reversed(self.transitions[:number]) if each), "")
+        """The last transition taken up to an iteration; "" if there is none, or it is not known."""
+        for index in range(number - 1, -1, -1):
+            if self.transitions[index]:
+                return self.transitions[index]
+            if index and self.states[index] != self.states[index - 1]:
+                return ""
+        return ""
 
     def _add_values(self, iteration: IterationResult) -> None:
         index = len(self) - 1
