@@ -99,3 +99,13 @@ def test_what_is_no_design_is_told(
         said := capsys.readouterr().err
     )
     assert told in said
+
+
+def test_an_unreadable_design_is_no_unknown_component(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    project = lamps / "project.yaml"
+    project.write_text(project.read_text(encoding="utf-8") + "agents: {lamp: {root: Lamp}}\n", encoding="utf-8")
+    (lamps / "lamp.yaml").write_text(LAMP + "<<<<<<< ours\n", encoding="utf-8")
+    assert vicode("check", "lamps") == 1
+    out = capsys.readouterr().out
+    assert "lamps/lamp.yaml" in out
+    assert "P202" not in out

@@ -55,7 +55,7 @@ def test_another_file_is_merged_by_lines(folder: Path) -> None:
 def test_a_generated_file_is_ours(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     base, ours, theirs = (add_header(f"x = {number}\n", "lamp.yaml") for number in range(3))
     assert merge(folder, base, ours, theirs, "--generated", "--path", "lamp.py") == (0, ours)
-    assert capsys.readouterr().err == "vicode: lamp.py is generated; run 'vicode gen' after the merge\n"
+    assert capsys.readouterr().err == "vicode: lamp.py: kept ours; the hooks or 'vicode gen' generate it again\n"
 
 
 def test_edits_in_generated_files_are_not_lost(folder: Path) -> None:

@@ -122,3 +122,10 @@ def test_all_files_or_none(lamps: Path, monkeypatch: pytest.MonkeyPatch) -> None
     lamps.joinpath("project.yaml").chmod(0o444)
     assert vicode("rename", "pause", "delay", "lamps") != 0
     assert texts(lamps) == before
+
+
+def test_uses_in_hand_written_code_are_listed(forward: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert vicode("rename", "Side.left", "port", "forward") == 0
+    notes = capsys.readouterr().err.splitlines()
+    assert "vicode: not renamed in hand-written code: forward/field/kicker.py:20" in notes
+    assert len(notes) == 3

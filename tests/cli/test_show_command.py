@@ -70,11 +70,11 @@ def test_a_run_outside_of_a_repository_has_a_hash(lamps: Path) -> None:
     ("hash_", "code", "message"),
     [
         ("abcdef", 1, "vicode: no revision has a design with the hash abcdef in .\n"),
-        ("xyz", 2, "vicode: 'xyz' is no hash of a design: 6 to 12 hexadecimal digits, as in the header of a trace\n"),
+        ("xyz", 2, "vicode: 'xyz' is neither a file nor a hash of 6 to 12 hexadecimal digits\n"),
         (
             "lamps/lamp.yaml",
             2,
-            "vicode: lamps/lamp.yaml is no trace with the hash of a design; 'vicode run --trace FILE' records one\n",
+            "vicode: lamps/lamp.yaml is not a trace with the hash of a design; 'vicode run --trace FILE' records one\n",
         ),
     ],
 )

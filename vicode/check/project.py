@@ -170,7 +170,8 @@ def find_unknown_languages(project: Project) -> Iterator[Finding]:
 def find_unknown_roots(project: Project) -> Iterator[Finding]:
     """P202: an agent with an unknown root component."""
     for agent in project.agents:
-        if project.interface(agent.root) is None:
+        # The design of an unreadable component has a finding of its own.
+        if project.interface(agent.root) is None and agent.root not in dict(project.unreadable):
             fix = did_you_mean(agent.root, project.interfaces(), "add a design with this name")
             yield _make_finding("P202", ("agents", agent.name, "root"), f"unknown component '{agent.root}'", fix)
 

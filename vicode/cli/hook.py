@@ -79,15 +79,14 @@ def _find_projects(repository: Repository) -> list[_TrackedProject]:
 
 def _check(projects: Sequence[_TrackedProject]) -> int:
     """Check the designs and what is generated from them, as in the work tree."""
-    from vicode.cli.entry_point import COMMANDS, main
+    from vicode.cli.entry_point import main
 
     folders = [project.folder for project in projects]
     tracked = [project.folder for project in projects if project.is_generated_tracked]
     codes = [main(["check", "--", *folders])]
     codes += [main(["gen", "--check", "--", *tracked])] if tracked else []
-    codes += [main(["sync", "--check", "--", *tracked])] if tracked and "sync" in COMMANDS else []
     if any(codes):
-        print("vicode: the commit is stopped; 'git commit --no-verify' skips this check", file=sys.stderr)
+        print("vicode: commit refused; 'git commit --no-verify' skips this check", file=sys.stderr)
     return max(codes)
 
 
@@ -120,7 +119,7 @@ def _complete_merge(repository: Repository) -> int:
     # Otherwise, this is not the merge that staged them, or something else is staged, too.
     if len(parents) > 1 and parents[0] == head and repository.write_tree() == tree:
         repository.replace_tree_of_head()
-        print(f"vicode: generated {len(staged)} file{'s' * (len(staged) != 1)} anew, in the commit of the merge")
+        print(f"vicode: added {len(staged)} generated file{'s' * (len(staged) != 1)} to the merge commit")
     return 0
 
 
@@ -162,7 +161,7 @@ def _config() -> dict[str, str]:
         "merge.vicode.driver": f"{command} merge --path=%P -- %O %A %B",
         # A merge of several common ancestors takes one of them, instead of writing markers into it.
         "merge.vicode.recursive": "binary",
-        "merge.vicode-generated.name": "vicode: keep generated files, which vicode gen writes anew",
+        "merge.vicode-generated.name": "vicode: keep our version of generated files",
         "merge.vicode-generated.driver": f"{command} merge --generated --path=%P -- %O %A %B",
         "merge.vicode-generated.recursive": "binary",
         "diff.vicode.command": f"{command} diff --external --",

@@ -14,7 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("theirs", metavar="THEIRS", help="their version")
     parser.add_argument("--path", metavar="P", help="the path of the file in messages (default: OURS)")
     parser.add_argument(
-        "--generated", action="store_true", help="the file is generated: keep OURS, 'vicode gen' writes it anew"
+        "--generated", action="store_true", help="the file is generated: keep OURS; 'vicode gen' generates it again"
     )
     parser.epilog = "Exit codes: 0 merged, 1 conflicts are marked in OURS, 2 the command could not run."
 
@@ -26,7 +26,10 @@ def run(args: argparse.Namespace) -> int:
     base, ours, theirs = (file.read_bytes() for file in files)
     if args.generated and not any(_has_hand_edits(path, content) for content in (ours, theirs)):
         if base != theirs != ours:
-            print(f"vicode: {path} is generated; run 'vicode gen' after the merge", file=sys.stderr)
+            print(
+                f"vicode: {path}: kept ours; the hooks or 'vicode gen' generate it again",
+                file=sys.stderr,
+            )
         return 0
     merged = None if args.generated else _merge_designs(path, base, ours, theirs)
     if merged is not None:

@@ -150,5 +150,6 @@ def _select_profile(opened: "OpenProject", name: str) -> "OpenProject":
     try:
         return replace(opened, project=select_profile(opened.project, name))
     except KeyError:
-        known = ", ".join(profile.name for profile in opened.project.profiles) or "none in project.yaml"
-        raise OSError(f"unknown profile '{name}'; choose from: {known}") from None
+        known = ", ".join(profile.name for profile in opened.project.profiles)
+        hint = f"choose from: {known}" if known else "project.yaml has no profiles"
+        raise OSError(f"unknown profile '{name}'; {hint}") from None

@@ -26,7 +26,7 @@ def run(args: argparse.Namespace) -> int:
     """Print or write the design; return 1 if no revision has it."""
     wanted = _read_trace(Path(args.hash)) if Path(args.hash).is_file() else args.hash.lower()
     if not _HASH.match(wanted):
-        raise OSError(f"'{wanted}' is no hash of a design: 6 to 12 hexadecimal digits, as in the header of a trace")
+        raise OSError(f"'{args.hash}' is neither a file nor a hash of 6 to 12 hexadecimal digits")
     found = _search(Path(args.path), wanted)
     if found is None:
         print(f"vicode: no revision has a design with the hash {wanted} in {args.path}", file=sys.stderr)
@@ -47,7 +47,7 @@ def _read_trace(file: Path) -> str:
     except ValueError:
         header = None
     if not isinstance(header, dict) or not isinstance(header.get("design"), str):
-        raise OSError(f"{file} is no trace with the hash of a design; 'vicode run --trace FILE' records one")
+        raise OSError(f"{file} is not a trace with the hash of a design; 'vicode run --trace FILE' records one")
     return str(header["design"])
 
 

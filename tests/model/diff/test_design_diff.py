@@ -72,7 +72,7 @@ assert isinstance(FIRST, Transition)
         (with_search(at=(5, 5.5)), ["> moved state Search: 0, 0 → 5, 5.5"]),
         (with_search(at=None), ["> moved state Search: 0, 0 → (automatic)"]),
         (with_search(doc="looks"), ["~ description of state Search: turns → looks"]),
-        (with_search(doc="a\nb"), ["~ description of state Search: 1 line → 2 lines"]),
+        (with_search(doc="a\nb"), ["~ description of state Search: 1 line → 2 lines (+2 -1)"]),
         (with_search(final=True), ["~ final of state Search: (none) → yes"]),
         (replace(BASE, frequency_hz=20.0), ["~ frequency: 10 → 20"]),
         (replace(BASE, initial="Wait"), ["~ initial state: Search → Wait"]),
@@ -182,3 +182,8 @@ def test_frames_are_compared() -> None:
     assert (renamed.kind, renamed.subject, renamed.old) == (ChangeKind.RENAMED, "frame Close", "Near")
     assert (colored.attribute, colored.new) == ("color", "red")
     assert (filled.path, filled.new) == (("frames", "Far", "states"), "S, T")
+
+
+def test_one_changed_line_is_shown() -> None:
+    changes = words(with_search(doc="a\nc\nd"), with_search(doc="a\nb\nd"))
+    assert changes == ["~ description of state Search: b → c"]

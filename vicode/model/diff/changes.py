@@ -1,6 +1,7 @@
 """A change of one item of a design, and its description in words."""
 
 from dataclasses import dataclass
+from difflib import SequenceMatcher
 from enum import StrEnum
 
 from vicode.findings import DesignPath
@@ -62,7 +63,7 @@ def describe_change(change: Change) -> str:
         case ChangeKind.MOVED:
             return f"{sign} moved {change.subject}: {change.old or '(automatic)'} → {change.new or '(automatic)'}"
     if change.old.count("\n") + change.new.count("\n"):
-        return f"{sign} {_attribute_of(change)}: {_count_lines(change.old)} → {_count_lines(change.new)}"
+        return f"{sign} {_attribute_of(change)}: {_describe_lines(change.old, change.new)}"
     return f"{sign} {_attribute_of(change)}: {_shorten(change.old) or '(none)'} → {_shorten(change.new) or '(none)'}"
 
 
@@ -151,6 +152,18 @@ def _attribute_of(change: Change) -> str:
     if change.subject.startswith("transition "):
         return f"{change.attribute} {change.subject.removeprefix('transition ')}"
     return f"{change.attribute} of {change.subject}"
+
+
+def _describe_lines(old: str, new: str) -> str:
+    """The only line that differs, or how many do."""
+    before, after = old.splitlines(), new.splitlines()
+    opcodes = SequenceMatcher(None, before, after, autojunk=False).get_opcodes()
+    changes = [(before[a:b], after[c:d]) for kind, a, b, c, d in opcodes if kind != "equal"]
+    if [(len(removed), len(added)) for removed, added in changes] == [(1, 1)]:
+        ((removed,), (added,)) = changes[0]
+        return f"{_shorten(removed)} → {_shorten(added)}"
+    counts = f"+{sum(len(added) for _, added in changes)} -{sum(len(removed) for removed, _ in changes)}"
+    return f"{_count_lines(old)} → {_count_lines(new)} ({counts})"
 
 
 def _count_lines(text: str) -> str:
