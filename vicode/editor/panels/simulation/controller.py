@@ -156,7 +156,7 @@ class SimulationController:
         self.is_stale = self.simulation is not None
         self._notify()
 
-    async def use_trace_file(self, path: Path, *, is_replay: bool) -> None:
+    async def use_trace_file(self, path: Path, *, is_replay: bool, on_progress: Callable[[float], None]) -> None:
         """Use a trace on this machine, of any length, to view it or its beginning as inputs.
 
         Raises:
@@ -165,7 +165,7 @@ class SimulationController:
         """
         design = self.context.design
         if is_replay:
-            self.trace = await run.io_bound(read_recording, path, design) or ()
+            self.trace = await run.io_bound(read_recording, path, design, on_progress) or ()
         else:
             self.trace = await run.io_bound(read_beginning, path, design) or ()
         self.is_replay = is_replay

@@ -8,6 +8,8 @@ from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.session.simulation.trace_recording import find_traces
 from vicode.simulation.trace import TraceError
 
+_PROGRESS_INTERVAL_S = 0.5
+
 
 class TraceFileChoice:
     """Lists the traces when it becomes visible; `is_replay` says whether the chosen one is viewed."""
@@ -19,8 +21,10 @@ class TraceFileChoice:
         self.choice = ui.select([], label="Trace in the project folder", on_change=self._choose)
         self.choice.props("dense outlined options-dense stack-label").classes("field trace-file")
         self.choice.set_visibility(False)
-        self.progress = ui.label("Reading the trace…").classes("small")
+        self.progress = ui.label().classes("small").props('role="status"')
         self.progress.set_visibility(False)
+        self._part = 0.0
+        self._timer = ui.timer(_PROGRESS_INTERVAL_S, self._show_progress, active=False)
 
     def set_visibility(self, is_visible: bool) -> None:
         if is_visible == self._is_visible:
@@ -40,13 +44,24 @@ class TraceFileChoice:
         if not isinstance(name, str):
             return
         controller = self.controller
+        self._set_progress(0.0)
+        self._show_progress()
         self.progress.set_visibility(True)
+        self._timer.activate()
         try:
             path = controller.context.workspace.folder / name
-            await controller.use_trace_file(path, is_replay=self._is_replay())
+            await controller.use_trace_file(path, is_replay=self._is_replay(), on_progress=self._set_progress)
         except (TraceError, OSError) as error:
             controller.context.show_toast(f"{name[:60]}: {error}", "warning")
             return
         finally:
+            self._timer.deactivate()
             self.progress.set_visibility(False)
         await controller.restart()
+
+    def _set_progress(self, part: float) -> None:
+        """Called by the thread that reads."""
+        self._part = part
+
+    def _show_progress(self) -> None:
+        self.progress.set_text(f"Reading the trace… {self._part:.0%}")
