@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.editor.simulation.robot_program import RobotProgram, running_robot, write_robot
+from vicode.bica import Component, Root, SimulatedClock
 from vicode.editor.session.robot_version import find_other_versions
 from vicode.editor.session.robots import LinkStatus, RobotLink, RobotRequestError
 from vicode.editor.session.simulation import Recording, Simulation, prepare_view
@@ -153,6 +154,29 @@ def test_it_attaches_again_after_the_robot_was_restarted(folder: Path) -> None:
 
     with ExitStack() as programs:
         program = programs.enter_context(running_robot(folder))
+        attach(program, act)
+
+
+class Idle(Component):
+    """Another robot of the same program."""
+
+
+def test_each_robot_of_a_program_can_be_followed(folder: Path) -> None:
+    async def act(link: RobotLink) -> None:
+        await first_iteration(link)
+        assert link.followed == "Lamp"
+        other.step()
+        await until(link, lambda: "spare" in link.robots)
+        link.follow("spare")
+        other.step()
+        iteration = await first_iteration(link)
+        assert iteration.tree[0]["component"] == "Idle"
+        assert link.robots["Lamp"].root_state == "Dark"
+        link.follow("nobody")
+        assert link.followed == "spare"
+
+    with running_robot(folder) as program, Root(Idle, clock=SimulatedClock()) as other:
+        other._closing.callback(program.server.remove, program.server.add(other, "spare"))
         attach(program, act)
 
 

@@ -74,6 +74,8 @@ class WatchedRobot:
     """Values that this editor holds, by component and name."""
     tuned: dict[str, Any] = field(default_factory=dict)
     """Constants that were tuned from here."""
+    frequencies_hz: dict[str, float] = field(default_factory=dict)
+    """Frequencies of components that were changed from here."""
     _recordings: dict[str, tuple[Recording, Adapt]] = field(default_factory=dict)
     _times: deque[tuple[int, int]] = field(default_factory=lambda: deque(maxlen=_RATE_WINDOW))
 
@@ -128,6 +130,7 @@ class WatchedRobot:
             self._times.clear()
             self.steps.clear()
             self.tuned.clear()
+            self.frequencies_hz.clear()
         self._times.append((iteration.iteration, iteration.time_ns))
         for step in iteration.tree:
             seen = SeenStep(step=step, iteration=iteration.iteration, received_s=self.received_s)
@@ -135,6 +138,11 @@ class WatchedRobot:
         for recording, adapt in self._recordings.values():
             recording.make_room()
             recording.add(adapt(iteration), {})
+
+    def frequency_hz(self, component: str) -> float | None:
+        """The frequency of a component; None if it works in each iteration."""
+        described = self.description.components.get(component)
+        return self.frequencies_hz.get(component) or (described.frequency_hz if described else None)
 
     def is_active(self, component: str) -> bool:
         """Whether the component was stepped in the newest iteration."""

@@ -1,5 +1,6 @@
 """View models of the values and step times of a robot's components."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -7,6 +8,8 @@ from typing import Any
 from vicode.editor.view.guard_rows import format_value
 
 _MISSED_RATE = 0.9
+_NOT_FINITE = ("nan", "inf", "-inf")
+"""How numbers arrive that JSON does not have."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,6 +91,8 @@ def _rate_warning(step_ms: float | None, frequency_hz: float | None, iteration_h
 def parse_value(text: str, old: Any) -> Any:
     """A value in the type of the old one; None if the text is no such value."""
     text = text.strip()
+    if old in _NOT_FINITE:
+        old = math.nan
     if isinstance(old, bool):
         return {"true": True, "false": False}.get(text.lower())
     if isinstance(old, int | float):

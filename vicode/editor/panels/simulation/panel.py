@@ -12,6 +12,7 @@ from vicode.editor.panels.simulation.timeline import Timeline
 from vicode.editor.panels.tabs import Tabs
 
 _POLL_INTERVAL_S = 0.08
+_AGE_INTERVAL_S = 1.0
 _FIT_DELAY_S = 0.3
 _RESULT_TABS = ("Plot", "Active components", "Output")
 
@@ -36,6 +37,8 @@ class SimulationPanel:
         self.tabs.build(dict(zip(_RESULT_TABS, builders, strict=True)))
         controller.refresh_panel = self._poll
         ui.timer(_POLL_INTERVAL_S, self._poll)
+        # A robot that sends nothing changes nothing but the age of what it sent.
+        ui.timer(_AGE_INTERVAL_S, self.input_source.robot_form.refresh)
         # The panel takes space from the canvas; the active state must stay visible.
         ui.timer(_FIT_DELAY_S, controller.canvas.fit, once=True)
 

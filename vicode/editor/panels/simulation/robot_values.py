@@ -54,7 +54,7 @@ class RobotValues:
                     name,
                     seen.step,
                     age_s=0.0 if robot.is_active(name) else time.monotonic() - seen.received_s,
-                    frequency_hz=known[name].frequency_hz,
+                    frequency_hz=robot.frequency_hz(name),
                     iteration_hz=robot.iteration_hz,
                     held=robot.held,
                 )
@@ -140,16 +140,19 @@ class RobotValues:
 
     def _ask_frequency(self, component: str) -> None:
         robot = self.view.robot
-        known = robot.description.components.get(component) if robot else None
 
         def apply() -> None:
-            if isinstance(field.value, int | float):
-                self.view.ask("frequency", component=component, hz=field.value)
-                dialog.close()
+            hertz = field.value
+            if not isinstance(hertz, int | float) or robot is None:
+                return
+            remember = partial(robot.frequencies_hz.__setitem__, component, float(hertz))
+            self.view.ask("frequency", remember, component=component, hz=hertz)
+            dialog.close()
 
         with titled_dialog(f"Frequency of {component}") as dialog:
-            hertz = known.frequency_hz if known else None
-            field = ui.number("Frequency", value=hertz, min=0.001, max=10_000, suffix="Hz")
+            field = ui.number(
+                "Frequency", value=robot.frequency_hz(component) if robot else None, min=0.001, max=10_000, suffix="Hz"
+            )
             field.props("dense outlined autofocus").classes("field mono").on("keydown.enter", apply)
             with ui.row().classes("dialog-buttons"):
                 ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
