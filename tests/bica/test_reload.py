@@ -173,7 +173,7 @@ def test_an_error_leaves_everything_as_it_was(run: Run, old: str, new: str) -> N
     run.step(2)
     (message,) = run.change("rig_of_reload.py", old, new)
     assert message.startswith("not reloaded: ")
-    assert message.endswith("; the old code goes on")
+    assert message.endswith("; the old code keeps running")
     run.step()
     assert (run.value("count"), vars(run.root.components[0])["level"]) == (3, 3.0)
     assert run.change("rig_of_reload.py", new, old)[0].startswith("reloaded ")

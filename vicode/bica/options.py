@@ -45,7 +45,7 @@ def make_parser(
         help="what to do after an exception in a component (default: continue)",
     )
     add("--trace", metavar="FILE", help="write a trace to FILE: a header, one JSON line per iteration and a summary")
-    add("--record", metavar="FILE", help="keep the last minutes, with values, in files beside FILE")
+    add("--record", metavar="FILE", help="keep the last minutes, with values, in files next to FILE")
     add("--minutes", type=minutes, default=5.0, metavar="N", help="how much --record keeps (default: 5)")
     add("--design", metavar="HASH", help="hash of the design, for the header of the trace")
     add("--revision", metavar="REV", help="git revision of the design, for the header of the trace")

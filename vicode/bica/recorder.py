@@ -43,7 +43,7 @@ class Recorder:
     counted and left out.
 
     Args:
-        path: The name of the record, such as `run.jsonl`; the segments are placed beside it.
+        path: The name of the record, such as `run.jsonl`; the segments are next to it.
         minutes: How long segments are kept, in the time of the root.
         origin: Further fields of the header.
         start_thread: Whether a thread writes; without it, call `write`.

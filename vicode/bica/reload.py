@@ -28,7 +28,7 @@ _KEPT_SLOTS = ("_entered_ns", "_started_ns", "_stepped_in", "_transition", "_wor
 class Reloader:
     """Reloads the changed modules below some folders.
 
-    Generated components are initialized anew and get their state, times and values back. Hand-written ones keep their
+    Generated components are initialized again and get their state, times and values back. Hand-written ones keep their
     attributes and only exchange their methods, since they may hold devices.
 
     Args:
@@ -78,14 +78,14 @@ class Reloader:
             for snapshot in saved:
                 snapshot.restore()
             self._root._components = old_components
-            return [f"not reloaded: {describe_exception(error)}; the old code goes on"]
+            return [f"not reloaded: {describe_exception(error)}; the old code keeps running"]
         finally:
             for snapshot in saved:
                 self._root._instrument(snapshot.component)
             self._root._set_step(self._root._find_step())
             self._times = dict(self._iter_times())
         if type(self._root.world).__module__ in changed:
-            words.append("the world goes on with its old code; restart to exchange it")
+            words.append("the world keeps its old code; restart to exchange it")
         return [f"reloaded {', '.join(sorted(changed))}", *words]
 
     def _exchange(self, changed: set[str], saved: list[_Snapshot]) -> Iterator[str]:
@@ -178,13 +178,13 @@ class _Snapshot:
             if value.name in type(new).__members__:
                 attributes[name] = type(new)[value.name]
             else:
-                yield f"{type(self.component).__name__}.{name} starts anew: {type(new).__name__} has no {value.name}"
+                yield f"{type(self.component).__name__}.{name} is reset: {type(new).__name__} has no {value.name}"
         elif name in attributes or name.startswith("_"):
             attributes[name] = value
 
 
 def _find_class(old: type[Component], changed: set[str]) -> type[Component]:
-    """The class with the name of an old one in its module, which may have been imported anew.
+    """The class with the name of an old one in its module, which may have been imported again.
 
     Raises:
         AttributeError: The module has no such class any more.
@@ -196,7 +196,7 @@ def _find_class(old: type[Component], changed: set[str]) -> type[Component]:
 
 
 def _renew(value: Any) -> Any:
-    """The element of an enumeration that was imported anew; other values, and elements that are gone, as they are."""
+    """The element of an enumeration that was imported again; other values, and elements that are gone, as they are."""
     if not isinstance(value, Enum):
         return value
     kind = getattr(sys.modules.get(type(value).__module__), type(value).__qualname__, type(value))

@@ -173,7 +173,7 @@ class Root:
         design: str = "",
         revision: str = "",
     ) -> Recorder:
-        """Keep the last minutes of the run in files beside `path`, until the root is closed; call it before `step`.
+        """Keep the last minutes of the run in files next to `path`, until the root is closed; call it before `step`.
 
         The robot never waits for the disk.
 

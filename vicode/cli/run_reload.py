@@ -38,7 +38,7 @@ def _generate_again(args: argparse.Namespace, folder: Path) -> None:
     errors = opened.errors_for("python")
     if errors or component is None:
         print_findings(errors, to_stderr=True)
-        print("vicode: not reloaded; the old code goes on", file=sys.stderr)
+        print("vicode: not reloaded; the old code keeps running", file=sys.stderr)
         return
     generate_for_run(opened, component, folder)
     (folder / "python" / STAMP).touch()
