@@ -7,9 +7,8 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from vicode.editor.session.simulation.recording import Recording
 from vicode.editor.session.subscribers import Subscribers
 from vicode.simulation import IterationResult, ProtocolError
 from vicode.simulation.messages import decode_iteration
@@ -25,6 +24,9 @@ from vicode.simulation.robots import (
     encode,
     parse_address,
 )
+
+if TYPE_CHECKING:
+    from vicode.editor.session.simulation import Recording
 
 _ANSWER_LIMIT_S = 5.0
 _FIRST_RETRY_S, _MAX_RETRY_S = 0.5, 5.0
@@ -76,7 +78,7 @@ class WatchedRobot:
     """Constants that were tuned from here."""
     frequencies_hz: dict[str, float] = field(default_factory=dict)
     """Frequencies of components that were changed from here."""
-    _recordings: dict[str, tuple[Recording, Adapt]] = field(default_factory=dict)
+    _recordings: dict[str, tuple["Recording", Adapt]] = field(default_factory=dict)
     _times: deque[tuple[int, int]] = field(default_factory=lambda: deque(maxlen=_RATE_WINDOW))
 
     @property
@@ -93,13 +95,16 @@ class WatchedRobot:
         (first, first_ns), (last, last_ns) = (self._times[0], self._times[-1]) if self._times else ((0, 0), (0, 0))
         return (last - first) * 1e9 / (last_ns - first_ns) if last_ns > first_ns else 0.0
 
-    def recording(self, component: str, adapt: Adapt) -> Recording:
+    def recording(self, component: str, adapt: Adapt) -> "Recording":
         """The recording for the view of a component, which begins with what other views have recorded.
 
         Args:
             component: The component.
             adapt: Makes an iteration describe the component; the latest one given is used.
         """
+        # An editor that is not attached starts without the simulation.
+        from vicode.editor.session.simulation import Recording  # noqa: PLC0415
+
         known = self._recordings.get(component)
         recording = known[0] if known else Recording()
         self._recordings[component] = (recording, adapt)
