@@ -1,5 +1,6 @@
 """vicode deploy: the folder runs on a machine without vicode, and nothing else is ever deleted."""
 
+import argparse
 import os
 import signal
 import subprocess
@@ -9,6 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.cli.command_runner import lamps, vicode
+from vicode.cli.deploy import build_program
+from vicode.cli.project_loader import load_projects
 
 __all__ = ["lamps"]
 
@@ -138,6 +141,35 @@ def test_a_dry_run_lists_the_files(rig: Path, tmp_path: Path, capsys: pytest.Cap
     assert not (tmp_path / "robot").exists()
 
 
+def test_pipes_loops_and_earlier_deployments_are_not_copied(rig: Path, tmp_path: Path) -> None:
+    os.mkfifo(rig / "pipe")
+    (rig / "rig/loop").symlink_to("..")
+    (rig / "shared").symlink_to("rig")
+    for _time in range(2):
+        assert vicode("deploy", "lamps/lamp.yaml", "--to", "lamps/robot") == 0
+    robot = rig / "robot"
+    assert (robot / "shared/sim.py").is_file()
+    assert not {"pipe", "robot"} & {path.name for path in robot.iterdir()}
+    assert not (robot / "rig/loop").exists()
+
+
+@pytest.mark.parametrize(
+    ("target", "folder", "program"),
+    [
+        ("nao@robot:player", "%h/player", "%h/player/run"),
+        ("nao@robot:~/my player", "%h/my player", '"%h/my player/run"'),
+        ("nao@robot:/opt/50%/$x", "/opt/50%%/$x", "/opt/50%%/$$x/run"),
+    ],
+)
+def test_the_unit_names_the_folder_as_systemd_reads_it(
+    rig: Path, tmp_path: Path, target: str, folder: str, program: str
+) -> None:
+    args = argparse.Namespace(to=target, python="python3", arguments="")
+    build_program(load_projects(["lamps/lamp.yaml"])[0], "Lamp", tmp_path / "built", args)
+    unit = (tmp_path / "built/lamps.service").read_text()
+    assert f"\nWorkingDirectory={folder}\nExecStart={program}\n" in unit
+
+
 SSH = '#!/bin/sh\n[ "$1" = -- ] && shift\nshift\nexec sh -c "$*"\n'
 RSYNC = '#!/bin/sh\nfor last; do :; done\nwhile [ "$1" != -- ]; do shift; done\nexec cp -a "$2/." "${last#*:}"\n'
 
@@ -157,12 +189,12 @@ def test_a_robot_is_reached_over_ssh(
     place = tmp_path / "on the robot"
     assert vicode("deploy", "lamps/lamp.yaml", "--to", f"nao@10.0.0.7:{place}") == 0
     assert (place / "lamps/lamp.py").exists()
-    assert f"ExecStart={place}/run" in (place / "lamps.service").read_text()
+    assert f'\nExecStart="{place}/run"\n' in (place / "lamps.service").read_text()
     (place / ".vicode-deployed").unlink()
     assert vicode("deploy", "lamps/lamp.yaml", "--to", f"nao@10.0.0.7:{place}") == 2
 
 
-@pytest.mark.parametrize("target", ["nao@robot:", "-oProxyCommand=x:dir"])
+@pytest.mark.parametrize("target", ["nao@robot:", "-oProxyCommand=x:dir", "two\nlines"])
 def test_targets_are_no_options(rig: Path, target: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert vicode("deploy", "lamps/lamp.yaml", f"--to={target}") == 2
     assert "invalid target" in capsys.readouterr().err

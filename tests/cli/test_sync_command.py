@@ -18,7 +18,7 @@ __all__ = ["lamps"]
 
 FILE = Path("lamps/generated/python/lamps/lamp.py")
 DESIGN = Path("lamps/lamp.yaml")
-PLAIN = "vicode: 1\ncomponent: Lamp\ninitial: On\nstates:\n  On:\n    enter: self.count = 1\n"
+PLAIN = "vicode: 1\ncomponent: Lamp\ninitial: On\nstates:\n  On: {transitions: [{to: Off, after: 1}]}\n  Off: {}\n"
 
 
 def edit(file: Path, old: str, new: str) -> None:
@@ -222,5 +222,5 @@ def test_git_tells_what_a_design_without_project_file_generated(
     assert vicode("gen", "plain", "--out", "out") == 0
     init(tmp_path)
     shutil.rmtree("out/.vicode")
-    edit(Path("plain/lamp.yaml"), "self.count = 1", "self.count = 2")
+    edit(Path("plain/lamp.yaml"), "after: 1", "after: 2")
     assert vicode("gen", "plain", "--out", "out") == 0

@@ -1,6 +1,7 @@
 """Copy a runnable program to a folder or a robot: generated code, runtime, hand-written code, launcher."""
 
 import argparse
+import re
 import shlex
 import shutil
 import subprocess
@@ -84,10 +85,23 @@ def _copy_hand_written(source: Path, target: Path, generated: tuple[str, ...]) -
     def ignore(folder: str, names: list[str]) -> list[str]:
         is_top = Path(folder) == source
         return [
-            name for name in names if name.startswith(".") or (name in skipped and (is_top or name in _SKIPPED_FOLDERS))
+            name
+            for name in names
+            if name.startswith(".")
+            or (name in skipped and (is_top or name in _SKIPPED_FOLDERS))
+            or not _can_be_copied(Path(folder) / name)
         ]
 
     shutil.copytree(source, target, ignore=ignore, dirs_exist_ok=True)
+
+
+def _can_be_copied(path: Path) -> bool:
+    """Whether a path is a file, or a folder that is no deployed program and no link to one that contains it."""
+    if path.is_dir():
+        is_loop = path.is_symlink() and path.parent.resolve().is_relative_to(path.resolve())
+        return not is_loop and not (path / MARKER).is_file()
+    # Reading a pipe would block.
+    return path.is_file()
 
 
 def _write_launcher(folder: Path, package: str, component: str, args: argparse.Namespace) -> None:
@@ -98,16 +112,19 @@ def _write_launcher(folder: Path, package: str, component: str, args: argparse.N
         f'cd "$(dirname "$0")" || exit 1\n{command} "$@"\n'
     )
     launcher.chmod(0o755)
-    place = args.to.partition(":")[2] if _is_remote(args.to) else str(Path(args.to).resolve())
+    place = _unit_place(args.to)
+    program = f"{place}/run".replace("$", "$$")
+    if re.search(r"[\s\"'\\]", program):
+        program = '"' + program.replace("\\", "\\\\").replace('"', '\\"') + '"'
     (folder / f"{package}.service").write_text(
         f"""\
-# systemctl --user enable --now {place}/{package}.service
+# systemctl --user enable --now $PWD/{package}.service
 [Unit]
 Description={package} ({component})
 
 [Service]
 WorkingDirectory={place}
-ExecStart={place}/run
+ExecStart={program}
 Restart=on-failure
 # The program stops the robot after SIGTERM.
 KillSignal=SIGTERM
@@ -117,6 +134,15 @@ TimeoutStopSec=10
 WantedBy=default.target
 """
     )
+
+
+def _unit_place(target: str) -> str:
+    """The folder of a target as a systemd unit names it: %h is the home folder, where ssh starts."""
+    if not target.isprintable():
+        raise OSError(f"invalid target {target!r}")
+    place = target.partition(":")[2] if _is_remote(target) else str(Path(target).resolve())
+    escaped = place.replace("%", "%%")
+    return escaped if escaped.startswith("/") else f"%h/{escaped.removeprefix('~/')}"
 
 
 def _list_files(folder: Path) -> Iterator[str]:
@@ -154,7 +180,8 @@ def _copy_here(folder: Path, target: Path) -> None:
         raise OSError(f"{target} has files that vicode did not deploy; choose an empty folder")
     target.mkdir(parents=True, exist_ok=True)
     for path in target.iterdir():
-        if path.name == _KEPT_FOLDER:
+        # With the marker, a deployment that was interrupted can be repeated.
+        if path.name in (_KEPT_FOLDER, MARKER):
             continue
         if path.is_dir() and not path.is_symlink():
             shutil.rmtree(path)
