@@ -1,6 +1,8 @@
 """vicode trace: the statistics of runs, and the differences of two."""
 
+import json
 import re
+import sys
 from pathlib import Path
 
 import pytest
@@ -64,3 +66,27 @@ def test_mistakes_are_reported(
     capsys.readouterr()
     assert vicode("trace", *arguments) == 2
     assert message in capsys.readouterr().err
+
+
+def test_a_trace_is_exported_as_mcap(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    reader = pytest.importorskip("mcap.reader")
+    record("one", 0.4)
+    capsys.readouterr()
+    assert vicode("trace", "export", "one", "--mcap", "one.mcap") == 0
+    assert capsys.readouterr().out == "wrote one.mcap, 30 messages\n"
+    with Path("one.mcap").open("rb") as stream:
+        messages = [
+            (channel.topic, message.log_time, json.loads(message.data)["state"])
+            for _schema, channel, message in reader.make_reader(stream).iter_messages()
+        ]
+    assert messages[:2] == [("/Lamp", 0, "Dark"), ("/Lamp", 20_000_000, "Dark")]
+    assert ("/Bulb", 100_000_000, "On") in messages
+
+
+def test_the_export_says_which_package_is_missing(
+    lamps: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    record("one", 0.1)
+    monkeypatch.setitem(sys.modules, "mcap.writer", None)
+    assert vicode("trace", "export", "one", "--mcap", "one.mcap") == 2
+    assert "pip install 'vicode[mcap]'" in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""Statistics of traces, and the differences of two of them."""
+"""Statistics of traces, the differences of two of them, and export to MCAP."""
 
 import argparse
 from collections import Counter
@@ -17,7 +17,11 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the commands of `vicode trace`."""
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for name, add, act in (("stats", _add_stats, _stats), ("diff", _add_diff, _diff)):
+    for name, add, act in (
+        ("stats", _add_stats, _stats),
+        ("diff", _add_diff, _diff),
+        ("export", _add_export, _export),
+    ):
         summary = (act.__doc__ or "").split("\n")[0]
         command = commands.add_parser(name, help=summary, description=summary)
         add(command)
@@ -47,6 +51,11 @@ def _add_diff(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help="how long states may differ, in seconds (default: 0)",
     )
+
+
+def _add_export(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("trace", metavar="TRACE", help="a trace, or the name of a robot's record")
+    parser.add_argument("--mcap", metavar="FILE", required=True, help="the file to write; needs the extra vicode[mcap]")
 
 
 def _stats(args: argparse.Namespace) -> int:
@@ -93,6 +102,19 @@ def _diff(args: argparse.Namespace) -> int:
     states = f"{found.first or 'not active'} in A, {found.second or 'not active'} in B"
     print(f"first difference: {found.time_ns / 1e9:.3f} s, {found.component}: {states}")
     return 1
+
+
+def _export(args: argparse.Namespace) -> int:
+    """Write a trace as MCAP, for viewers such as Foxglove."""
+    from vicode.cli.trace_export import export_mcap
+    from vicode.simulation.trace import TraceError, open_trace
+
+    try:
+        count = export_mcap(open_trace(Path(args.trace)).iterations(), Path(args.mcap))
+    except TraceError as error:
+        raise OSError(f"{args.trace}: {error}") from error
+    print(f"wrote {args.mcap}, {count} messages")
+    return 0
 
 
 def _read(path: str) -> "RunHistory":
