@@ -36,6 +36,8 @@ def replace_files(
         OSError: A file cannot be written; the error names it, and all files are unchanged.
     """
     targets = {path: _resolve_target(root, path) for path in texts}
+    for path in texts:
+        _require_no_dangling_link(root / path)
     with _lock(root) as state:
         _complete_found(root, state)
         validate()
@@ -162,6 +164,12 @@ def _resolve_target(root: Path, path: str) -> Path:
     if Path(path).is_absolute() or ".." in Path(path).parts:
         raise PermissionError(errno.EACCES, f"it is outside of {root}", path)
     return (root / path).resolve()
+
+
+def _require_no_dangling_link(path: Path) -> None:
+    """A link in a folder of a stranger must not create a file elsewhere."""
+    if path.is_symlink() and not path.exists():
+        raise OSError(errno.ELOOP, "it is a link to a file that does not exist; delete it", str(path))
 
 
 def _require_writable(target: Path) -> None:

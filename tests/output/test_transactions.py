@@ -37,6 +37,16 @@ def test_a_file_keeps_its_mode_and_its_link(tmp_path: Path) -> None:
     assert (target.read_text(), target.stat().st_mode & 0o777) == ("new", 0o640)
 
 
+def test_a_link_to_nothing_creates_no_file_elsewhere(tmp_path: Path) -> None:
+    root = tmp_path / "root"
+    root.mkdir()
+    (root / "link.py").symlink_to(tmp_path / "new/file.py")
+    with pytest.raises(OSError, match="a link to a file that does not exist"):
+        replace_files(root, {"a.py": "new", "link.py": "new"})
+    assert read(root) == {}
+    assert not (tmp_path / "new").exists()
+
+
 def test_one_obstacle_keeps_all_files(tmp_path: Path) -> None:
     (tmp_path / "a.py").write_text("old")
     (tmp_path / "b").write_text("a file in the way")
