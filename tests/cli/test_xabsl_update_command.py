@@ -136,7 +136,7 @@ def test_a_changed_behavior_is_merged_before_an_update(paths: Paths, capsys: pyt
     helper.write_bytes(helper.read_bytes().replace(b"state only", b"target state only"))
     before = contents(behavior)
     assert main(["xabsl", "update", str(designs)]) == 1
-    assert "has changed since it was imported; merge it first: vicode import" in capsys.readouterr().err
+    assert "has changed since the import; merge the changes first: vicode import" in capsys.readouterr().err
     assert contents(behavior) == before
     assert main(["import", str(behavior / "agents.xabsl"), "--out", str(designs)]) == 0
     assert capsys.readouterr().out == f"merged {(designs / 'Options/Skills/helper.yaml').as_posix()}\n"

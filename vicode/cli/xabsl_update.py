@@ -60,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
         return 1
     if record is not None and not record.is_current(source):
         print(
-            f"vicode: {agents} has changed since it was imported; merge it first: "
+            f"vicode: the behavior of {agents} has changed since the import; merge the changes first: "
             f"vicode import {agents} --out {args.designs}",
             file=sys.stderr,
         )
