@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from mcap.reader import make_reader
 
 from tests.cli.command_runner import LAMP, lamps, vicode
 
@@ -69,7 +70,6 @@ def test_mistakes_are_reported(
 
 
 def test_a_trace_is_exported_as_mcap(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    reader = pytest.importorskip("mcap.reader")
     record("one", 0.4)
     capsys.readouterr()
     assert vicode("trace", "export", "one", "--mcap", "one.mcap") == 0
@@ -77,7 +77,7 @@ def test_a_trace_is_exported_as_mcap(lamps: Path, capsys: pytest.CaptureFixture[
     with Path("one.mcap").open("rb") as stream:
         messages = [
             (channel.topic, message.log_time, json.loads(message.data)["state"])
-            for _schema, channel, message in reader.make_reader(stream).iter_messages()
+            for _schema, channel, message in make_reader(stream).iter_messages()
         ]
     assert messages[:2] == [("/Lamp", 0, "Dark"), ("/Lamp", 20_000_000, "Dark")]
     assert ("/Bulb", 100_000_000, "On") in messages

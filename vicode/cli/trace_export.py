@@ -22,34 +22,31 @@ def export_mcap(iterations: "Iterable[IterationResult]", out: Path) -> int:
         from mcap.writer import Writer
     except ImportError as error:
         raise OSError("the package mcap is missing; install it with: pip install 'vicode[mcap]'") from error
-    count = 0
     part = out.with_name(f"{out.name}.part")
     try:
         with part.open("wb") as stream:
             writer: Any = Writer(stream)
             writer.start(profile="", library="vicode")
-            schema = writer.register_schema(name="vicode", encoding="jsonschema", data=b'{"type": "object"}')
-            channels: dict[str, int] = {}
-            for iteration in iterations:
-                for topic, message in _messages(iteration):
-                    if topic not in channels:
-                        channels[topic] = writer.register_channel(
-                            topic=topic, message_encoding="json", schema_id=schema
-                        )
-                    data = json.dumps(message).encode()
-                    time_ns = iteration.time_ns
-                    writer.add_message(
-                        channel_id=channels[topic],
-                        log_time=time_ns,
-                        publish_time=time_ns,
-                        sequence=iteration.iteration,
-                        data=data,
-                    )
-                    count += 1
+            count = _write(writer, iterations)
             writer.finish()
         part.replace(out)
     finally:
         part.unlink(missing_ok=True)
+    return count
+
+
+def _write(writer: Any, iterations: "Iterable[IterationResult]") -> int:
+    schema = writer.register_schema(name="vicode", encoding="jsonschema", data=b'{"type": "object"}')
+    channels: dict[str, int] = {}
+    count = 0
+    for iteration in iterations:
+        time_ns, number = iteration.time_ns, iteration.iteration
+        for topic, message in _messages(iteration):
+            if topic not in channels:
+                channels[topic] = writer.register_channel(topic=topic, message_encoding="json", schema_id=schema)
+            data = json.dumps(message).encode()
+            writer.add_message(channels[topic], log_time=time_ns, publish_time=time_ns, sequence=number, data=data)
+            count += 1
     return count
 
 
