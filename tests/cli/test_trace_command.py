@@ -6,7 +6,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from mcap.reader import make_reader
 
 from tests.cli.command_runner import LAMP, lamps, vicode
 
@@ -70,6 +69,8 @@ def test_mistakes_are_reported(
 
 
 def test_a_trace_is_exported_as_mcap(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    from mcap.reader import make_reader
+
     record("one", 0.4)
     capsys.readouterr()
     assert vicode("trace", "export", "one", "--mcap", "one.mcap") == 0
