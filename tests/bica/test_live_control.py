@@ -1,0 +1,132 @@
+"""Viewers control a running root, if it allows that."""
+
+import sys
+import time
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from tests.bica.live_robot import (
+    Background,
+    Eyes,
+    Side,
+    Viewer,
+    advance,
+    close_connections,
+    control,
+    is_iteration,
+    root,
+)
+from vicode.bica import Root
+
+__all__ = ["close_connections", "control", "root"]
+
+
+def test_control_needs_permission(root: Root) -> None:
+    viewer = Viewer(root.watch(), root)
+    assert "may only be watched" in viewer.ask(do="pause")["error"]
+    advance(root)
+
+
+def test_values_are_set_and_held(root: Root, control: Viewer) -> None:
+    assert control.ask(do="set", component="Eyes", name="distance", value=0)["done"] == "set Eyes.distance = 0.0"
+    assert root.main.state == "Lit"
+    control.ask(do="set", component="Eyes", name="side", value="Side.right", hold=True)
+    eyes = root.component(Eyes)
+    eyes.side = Side.left
+    advance(root)
+    assert eyes.side is Side.right
+    control.ask(do="unset", component="Eyes", name="side")
+    eyes.side = Side.left
+    advance(root)
+    assert eyes.side is Side.left
+
+
+@pytest.mark.parametrize(
+    ("request_", "words"),
+    [
+        ({"do": "set", "component": "Eyes", "name": "_secret", "value": 2}, "no value '_secret'"),
+        ({"do": "set", "component": "Eyes", "name": "__class__", "value": 2}, "no value '__class__'"),
+        ({"do": "set", "component": "Eyes", "name": "root", "value": 2}, "no value 'root'"),
+        ({"do": "set", "component": "Eyes", "name": "distance", "value": "far"}, "type float"),
+        ({"do": "set", "component": "Eyes", "name": "distance", "value": True}, "type float"),
+        ({"do": "set", "component": "Eyes", "name": "side", "value": "Side.up"}, "Side.left, Side.right"),
+        ({"do": "enter", "component": "Lamp", "state": "Broken"}, "no state 'Broken'"),
+        ({"do": "break", "places": [["Lamp", "Broken"]]}, "no state 'Broken'"),
+        ({"do": "break", "places": "all"}, "list of"),
+        ({"do": "step", "count": -1}, "whole number"),
+        ({"do": "frequency", "component": "Eyes", "hz": 0}, "greater than 0"),
+        ({"do": "tune", "name": "os", "value": 1}, "no component uses"),
+        ({"do": "dance"}, "unknown request"),
+        ({"do": "raise", "component": "Arms"}, "no component 'Arms'"),
+    ],
+)
+def test_requests_that_cannot_be_done_say_why(control: Viewer, request_: dict[str, Any], words: str) -> None:
+    assert words in control.ask(**request_)["error"]
+
+
+def test_a_state_is_entered_and_an_error_injected(
+    root: Root, control: Viewer, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert control.ask(do="enter", component="Lamp", state="Lit")["done"] == "Lamp: Dark → Lit"
+    control.ask(do="raise", component="Lamp", message="no light")
+    advance(root)
+    assert root.errors.total() == 1
+    err = capsys.readouterr().err
+    assert "InjectedError: no light" in err
+    assert "control: Lamp: Lamp: Dark → Lit" in err
+
+
+def test_frequencies_change_at_run_time(root: Root, control: Viewer) -> None:
+    control.ask(do="frequency", component="Eyes", hz=10)
+    eyes = root.component(Eyes)
+    advance(root)
+    worked = eyes._worked_ns
+    advance(root)
+    assert eyes._worked_ns == worked
+    for _step in range(5):
+        advance(root)
+    assert eyes._worked_ns == worked + 100_000_000
+
+
+def test_a_breakpoint_pauses_and_steps_go_on(root: Root) -> None:
+    viewer = Viewer(root.watch(control=True), root)
+    viewer.get(is_iteration)
+    viewer.ask(do="break", places=[["Lamp", "Lit"]])
+    root.component(Eyes).distance = 0.0
+    viewer.root = None
+    with Background(root):
+        line = viewer.get(lambda line: line.get("paused"))
+        assert line["tree"][0]["state"] == "Lit"
+        iteration = line["iteration"]
+        viewer.send({"id": 1, "robot": "Lamp", "do": "step"})
+        following = viewer.get(lambda line: is_iteration(line) and line["iteration"] > iteration)
+        assert following["iteration"] == iteration + 1
+        time.sleep(0.1)
+        assert root.main._stepped_in == iteration + 1
+        viewer.send({"id": 2, "robot": "Lamp", "do": "break", "places": []}, {"id": 3, "robot": "Lamp", "do": "resume"})
+        assert viewer.get(lambda line: is_iteration(line) and not line["paused"])
+
+
+def test_a_pause_ends_with_the_viewer(root: Root) -> None:
+    viewer = Viewer(root.watch(control=True), root)
+    viewer.get(is_iteration)
+    viewer.root = None
+    with Background(root):
+        viewer.send({"id": 1, "robot": "Lamp", "do": "pause"})
+        viewer.get(lambda line: line.get("paused"))
+        viewer.socket.close()
+
+
+def test_an_iteration_handles_a_limited_number_of_requests(root: Root, control: Viewer) -> None:
+    control.send(*({"id": number, "robot": "Lamp", "do": "unset"} for number in range(2_000)))
+    answers = [control.get(lambda line: "answer" in line) for _number in range(2_000)]
+    refused = [answer for answer in answers if "too many requests" in answer.get("error", "")]
+    assert 0 < len(refused) < len(answers)
+    assert "done" in control.ask(do="unset")
+
+
+def test_only_constants_are_tuned(control: Viewer, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, f"{__package__}.declarations", ModuleType("declarations"))
+    assert "no component uses" in control.ask(do="tune", name="__name__", value="other")["error"]
