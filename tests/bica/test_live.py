@@ -164,6 +164,12 @@ def test_strangers_do_not_keep_viewers_out(root: Root) -> None:
         assert Viewer(server, root).get(is_iteration)
 
 
+def test_a_root_is_watched_once(root: Root) -> None:
+    root.watch()
+    with pytest.raises(OSError, match="watched already"):
+        root.watch()
+
+
 def test_a_port_in_use_does_not_keep_a_robot_from_starting(
     root: Root, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

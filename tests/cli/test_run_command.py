@@ -132,3 +132,8 @@ def test_a_class_that_differs_from_its_declaration_does_not_start(
     assert vicode("run", "lamps/lamp.yaml") == 1
     assert problem in capsys.readouterr().err
     assert vicode("run", "lamps/bulb.yaml", "--ticks", "1") == 0
+
+
+def test_control_needs_viewers(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert vicode("run", "lamps/lamp.yaml", "--control") == 2
+    assert "--control has no effect without --watch" in capsys.readouterr().err

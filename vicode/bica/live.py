@@ -22,8 +22,11 @@ def watch_root(
     """Let viewers connect to a root; roots of one process with the same address share a server.
 
     Raises:
-        OSError: The address is in use or invalid, or shared with another token or permission to control.
+        OSError: The address is in use or invalid, or shared with another token or permission to control, or the root
+            is watched already.
     """
+    if any(each.shows(root) for each in _servers):
+        raise OSError("the root is watched already")
     server = next((each for each in _servers if each.serves(address)), None)
     if server is None:
         server = LiveServer(address, token=token, control=control)

@@ -87,6 +87,9 @@ class LiveServer:
         else:
             self.close()
 
+    def shows(self, root: Root) -> bool:
+        return not self.is_closed and any(feed.root is root for feed in self._feeds)
+
     def serves(self, address: str | int) -> bool:
         """Whether the server is open at an address that was asked for; each request for a free port gets its own."""
         return (

@@ -158,7 +158,7 @@ class Root:
             name: The name of the robot, by default that of its main component.
 
         Raises:
-            OSError: The address is in use or invalid.
+            OSError: The address is in use or invalid, or the root is watched already.
         """
         from .live import watch_root  # noqa: PLC0415 - off by default
 

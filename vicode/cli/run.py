@@ -57,6 +57,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Generate into a temporary folder, run the code in a new process, and show its progress."""
+    if args.control and args.watch is None:
+        print("vicode: --control has no effect without --watch; add --watch 7070", file=sys.stderr)
+        return 2
     selected = select_root(args.path, args.profile, "run")
     if isinstance(selected, int):
         return selected
