@@ -90,6 +90,7 @@ def test_several_robots_share_a_server() -> None:
 @pytest.mark.parametrize("first", [{"token": "wrong"}, {"token": None}, {"token": ["x"]}, {"token": "ä"}])
 def test_a_wrong_token_ends_the_connection(root: Root, first: dict[str, Any]) -> None:
     viewer = Viewer(root.watch(), **first)
+    assert viewer.get(bool) == {"error": "wrong token"}
     with pytest.raises(ConnectionResetError):
         viewer.get(bool)
 

@@ -30,6 +30,7 @@ def folder(tmp_path: Path) -> Path:
 def editor(folder: Path, tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
     kept = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "NICEGUI"))}
     state = {"VICODE_STATE": str(tmp_path / "state"), "NICEGUI_STORAGE_PATH": str(tmp_path / "storage")}
+    state["PYTHONFAULTHANDLER"] = "1"
     command = [sys.executable, "-m", "vicode", "edit", str(folder), "--no-open"]
     pipe = subprocess.PIPE
     process = subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, env={**kept, **state}, cwd=tmp_path)
@@ -51,11 +52,20 @@ def test_an_editor_cleans_up_reports_malformed_messages_in_lines_and_ends_on_han
         asyncio.run(_send(int(found[1]), frame))
     assert list((tmp_path / "state" / "unsaved").glob("*/lock"))
     editor.send_signal(signal.SIGHUP)
-    _output, errors = editor.communicate(timeout=60)
+    errors = _wait_for_end(editor)
     assert len(errors.splitlines()) == len(FRAMES), errors
     assert errors.count("Malformed message from a browser") == len(FRAMES)
     # The journals were closed: the end was orderly.
     assert not list((tmp_path / "state" / "unsaved").glob("*/lock"))
+
+
+def _wait_for_end(editor: subprocess.Popen[str]) -> str:
+    """What the editor wrote to standard error; if it does not end, with the stacks of its threads."""
+    try:
+        return editor.communicate(timeout=60)[1]
+    except subprocess.TimeoutExpired:
+        editor.send_signal(signal.SIGABRT)
+        return editor.communicate(timeout=60)[1]
 
 
 async def _send(port: int, frame: str) -> None:

@@ -111,6 +111,8 @@ def test_the_repository_is_known_in_hooks_of_additional_work_trees(
     repository: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("GIT_DIR", str(repository / ".git"))
-    monkeypatch.delenv("GIT_WORK_TREE", raising=False)
+    # Remembers that it is not set, for the end of the test.
+    monkeypatch.setenv("GIT_WORK_TREE", "")
+    monkeypatch.delenv("GIT_WORK_TREE")
     assert vicode("hook", "pre-commit") == 0
     assert find_repository(repository / "lamps").root == repository.resolve()

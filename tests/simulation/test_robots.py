@@ -57,6 +57,7 @@ def test_a_robot_describes_itself(tmp_path: Path) -> None:
             with pytest.raises(AttachError, match="token") as caught:
                 try_address(server.address, token)
             assert caught.value.is_final
+    with Root(Idle, clock=SimulatedClock()) as root:
         root.watch(f"unix:{tmp_path / 'robot.sock'}")
         assert try_address(f"unix:{tmp_path / 'robot.sock'}").robots
 

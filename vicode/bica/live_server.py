@@ -199,6 +199,7 @@ class LiveServer:
     def _admit(self, viewer: _Viewer, request: dict[str, Any]) -> None:
         token = request.get("token", "")
         if self.token and not (isinstance(token, str) and hmac.compare_digest(token.encode(), self.token.encode())):
+            self._send(viewer, {"error": "wrong token"})
             raise ValueError("wrong token")
         rate_hz = request.get("rate_hz", DEFAULT_RATE_HZ)
         if isinstance(rate_hz, int | float) and MIN_RATE_HZ <= rate_hz <= MAX_RATE_HZ:

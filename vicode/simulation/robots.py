@@ -137,9 +137,10 @@ async def connect(address: RobotAddress, token: str = "", rate_hz: float = 30.0)
     try:
         await transport.send(encode({"token": token, "rate_hz": rate_hz}))
         line = await asyncio.wait_for(transport.receive(), _CONNECT_LIMIT_S)
-        hello = decode_hello(decode_line(line)) if line else None
+        plain = decode_line(line) if line else None
+        hello = None if plain is None or "error" in plain else decode_hello(plain)
     except ConnectionError:
-        hello = None
+        plain = hello = None
     except AttachError:
         transport.close()
         raise
@@ -148,7 +149,9 @@ async def connect(address: RobotAddress, token: str = "", rate_hz: float = 30.0)
         raise AttachError(f"no vicode robot answers at {address}", is_final=True) from error
     if hello is None:
         transport.close()
-        raise AttachError(_explain_token(address, token), is_final=True)
+        if plain is not None:
+            raise AttachError(_explain_token(address, token), is_final=True)
+        raise AttachError(f"{address} closed the connection; behind a forwarded port, no robot may be running")
     return transport, hello
 
 
@@ -216,4 +219,6 @@ def _explain_refusal(address: RobotAddress, error: Exception) -> str:
 
 def _explain_token(address: RobotAddress, token: str) -> str:
     subject = "the token is wrong" if token else "a token is needed"
-    return f"{address} closed the connection: {subject}; the robot prints it when it starts (--token, {TOKEN_VARIABLE})"
+    return (
+        f"{address} refused the connection: {subject}; the robot prints it when it starts (--token, {TOKEN_VARIABLE})"
+    )
