@@ -16,6 +16,11 @@ import websockets
 ROOT = Path(__file__).parents[2]
 FRAMES = ("x", "42[not json", '42["event"]', '42["handshake",{}]', '42["javascript_response",3]', "4" + "9" * 200)
 
+# Tests that were started by nohup inherit that the signal is ignored.
+HEED_SIGHUP = (
+    "import os, signal, sys; signal.signal(signal.SIGHUP, signal.SIG_DFL); os.execv(sys.argv[1], sys.argv[1:])"
+)
+
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
@@ -31,7 +36,7 @@ def editor(folder: Path, tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
     kept = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "NICEGUI"))}
     state = {"VICODE_STATE": str(tmp_path / "state"), "NICEGUI_STORAGE_PATH": str(tmp_path / "storage")}
     state["PYTHONFAULTHANDLER"] = "1"
-    command = [sys.executable, "-m", "vicode", "edit", str(folder), "--no-open"]
+    command = [sys.executable, "-c", HEED_SIGHUP, sys.executable, "-m", "vicode", "edit", str(folder), "--no-open"]
     pipe = subprocess.PIPE
     process = subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, env={**kept, **state}, cwd=tmp_path)
     try:
