@@ -69,7 +69,7 @@ def test_a_conflict_is_resolved_in_the_dialog(file: Path, editor: str, page: Pag
     page.get_by_role("button", name="Step (F10)").click()
     dialog.get_by_role("button", name="Cancel").click()
     expect(dialog).to_have_count(0)
-    expect(page.get_by_text("The design lacks 1 edit of the generated code")).to_be_visible()
+    expect(page.get_by_text("Missing from the design: 1 edit of the generated code")).to_be_visible()
     page.get_by_role("button", name="Resolve…", exact=True).click()
     expect(dialog.get_by_role("button", name="Apply")).to_be_disabled()
     dialog.get_by_role("button", name="In the generated file").click()

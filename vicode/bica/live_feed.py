@@ -149,7 +149,7 @@ class LiveFeed:
 
     def _handle_requests(self) -> None:
         self._has_requests.clear()
-        # What comes in meanwhile waits: the iteration must not.
+        # Later requests wait for the next iteration, which must not be delayed.
         for _ in range(len(self._requests)):
             viewer, request = self._requests.popleft()
             answer: dict[str, Any] = {"answer": request.get("id"), "robot": self.name}

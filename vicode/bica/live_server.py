@@ -1,4 +1,4 @@
-"""The server that viewers of running roots connect to: JSON lines over TCP or a Unix socket, in a thread of its own.
+"""The server that viewers of running roots connect to: JSON lines over TCP or a Unix socket, in a separate thread.
 
 A viewer that reads slowly gets the newest iteration and skips those between; roots never wait for a viewer.
 """

@@ -1,4 +1,4 @@
-"""Recorder: keeps the last minutes of a running root in files, written by a thread of its own (docs/traces.md)."""
+"""Recorder: keeps the last minutes of a running root in files, written by a separate thread (docs/traces.md)."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ class Recorder:
 
     def _write_waiting(self) -> None:
         newest = 0
-        # Iterations that are added meanwhile wait for the next time.
+        # Iterations that are added during the loop are written the next time.
         for _ in range(len(self._waiting)):
             record = self._waiting.popleft()
             self._write_record(record)

@@ -8,8 +8,8 @@ from vicode.findings import Finding, SourceLocation, get_rule
 from vicode.model.merge import contains_edits
 from vicode.output import FileDiff, FileStatus, OutputFile
 from vicode.regions import ParsedRegions, Region, find_regions, get_comment_prefix, has_header, is_edited, strip_bodies
+from vicode.store import find_conflicts, resolve_conflicts
 from vicode.sync.applied_edits import RecordedEdit, RegionKey
-from vicode.sync.git_conflicts import split_sides
 from vicode.sync.region_merge import RegionEdit, merge_region_edits
 from vicode.sync.same_code import is_same_code
 
@@ -94,7 +94,10 @@ class _EditFinder:
         file = f"{self.display_folder}/{path}" if self.display_folder else path
         edits = FileEdits(path=path, component=self.components.get(path, ""), old=old, new=new)
         # After a merge in git that left conflicts, both sides may contain edits.
-        sides = split_sides(old) or (old,)
+        conflicts = find_conflicts(old)
+        sides: tuple[str, ...] = (old,)
+        if conflicts:
+            sides = tuple(resolve_conflicts(old, conflicts, takes_theirs=is_theirs) for is_theirs in (False, True))
         if not all(map(has_header, sides)):
             message = "this file was not generated; generation would replace it"
             fix = f"move it away, or generate with --force, which keeps it as {file.rpartition('/')[2]}.edited"

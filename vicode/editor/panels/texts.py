@@ -234,7 +234,7 @@ def not_sandboxed(problem: str) -> str:
 def edits_before_simulation(waiting: int, problem: str, file: str) -> str:
     """Why code with edits missing from the design is not simulated."""
     if waiting:
-        return f"The design lacks {pluralize(waiting, 'edit')} of the generated code. Resolve, then restart."
+        return f"Missing from the design: {pluralize(waiting, 'edit')} of the generated code. Resolve, then restart."
     if problem:
         return f"The generated code cannot be compared with the design: {problem}"
     return f"{file} was edited outside regions. Generate lists the edits that the design can express; then restart."

@@ -286,7 +286,7 @@ class SimulationController:
         return is_allowed
 
     def _has_all_edits(self) -> bool:
-        """Take edits of the generated code in; where the design still lacks some, ask the user and return False."""
+        """Apply edits of the generated code; where some cannot be applied, ask the user and return False."""
         if self.is_replay:
             return True
         lacking = find_lacking(self.context.workspace, self.context.design.component)
