@@ -193,6 +193,19 @@ def test_an_output_with_arguments_cannot_be_replayed(cars: Path, capsys: pytest.
     assert vicode("replay", "run.jsonl", "--design", "cars", "--allow-missing") == 0
 
 
+def test_edits_missing_from_the_design_are_refused_as_in_a_run(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    change(cars / "car.yaml", "modulates: {turn: {}}", "modulates: {turn: {}}\n    actions: 'self.laps += 0'")
+    record(1)
+    assert vicode("gen", "cars") == 0
+    change(cars / "generated/python/cars/car.py", "self.laps += 0", "self.laps += 1")
+    capsys.readouterr()
+    assert vicode("run", "cars/car.yaml", "--seconds", "1") == 1
+    refused = capsys.readouterr().err
+    assert "error G501 edited-generated: the code of region 'Avoid.actions' was edited" in refused
+    assert vicode("replay", "run.jsonl", "--design", "cars") == 2
+    assert capsys.readouterr().err == refused
+
+
 def test_a_trace_of_another_design_or_no_trace_is_an_error(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
     record(1)
     capsys.readouterr()

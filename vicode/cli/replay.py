@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from vicode.bica import options
 from vicode.cli.console import print_findings
 from vicode.cli.project_loader import LoadedProject, load_projects
+from vicode.cli.root_selection import find_unsynced_edits
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -46,6 +47,10 @@ def run(args: argparse.Namespace) -> int:
         opened, design = _find_design(args.design, str(first.tree[0]["component"]))
         if opened.errors_for("python"):
             print_findings(opened.errors_for("python"), to_stderr=True)
+            return 2
+        edits = find_unsynced_edits(opened, design.component)
+        if edits:
+            print_findings(edits, to_stderr=True)
             return 2
         result = _replay(args, opened, design, _chain(first, iterations))
     except TraceError as error:

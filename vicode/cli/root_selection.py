@@ -37,7 +37,7 @@ def select_root(path: str, profile: str, verb: str) -> tuple[LoadedProject, str]
         print(f"vicode: {path} has several components; specify the design to {verb}", file=sys.stderr)
         return 2
     print_findings((each for each in opened.findings if each.rule.code in _UNPROVIDED), to_stderr=True)
-    edits = _find_unsynced_edits(opened, component)
+    edits = find_unsynced_edits(opened, component)
     if edits:
         print_findings(edits, to_stderr=True)
         return 1
@@ -52,7 +52,7 @@ def find_root_component(opened: LoadedProject) -> str | None:
     return roots[0] if len(roots) == 1 else None
 
 
-def _find_unsynced_edits(opened: LoadedProject, component: str) -> tuple[Finding, ...]:
+def find_unsynced_edits(opened: LoadedProject, component: str) -> tuple[Finding, ...]:
     """Edits of generated code that are missing from the designs: the run would not contain them."""
     from vicode.cli.gen import output_folder
     from vicode.generators import generate
