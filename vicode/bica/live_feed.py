@@ -7,7 +7,7 @@ import inspect
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict
@@ -24,6 +24,7 @@ _MAX_CHANGES = 256
 _MAX_REQUESTS = 64
 """So many requests wait for the next iteration at most, which handles them all."""
 _PAUSED_POLL_S = 0.05
+_SHARED_MODULES = ("declarations.py", "interfaces.py")
 
 
 class StateChangeRecord(TypedDict):
@@ -69,11 +70,12 @@ class LiveFeed:
         root._before_reload.append(self._stop_observing)
 
     def describe(self) -> dict[str, Any]:
-        """Describe the robot: its components with their design, the hash of their code, states and frequencies."""
+        """Describe the robot: its components with their design, states, and hashes of their code."""
         return {
             "name": self.name,
             "root": type(self.root.main).__name__,
             "components": {type(each).__name__: _describe_component(each) for each in self.root.components},
+            "shared": _hash_shared_modules(self.root.components),
         }
 
     def request(self, viewer: object, request: dict[str, Any]) -> bool:
@@ -228,6 +230,13 @@ def _describe_component(component: Component) -> dict[str, Any]:
         "states": list(component._states),
         "frequency_hz": component.frequency_hz,
     }
+
+
+def _hash_shared_modules(components: Iterable[Component]) -> dict[str, str]:
+    """The hashes of the generated modules that the designs share."""
+    files = {inspect.getfile(type(each)) for each in components if each.design_file}
+    paths = (Path(file).with_name(name) for file in files for name in _SHARED_MODULES)
+    return {path.name: _hash_file(str(path)) for path in paths if path.is_file()}
 
 
 def hash_source(component_class: type[Component]) -> str:

@@ -49,11 +49,12 @@ class ComponentDescription:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotDescription:
-    """A robot and the components of its root, by name."""
+    """A robot and the components of its root, by name; `shared` are hashes of modules that designs share, by file."""
 
     name: str
     root: str
     components: Mapping[str, ComponentDescription] = field(default_factory=dict)
+    shared: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -198,7 +199,8 @@ def _robot(plain: Mapping[str, Any]) -> RobotDescription:
         )
         for name, each in plain["components"].items()
     }
-    return RobotDescription(name=str(plain["name"]), root=str(plain["root"]), components=components)
+    shared = {str(name): str(code) for name, code in plain.get("shared", {}).items()}
+    return RobotDescription(name=str(plain["name"]), root=str(plain["root"]), components=components, shared=shared)
 
 
 async def _open(address: RobotAddress) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:

@@ -45,6 +45,7 @@ components:
     outputs:
       seen: {type: bool}
       light: {type: float, unit: lx, range: [0, 100]}
+  Floor: {implementation: world, outputs: {slope: float}}
 """
 HANDS = """
 from vicode.bica import Component

@@ -216,6 +216,11 @@ def test_another_version_of_the_design_is_noticed(folder: Path) -> None:
         assert find_other_versions(project, sources, described) == ()
         changed = replace(lamp, states=(*lamp.states, State(name="New")))
         assert find_other_versions(replace(project, designs=(changed,)), sources, described) == ("Lamp",)
+        brighter = replace(project.constants[0], initial="11")
+        assert find_other_versions(replace(project, constants=(brighter,)), sources, described) == ("declarations.py",)
+        floor = replace(project.components[-1], doc="Changed.")
+        components = (*project.components[:-1], floor)
+        assert find_other_versions(replace(project, components=components), sources, described) == ("interfaces.py",)
         broken = replace(lamp, initial="Nowhere")
         assert find_other_versions(replace(project, designs=(broken,)), sources, described) is None
 

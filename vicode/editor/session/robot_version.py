@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Mapping
 from itertools import product
 
-from vicode.generators import UnsoundDesignError, generate, list_component_paths
+from vicode.generators import UnsoundDesignError, generate, list_component_paths, list_outputs
 from vicode.model.project import Project, select_profile
 from vicode.simulation.robots import RobotDescription
 
@@ -12,7 +12,7 @@ from vicode.simulation.robots import RobotDescription
 def find_other_versions(
     project: Project, sources: Mapping[str, str], robot: RobotDescription
 ) -> tuple[str, ...] | None:
-    """The designs whose generated file differs from that of the robot; None if they cannot be generated.
+    """The designs and shared modules whose generated file differs from that of the robot; None if there are errors.
 
     The robot may use any profile, with or without its own copy of the runtime.
 
@@ -22,7 +22,11 @@ def find_other_versions(
         robot: The robot with the hashes of its files.
     """
     known = {name: each.code for name, each in robot.components.items() if each.code and project.design(name)}
-    hashes: dict[str, set[str]] = {name: set() for name in known}
+    outputs = list_outputs(project, languages=("python",))
+    paths = {name: list_component_paths(project, name) for name in known}
+    paths |= {name: tuple(path for path in outputs if path.endswith(f"/{name}")) for name in robot.shared}
+    running = {**known, **robot.shared}
+    hashes: dict[str, set[str]] = {name: set() for name in running}
     try:
         projects = (project, *(select_profile(project, each.name) for each in project.profiles))
         for each, standalone in product(projects, (False, True)):
@@ -31,10 +35,10 @@ def find_other_versions(
             )
             texts = {file.path: file.text for file in files}
             for name, found in hashes.items():
-                found |= {_hash(texts[path]) for path in list_component_paths(project, name) if path in texts}
+                found |= {_hash(texts[path]) for path in paths[name] if path in texts}
     except UnsoundDesignError:
         return None
-    return tuple(name for name, code in known.items() if code not in hashes[name])
+    return tuple(name for name, code in running.items() if code not in hashes[name])
 
 
 def _hash(text: str) -> str:
