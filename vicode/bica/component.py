@@ -81,6 +81,7 @@ class Component:
         "_initial",
         "_left",
         "_period_ns",
+        "_reads_action_done",
         "_started_ns",
         "_states",
         "_stepped_in",
@@ -101,6 +102,7 @@ class Component:
         self._called: list[tuple[Component, dict[str, Any]]] = []
         self._left: State | None = None
         self._cooperative_states: dict[str, CooperativeState] = {}
+        self._reads_action_done = False
         self._transition: str | None = None
         self._stepped_in = -1
         self._started_ns = self._entered_ns = self._worked_ns = 0
@@ -179,6 +181,7 @@ class Component:
     def _set_states(self, *states: State) -> None:
         """Declare the states; the first is the initial one."""
         self._states = {state.name: state for state in states}
+        self._reads_action_done = any(state.calls for state in states)
         self._initial = self._current = states[0]
         self.state = states[0].name
         for state in states:

@@ -39,6 +39,8 @@ class StepRecord(TypedDict):
     transition: str | None
     parameters: dict[str, Any]
     done: bool
+    action_done: NotRequired[bool]
+    conflict: NotRequired[bool]
     component_time_ns: NotRequired[int]
     values: NotRequired[dict[str, Any]]
 
@@ -46,13 +48,15 @@ class StepRecord(TypedDict):
 class IterationRecord(TypedDict):
     """One iteration; `tree` lists the steps in the order of their start, `errors` the first exceptions.
 
-    `inputs` are the values of components that only provide values, before the iteration.
+    `still_done` are components that are done although this iteration did not step them; `inputs` the values of
+    components that only provide values, before the iteration.
     """
 
     iteration: int
     time_ns: int
     tree: list[StepRecord]
     errors: list[dict[str, Any]]
+    still_done: list[str]
     inputs: NotRequired[dict[str, dict[str, Any]]]
     dropped: NotRequired[int]
 
@@ -72,6 +76,7 @@ class Observer:
         self._tree: list[StepRecord] = []
         self._errors: list[dict[str, Any]] = []
         self._active: list[str] = []
+        self._stepped: list[Component] = []
         self._modulated: tuple[Component, dict[str, Any]] | None = None
         self._known_components = -1
         self._passive: tuple[Component, ...] = ()
@@ -104,7 +109,9 @@ class Observer:
             "time_ns": root.now_ns,
             "tree": self._tree,
             "errors": self._errors,
+            "still_done": [],
         }
+        before, self._stepped = self._stepped, []
         if self._values:
             inputs = {type(each).__name__: _read_inputs(each) for each in self._find_passive(root)}
             if any(inputs.values()):
@@ -112,6 +119,10 @@ class Observer:
         try:
             (step or root.main.step)()
         finally:
+            # Only of these, `is_done` cannot be seen in the tree: it also counts the iteration before.
+            left = [each for each in before if each._stepped_in != root.iteration]
+            if left:
+                record["still_done"] = sorted({type(each).__name__ for each in left if each.is_done})
             self._sink(record)
 
     def _find_passive(self, root: Root) -> tuple[Component, ...]:
@@ -125,6 +136,7 @@ class Observer:
         record = self._begin_record(component)
         self._tree.append(record)
         self._active.append(record["component"])
+        self._stepped.append(component)
         component._left = component._transition = None
         try:
             plain_step()
@@ -155,6 +167,10 @@ class Observer:
         record["transition"] = component._transition
         record["state_time_ns"] = component.root.now_ns - component._entered_ns
         record["done"] = component.is_done
+        if component._reads_action_done:
+            record["action_done"] = component.action_done
+        if component._cooperative_states:
+            record["conflict"] = component.conflict
         if self._values:
             record["component_time_ns"] = component.root.now_ns - component._started_ns
             record["values"] = to_json_value(_collect_values(component))

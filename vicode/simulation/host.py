@@ -106,6 +106,7 @@ class RunHost:
             time_ns=record["time_ns"],
             tree=[cast("dict[str, Any]", step) for step in record["tree"]],
             errors=record["errors"],
+            still_done=record["still_done"],
             inputs=record.get("inputs", {}),
             world=to_json_value(snapshot()) if snapshot is not None else None,
             finished=bool(getattr(self._root.world, "finished", False)),

@@ -124,7 +124,7 @@ class IterationResult:
     `finished` is reported by the world. `guards` are those of the active state by decision: `holds` is true, false or
     unknown (None), `parts` the same for each condition, `reads` the values of names. `calls` are calls of functions of
     stubs. `component` is the one that `state` and its neighbors describe, by default the root. `changes` are the state
-    changes since the iteration before, if some were missed.
+    changes since the iteration before, if some were missed. `still_done` is None if it was not recorded.
     """
 
     iteration: int
@@ -140,6 +140,7 @@ class IterationResult:
     calls: list[dict[str, Any]] = field(default_factory=list)
     component: str = ""
     changes: list[dict[str, Any]] = field(default_factory=list)
+    still_done: list[str] | None = None
     kind: Literal["iteration"] = "iteration"
 
     @property
@@ -221,6 +222,7 @@ _FIELD_TYPES: dict[str, type | tuple[type, ...]] = {
     "calls": list,
     "component": str,
     "changes": list,
+    "still_done": (list, type(None)),
     "reason": str,
     "message": str,
     "error": (dict, type(None)),

@@ -8,7 +8,7 @@ import pytest
 
 from tests.editor.simulation.lamp_project import prepare_lamp, recorded_iterations, simulate, write_lamps
 from vicode.bica.observer import TRACE_HEADER
-from vicode.editor.session.simulation import Recording, Simulation
+from vicode.editor.session.simulation import Recording, RunConfig, Simulation, prepare_run
 from vicode.editor.session.simulation.guard_values import evaluate_guards, latest_steps
 from vicode.editor.session.simulation.traces import input_script, read_iterations
 from vicode.model.design import Design
@@ -105,7 +105,7 @@ def test_guards_of_a_trace_are_evaluated_as_in_the_run(lamps: Path) -> None:
         found = evaluate_guards(project, lamp, iteration, steps)
         assert found.keys() == iteration.guards.keys()
         for key, guard in found.items():
-            # Code and functions are not called, and `done` is only known of components that were stepped.
+            # Code and functions are not called.
             known = [
                 (a, b) for a, b in zip(guard["parts"], iteration.guards[key]["parts"], strict=True) if a is not None
             ]
@@ -113,3 +113,55 @@ def test_guards_of_a_trace_are_evaluated_as_in_the_run(lamps: Path) -> None:
         if iteration.state == "Dark":
             assert [found[key]["holds"] for key in ("Dark/0", "Dark/1")] != [None, None]
     assert {"Dark", "Lit"} <= set(recording.states)
+
+
+BOSS = """
+vicode: 1
+component: Boss
+uses: {task: Task}
+initial: Order
+states:
+  Order:
+    modulates: {task: {}}
+    transitions:
+      - {to: Rest, when: action_done and done(task)}
+      - {to: Alone, when: conflict or state_time > 9}
+  Rest:
+    transitions:
+      - {to: Order, when: not done(task) and not action_done, after: 0.05}
+      - {to: Alone, when: conflict}
+  Alone: {capacity: 1}
+"""
+TASK = """
+vicode: 1
+component: Task
+initial: Busy
+states:
+  Busy: {transitions: [{to: Over, after: 0.03}]}
+  Over: {final: true}
+"""
+
+
+def test_done_action_done_and_conflict_are_known_in_a_trace(tmp_path: Path) -> None:
+    (tmp_path / "project.yaml").write_text("vicode: 1\nproject: Office\n", encoding="utf-8")
+    for name, text in (("boss.yaml", BOSS), ("task.yaml", TASK)):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    project = open_project(tmp_path).project
+    boss = project.design("Boss")
+    assert boss is not None
+    prepared = prepare_run(project, boss, RunConfig(), {}, tmp_path)
+    texts: list[str] = []
+
+    async def record(simulation: Simulation) -> None:
+        await simulation.step(12)
+        texts.append(trace_of(simulation))
+
+    simulate(prepared, tmp_path, record)
+    seen: set[tuple[str, bool]] = set()
+    for iteration in read_iterations(texts[0], boss):
+        found = evaluate_guards(project, boss, iteration, {"Task": iteration.tree[-1]})
+        assert {key: each["parts"] for key, each in found.items()} == {
+            key: each["parts"] for key, each in iteration.guards.items()
+        }
+        seen.add((iteration.state, found[f"{iteration.state}/0"]["reads"]["done(task)"]))
+    assert seen == {("Order", False), ("Order", True), ("Rest", False), ("Rest", True)}

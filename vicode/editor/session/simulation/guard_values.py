@@ -96,6 +96,7 @@ def _collect_values(design: Design, iteration: IterationResult, steps: Steps) ->
     step = iteration.step
     values: dict[str, Any] = {name: _plain(value) for name, value in (step.get("values") or {}).items()}
     now = {str(each["component"]): each for each in iteration.tree}
+    values.update((name, step[name]) for name in ("action_done", "conflict") if isinstance(step.get(name), bool))
     if isinstance(step.get("state_time_ns"), int):
         values["state_time"] = step["state_time_ns"] / (1e6 if design.time_unit == "ms" else 1e9)
     for use in design.uses:
@@ -103,6 +104,8 @@ def _collect_values(design: Design, iteration: IterationResult, steps: Steps) ->
             values[f"{use.alias}.{name}"] = _plain(value)
         if use.component in now:
             values[f"done({use.alias})"] = now[use.component].get("done") is True
+        elif iteration.still_done is not None:
+            values[f"done({use.alias})"] = use.component in iteration.still_done
     return values
 
 
