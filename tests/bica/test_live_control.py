@@ -55,6 +55,8 @@ def test_values_are_set_and_held(root: Root, control: Viewer) -> None:
         ({"do": "enter", "component": "Lamp", "state": "Broken"}, "no state 'Broken'"),
         ({"do": "break", "places": [["Lamp", "Broken"]]}, "no state 'Broken'"),
         ({"do": "break", "places": "all"}, "list of"),
+        ({"do": "break", "places": [["Lamp", "Dark", "Lit"]]}, "list of"),
+        ({"do": "break", "places": [["Lamp", "Dark", "Broken", None]]}, "no state 'Broken'"),
         ({"do": "step", "count": -1}, "whole number"),
         ({"do": "frequency", "component": "Eyes", "hz": 0}, "greater than 0"),
         ({"do": "tune", "name": "os", "value": 1}, "no component uses"),
@@ -107,6 +109,19 @@ def test_a_breakpoint_pauses_and_steps_go_on(root: Root) -> None:
         assert root.main._stepped_in == iteration + 1
         viewer.send({"id": 2, "robot": "Lamp", "do": "break", "places": []}, {"id": 3, "robot": "Lamp", "do": "resume"})
         assert viewer.get(lambda line: is_iteration(line) and not line["paused"])
+
+
+@pytest.mark.parametrize("source", ["Lit", ""])
+def test_a_breakpoint_on_a_transition_pauses_only_there(root: Root, control: Viewer, source: str) -> None:
+    control.ask(do="break", places=[["Lamp", source, "Dark", None], ["Lamp", "Dark", "Lit", "another"]])
+    eyes = root.component(Eyes)
+    eyes.distance = 0.0
+    assert not control.get(lambda line: is_iteration(line) and line["tree"][0]["state"] == "Lit")["paused"]
+    eyes.distance = 5.0
+    control.root = None
+    with Background(root):
+        assert control.get(lambda line: line.get("paused"))["tree"][0]["state"] == "Dark"
+        control.send({"id": 1, "robot": "Lamp", "do": "break", "places": []}, {"robot": "Lamp", "do": "resume"})
 
 
 def test_a_pause_ends_with_the_viewer(root: Root) -> None:

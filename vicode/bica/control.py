@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,7 @@ from .errors import make_error_record
 
 if TYPE_CHECKING:
     from .component import Component
-    from .observer import IterationRecord
+    from .observer import IterationRecord, StepRecord
     from .root import Root
 
 _MAX_FREQUENCY_HZ = 10_000.0
@@ -33,7 +33,7 @@ class Controller:
         self._root = root
         self._paused_by: object = None
         self._steps_left = 0
-        self._breakpoints: dict[object, frozenset[tuple[str, str]]] = {}
+        self._breakpoints: dict[object, frozenset[tuple[str | None, ...]]] = {}
         self._held: dict[tuple[str, str], tuple[object, Any]] = {}
         self._injected: dict[str, str] = {}
         self._actions: Mapping[str, Callable[[object, dict[str, Any]], str]] = {
@@ -71,15 +71,17 @@ class Controller:
         return action(viewer, request)
 
     def check_breakpoints(self, record: IterationRecord) -> None:
-        """Pause if an iteration entered a state with a breakpoint; count steps."""
+        """Pause if an iteration entered a state or took a transition with a breakpoint; count steps."""
         if self._steps_left:
             self._steps_left -= 1
+        if not self._breakpoints:
+            return
+        reached = {place for step in record["tree"] if step["changed_from"] is not None for place in _places(step)}
+        if record["errors"]:
+            reached.add(("", "error"))
         for viewer, places in self._breakpoints.items():
-            for step in record["tree"]:
-                is_hit = step["changed_from"] is not None and (step["component"], step["state"]) in places
-                if is_hit or (record["errors"] and ("", "error") in places):
-                    self._paused_by = viewer
-                    self._steps_left = 0
+            if not reached.isdisjoint(places):
+                self._paused_by, self._steps_left = viewer, 0
 
     def prepare_step(self, component: Component, plain_step: Callable[[], None]) -> Callable[[], None]:
         """The step of a component with injected errors and held values."""
@@ -119,17 +121,18 @@ class Controller:
         return ""
 
     def _break(self, viewer: object, request: dict[str, Any]) -> str:
-        """Replace the breakpoints of a viewer: pairs of component and state; ["", "error"] stops on errors."""
+        """Replace the breakpoints of a viewer: [component, state], or [component, source, target, id] of a transition.
+
+        The source of a common transition is "", and its id may be null; ["", "error"] stops on errors.
+        """
         places = request.get("places")
-        if not isinstance(places, list) or not all(
-            isinstance(place, list) and len(place) == 2 and all(isinstance(part, str) for part in place)
-            for place in places
-        ):
-            raise ControlError("'places' must be a list of [component, state]")
-        for component, state in places:
-            if component and state not in self._component(component)._states:
-                raise ControlError(f"{component} has no state '{state}'")
-        self._breakpoints[viewer] = frozenset((component, state) for component, state in places)
+        if not isinstance(places, list) or not all(map(_is_place, places)):
+            raise ControlError("'places' must be a list of [component, state] or [component, source, target, id]")
+        for component, *states in (place[:3] for place in places if place[0]):
+            unknown = [state for state in states if state and state not in self._component(component)._states]
+            if unknown:
+                raise ControlError(f"{component} has no state '{unknown[0]}'")
+        self._breakpoints[viewer] = frozenset(map(tuple, places))
         return ""
 
     def _set(self, viewer: object, request: dict[str, Any]) -> str:
@@ -204,6 +207,20 @@ class Controller:
             if type(component).__name__ == name:
                 return component
         raise ControlError(f"no component {name!r}")
+
+
+def _is_place(place: object) -> bool:
+    if not isinstance(place, list) or len(place) not in (2, 4):
+        return False
+    return all(isinstance(part, str) for part in place[:3]) and isinstance(place[-1], str | None)
+
+
+def _places(step: StepRecord) -> Iterator[tuple[str | None, ...]]:
+    """The breakpoints that a change of the state reaches."""
+    component, state, transition = step["component"], step["state"], step["transition"]
+    yield (component, state)
+    yield (component, step["changed_from"], state, transition)
+    yield (component, "", state, transition)
 
 
 def _fail(message: str) -> None:

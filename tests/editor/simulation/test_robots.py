@@ -12,9 +12,10 @@ from tests.editor.simulation.robot_program import RobotProgram, running_robot, w
 from vicode.bica import Component, Root, SimulatedClock
 from vicode.editor.session.robot_version import find_other_versions
 from vicode.editor.session.robots import LinkStatus, RobotLink, RobotRequestError
-from vicode.editor.session.simulation import Recording, Simulation, prepare_view
+from vicode.editor.session.simulation import Breakpoints, Recording, Simulation, prepare_view
 from vicode.editor.session.simulation.guard_values import evaluate_guards
 from vicode.editor.session.simulation.traces import focus_iteration
+from vicode.editor.view import ItemRef
 from vicode.model.design import Design, State
 from vicode.model.project import Project
 from vicode.simulation import IterationResult
@@ -116,7 +117,7 @@ def test_requests_are_answered(folder: Path) -> None:
         before = await first_iteration(link)
         await link.request("step", count=3)
         await until(link, lambda: link.robot.iteration.iteration == before.iteration + 3)  # type: ignore[union-attr]
-        await link.set_breakpoints("Lamp", ("Lit", "NoSuchState"))
+        await link.set_breakpoints("Lamp", (("Lit",), ("NoSuchState",)))
         await link.request("set", component="Eye", name="seen", value=True, hold=True)
         await link.request("resume")
         await until(link, lambda: link.robot.is_paused and link.robot.root_state == "Lit")  # type: ignore[union-attr]
@@ -126,6 +127,25 @@ def test_requests_are_answered(folder: Path) -> None:
     with running_robot(folder) as program:
         attach(program, act)
         assert program.root.main.state in ("Lit", "Dark")
+
+
+def test_a_breakpoint_on_a_transition_stops_the_robot(folder: Path) -> None:
+    _project, lamp = project_and_lamp(folder)
+    breakpoints = Breakpoints().toggled(ItemRef(kind="transitions", id="Lit/0"), ItemRef(kind="states", id="Dark"))
+    assert breakpoints.places(lamp) == (("Dark",), ("Lit", "Dark", None))
+    transition = Breakpoints().toggled(ItemRef(kind="transitions", id="Lit/0"))
+
+    async def act(link: RobotLink) -> None:
+        await first_iteration(link)
+        await link.set_breakpoints("Lamp", (*transition.places(lamp), ("Lit", "NoSuchState", None)))
+        await link.request("set", component="Eye", name="seen", value=True, hold=True)
+        await until(link, lambda: link.robot.root_state == "Lit")  # type: ignore[union-attr]
+        assert not link.robot.is_paused  # type: ignore[union-attr]
+        await link.request("set", component="Eye", name="seen", value=False, hold=True)
+        await until(link, lambda: link.robot.is_paused and link.robot.root_state == "Dark")  # type: ignore[union-attr]
+
+    with running_robot(folder) as program:
+        attach(program, act)
 
 
 def test_a_robot_without_control_says_so(folder: Path) -> None:

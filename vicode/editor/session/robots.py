@@ -35,6 +35,8 @@ _MAX_SEEDED = 600
 _RATE_WINDOW = 60
 
 Adapt = Callable[[IterationResult], IterationResult]
+Place = tuple[str | None, ...]
+"""A breakpoint: a state, or source, target and id of a transition."""
 
 
 class LinkStatus(StrEnum):
@@ -172,7 +174,7 @@ class RobotLink:
         """The name of the robot that the windows show."""
         self.changes: Subscribers[[]] = Subscribers()
         """Called after each message and each change of the status."""
-        self._breakpoints: dict[str, tuple[str, ...]] = {}
+        self._breakpoints: dict[str, tuple[Place, ...]] = {}
         self._transport: SocketTransport | None = None
         self._task: asyncio.Task[None] | None = None
         self._answers: dict[int, asyncio.Future[str]] = {}
@@ -255,23 +257,23 @@ class RobotLink:
         finally:
             self._answers.pop(number, None)
 
-    async def set_breakpoints(self, component: str, states: tuple[str, ...]) -> None:
-        """Replace the breakpoints of a component; states that the robot does not have are left out.
+    async def set_breakpoints(self, component: str, places: tuple[Place, ...]) -> None:
+        """Replace the breakpoints of a component; those at states that the robot does not have are left out.
 
         Raises:
             RobotRequestError: It was not done.
         """
-        if self._breakpoints.get(component, ()) != states:
-            self._breakpoints[component] = states
+        if self._breakpoints.get(component, ()) != places:
+            self._breakpoints[component] = places
             await self._send_breakpoints()
 
     async def _send_breakpoints(self) -> None:
         known = self.robot.description.components if self.robot else {}
         places = [
-            [component, state]
-            for component, states in self._breakpoints.items()
-            for state in states
-            if component in known and state in known[component].states
+            [component, *place]
+            for component, places in self._breakpoints.items()
+            for place in places
+            if component in known and {*place[:2]} <= {"", *known[component].states}
         ]
         await self.request("break", places=places)
 

@@ -102,8 +102,8 @@ class RobotView:
 
     def tell_breakpoints(self) -> None:
         if self.is_shown and not self.problem_of_control:
-            states = tuple(sorted(each.id for each in self._controller.breakpoints.items if each.kind == "states"))
-            self._run(partial(self.link.set_breakpoints, self._component, states))
+            places = self._controller.breakpoints.places(self.design)
+            self._run(partial(self.link.set_breakpoints, self._component, places))
 
     def ask(self, do: str, then: Callable[[], object] = lambda: None, **fields: Any) -> None:
         """Ask the robot for something, and show a message if it was not done."""

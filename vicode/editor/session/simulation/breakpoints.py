@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from vicode.editor.view import ItemRef, transition_key
-from vicode.model.design import Design
+from vicode.model.design import COMMON, Design, Transition
 from vicode.model.traversal import iter_transitions
 from vicode.simulation import StopConditions
 
@@ -26,6 +26,16 @@ class Breakpoints:
         known = {ItemRef(kind="states", id=state.name) for state in design.states}
         known |= {ItemRef(kind="transitions", id=transition_key(located.path)) for located in iter_transitions(design)}
         return Breakpoints(items=self.items & known)
+
+    def places(self, design: Design) -> tuple[tuple[str | None, ...], ...]:
+        """The breakpoints as a robot knows them: (state,), or (source, target, id) of a transition."""
+        ids = {each.id for each in self.items if each.kind == "transitions"}
+        transitions = (
+            ("" if located.source == COMMON else located.source, decision.to, decision.id or None)
+            for located in iter_transitions(design)
+            if isinstance(decision := located.decision, Transition) and transition_key(located.path) in ids
+        )
+        return (*((each.id,) for each in sorted(self.items, key=str) if each.kind == "states"), *transitions)
 
     def stop_conditions(self, *, changes: bool = False, errors: bool = False, extra_state: str = "") -> StopConditions:
         """The stop conditions of a run; `extra_state` is one more state to stop at."""
