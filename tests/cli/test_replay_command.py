@@ -182,14 +182,37 @@ def test_missing_values_are_reported(
     assert message in capsys.readouterr().err
 
 
-def test_an_output_with_arguments_cannot_be_replayed(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_outputs_with_arguments_return_what_they_returned(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    change(
+        cars / "hands.py", "return 2 * x", "return self.depth_of(x)\n\n    def depth_of(self, x):\n        return ROAD"
+    )
+    change(cars / "hands.py", "ROAD", "self.world.now_s % (x + 2)")
+    change(cars / "car.yaml", "uses: {", "uses: {map: Map, ")
+    change(cars / "car.yaml", "road.slope > 2.9", "map.depth(x=1) > 2.9")
+    change(cars / "project.yaml", "size: float, ", "")
+    record()
+    calls = [call for line in Path("run.jsonl").read_text().splitlines() for call in json.loads(line).get("calls", ())]
+    assert {(call["component"], call["output"], str(call["arguments"])) for call in calls} == {
+        ("Map", "depth", "{'x': 1.0}")
+    }
+    capsys.readouterr()
+    assert vicode("replay", "run.jsonl", "--design", "cars") == 0, capsys.readouterr().out
+    edit_trace(lambda lines: [lines[0], *lines[207:230], *lines[280:-1]])
+    assert vicode("replay", "run.jsonl", "--design", "cars") == 0, capsys.readouterr().out
+    change(cars / "car.yaml", "map.depth(x=1) > 2.9", "map.depth(x=1) > 1")
+    assert vicode("replay", "run.jsonl", "--design", "cars") == 1
+
+
+def test_calls_with_other_arguments_are_reported(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
     change(cars / "car.yaml", "uses: {", "uses: {map: Map, ")
     change(cars / "car.yaml", "road.slope > 2.9", "map.depth(x=1) > 2.9")
     change(cars / "project.yaml", "size: float, ", "")
     record(1)
+    change(cars / "car.yaml", "map.depth(x=1)", "map.depth(x=2)")
     capsys.readouterr()
     assert vicode("replay", "run.jsonl", "--design", "cars") == 2
-    assert "the design calls Map.depth, an output with arguments" in capsys.readouterr().err
+    message = "at 0.000 s, iteration 1, the design calls Map.depth(x=2.0), which the trace has no result of"
+    assert message in capsys.readouterr().err
     assert vicode("replay", "run.jsonl", "--design", "cars", "--allow-missing") == 0
 
 

@@ -187,6 +187,7 @@ class _LiveObserver(Observer):
 
     def __init__(self, sink: Callable[[IterationRecord], None], controller: Controller) -> None:
         super().__init__(sink, values=True)
+        self._records_calls = False
         self._controller = controller
         self._replaced: list[tuple[Component, dict[str, Any]]] = []
 

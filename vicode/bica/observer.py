@@ -7,10 +7,11 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import asdict
 from enum import Enum
+from inspect import isfunction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NotRequired, TypedDict
 
-from .component import Component
+from .component import RESERVED_NAMES, Component
 from .timing import replace_step, will_work
 
 if TYPE_CHECKING:
@@ -22,6 +23,8 @@ TRACE_HEADER = {"vicode-trace": 1, "runtime": "bica"}
 
 _MAX_ERRORS = 20
 _MAX_INT_BITS = 1024
+_MAX_CALLS = 200
+"""So many calls of outputs with arguments are recorded per iteration at most."""
 
 ActivationLink = Literal["root", "requires", "modulates"]
 
@@ -45,11 +48,20 @@ class StepRecord(TypedDict):
     values: NotRequired[dict[str, Any]]
 
 
+class CallRecord(TypedDict):
+    """What an output with arguments returned; positional arguments have their index as name."""
+
+    component: str
+    output: str
+    arguments: dict[str, Any]
+    value: Any
+
+
 class IterationRecord(TypedDict):
     """One iteration; `tree` lists the steps in the order of their start, `errors` the first exceptions.
 
     `still_done` are components that are done although this iteration did not step them; `inputs` the values of
-    components that only provide values, before the iteration.
+    components that only provide values, before the iteration; `calls` what outputs with arguments returned.
     """
 
     iteration: int
@@ -58,6 +70,7 @@ class IterationRecord(TypedDict):
     errors: list[dict[str, Any]]
     still_done: list[str]
     inputs: NotRequired[dict[str, dict[str, Any]]]
+    calls: NotRequired[list[CallRecord]]
     dropped: NotRequired[int]
 
 
@@ -72,11 +85,13 @@ class Observer:
     def __init__(self, sink: Callable[[IterationRecord], None] | None = None, *, values: bool = False) -> None:
         self.records: list[IterationRecord] = []
         self._sink = sink if sink is not None else self.records.append
-        self._values = values
+        self._values = self._records_calls = values
         self._tree: list[StepRecord] = []
         self._errors: list[dict[str, Any]] = []
-        self._active: list[str] = []
+        self.active: list[str] = []
+        """The components whose code runs, the innermost last."""
         self._stepped: list[Component] = []
+        self._calls: dict[str, CallRecord] = {}
         self._modulated: tuple[Component, dict[str, Any]] | None = None
         self._known_components = -1
         self._passive: tuple[Component, ...] = ()
@@ -93,6 +108,18 @@ class Observer:
 
         component.__dict__["modulate"] = observed_modulate
         replace_step(component, lambda: self._observe_step(component, plain_step))
+        if self._records_calls and not component._states and not component.design_file:
+            for name in _find_functions(type(component)):
+                component.__dict__[name] = ObservedFunction(getattr(component, name), type(component).__name__, self)
+
+    def add_call(self, component: str, output: str, given: dict[str, Any], value: Any) -> None:
+        """Record what a function of a component returned, if all values are plain."""
+        if all(isinstance(each, bool | int | float | str | Enum) for each in (value, *given.values())):
+            arguments = to_json_value(given)
+            key = f"{component}.{output}{arguments}"
+            if len(self._calls) < _MAX_CALLS or key in self._calls:
+                call: CallRecord = {"component": component, "output": output, "arguments": arguments, "value": None}
+                self._calls[key] = {**call, "value": to_json_value(value)}
 
     def add_error(self, error: ErrorRecord) -> None:
         """Record an exception of this iteration; of its file only the name, since folders differ from run to run."""
@@ -102,7 +129,8 @@ class Observer:
     def observe_iteration(self, root: Root, step: Callable[[], None] | None = None) -> None:
         """Step the root component, by default with its method, and pass the record of the iteration to the sink."""
         self._tree, self._errors = [], []
-        self._active.clear()
+        self.active.clear()
+        self._calls = {}
         self._modulated = None
         record: IterationRecord = {
             "iteration": root.iteration,
@@ -123,6 +151,8 @@ class Observer:
             left = [each for each in before if each._stepped_in != root.iteration]
             if left:
                 record["still_done"] = sorted({type(each).__name__ for each in left if each.is_done})
+            if self._calls:
+                record["calls"] = [*self._calls.values()]
             self._sink(record)
 
     def _find_passive(self, root: Root) -> tuple[Component, ...]:
@@ -135,19 +165,19 @@ class Observer:
     def _observe_step(self, component: Component, plain_step: Callable[[], None]) -> None:
         record = self._begin_record(component)
         self._tree.append(record)
-        self._active.append(record["component"])
+        self.active.append(record["component"])
         self._stepped.append(component)
         component._left = component._transition = None
         try:
             plain_step()
         finally:
-            self._active.pop()
+            self.active.pop()
             self._finish_record(record, component)
 
     def _begin_record(self, component: Component) -> StepRecord:
         modulated, self._modulated = self._modulated, None
         is_modulated = modulated is not None and modulated[0] is component
-        by = self._active[-1] if self._active else None
+        by = self.active[-1] if self.active else None
         return {
             "component": type(component).__name__,
             "by": by,
@@ -174,6 +204,40 @@ class Observer:
         if self._values:
             record["component_time_ns"] = component.root.now_ns - component._started_ns
             record["values"] = to_json_value(_collect_values(component))
+
+
+class ObservedFunction:
+    """An output with arguments, in place of the method of a component."""
+
+    def __init__(self, function: Callable[..., Any], component: str, observer: Observer) -> None:
+        self._function, self._component, self._observer = function, component, observer
+        self.__name__: str = function.__name__
+
+    def __call__(self, *positional: Any, **named: Any) -> Any:
+        """Call the method, and record the result if another component asked."""
+        active = self._observer.active
+        if not active or active[-1] == self._component:
+            return self._function(*positional, **named)
+        active.append(self._component)
+        try:
+            value = self._function(*positional, **named)
+        finally:
+            active.pop()
+        given = {**{str(index): each for index, each in enumerate(positional)}, **named}
+        self._observer.add_call(self._component, self.__name__, given, value)
+        return value
+
+
+def _find_functions(component_class: type[Component]) -> list[str]:
+    """The names of public methods with arguments."""
+    return [
+        name
+        for name in dir(component_class)
+        if not name.startswith("_")
+        and name not in RESERVED_NAMES
+        and isfunction(function := getattr(component_class, name))
+        and function.__code__.co_argcount + function.__code__.co_kwonlyargcount > 1
+    ]
 
 
 def to_json_value(value: object) -> Any:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from .component import Component, State
 from .errors import describe_exception
+from .observer import ObservedFunction
 
 if TYPE_CHECKING:
     from .root import Root
@@ -138,7 +139,8 @@ class _Snapshot:
     def __init__(self, component: Component) -> None:
         self.component, self.kind = component, type(component)
         # The functions of observers are removed, and added again after the reload.
-        for name in ("step", "modulate"):
+        observed = [name for name, value in component.__dict__.items() if isinstance(value, ObservedFunction)]
+        for name in ("step", "modulate", *observed):
             component.__dict__.pop(name, None)
         self._attributes = dict(component.__dict__)
         names = (name for name in Component.__slots__ if name != "__dict__")

@@ -75,7 +75,7 @@ class RunHost:
         return self._watch.evaluate()
 
     def step(self, time_ns: int | None = None) -> IterationResult:
-        """Run one iteration and advance the clock; a recorded iteration has its own time."""
+        """Run one iteration and advance the clock; a recorded iteration has its own time, and no guards."""
         if time_ns is not None:
             self._clock.advance(max(0, time_ns - self._clock.now_ns()))
         self._watch.begin_iteration()
@@ -88,7 +88,7 @@ class RunHost:
         if advance is not None:
             advance(self._clock.now_ns())
         self._root.step()
-        iteration = self._make_result()
+        iteration = self._make_result(has_guards=time_ns is None)
         if time_ns is None:
             self._clock.advance(self._setup.tick_ns)
         return iteration
@@ -96,7 +96,7 @@ class RunHost:
     def _on_record(self, record: IterationRecord) -> None:
         self._record = record
 
-    def _make_result(self) -> IterationResult:
+    def _make_result(self, *, has_guards: bool) -> IterationResult:
         record = self._record
         assert record is not None
         lines, left_out = self._prints.drain()
@@ -110,7 +110,7 @@ class RunHost:
             inputs=record.get("inputs", {}),
             world=to_json_value(snapshot()) if snapshot is not None else None,
             finished=bool(getattr(self._root.world, "finished", False)),
-            guards=self._watch.evaluate(),
+            guards=self._watch.evaluate() if has_guards else {},
             prints=lines,
             omitted_lines=left_out,
             calls=[call for stub in self._stubs for call in stub.drain_calls()],

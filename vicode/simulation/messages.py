@@ -22,12 +22,16 @@ class ProtocolError(ValueError):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StubOutput:
-    """An output of a stub. `type` is bool, int, float or the name of an enumeration; `value` is the initial value."""
+    """An output of a stub. `type` is bool, int, float or the name of an enumeration; `value` is the initial value.
+
+    An output that `is_live` changes at once, and not when its component is stepped.
+    """
 
     name: str
     type: str
     value: Any
     is_function: bool = False
+    is_live: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -322,7 +326,8 @@ def _make_response(plain: dict[str, Any]) -> Response:
         raise ProtocolError(f"not a response: {str(plain)[:80]}")
     wrong = _wrong_field(plain, _FIELD_TYPES)
     if not wrong and make is IterationResult:
-        wrong = _wrong_step(plain.get("tree"))
+        are_calls = all(isinstance(call, dict) for call in plain.get("calls", ()))
+        wrong = _wrong_step(plain.get("tree")) if are_calls else "calls"
     if wrong:
         raise ProtocolError(f"wrong type: {wrong}")
     try:

@@ -57,6 +57,10 @@ class StubComponent(Component):
     def set_outputs(self, values: Mapping[str, Any]) -> None:
         """Set outputs by name; unknown names are ignored."""
         self._given = {**self._given, **{name: value for name, value in values.items() if name in self._given}}
+        live = {each.name: self._given[each.name] for each in self.stub.outputs if each.is_live}
+        if live:
+            self._held = {**self._held, **live}
+            self._show({**self._shown, **live})
         if self.stub.is_live:
             self._held = self._given
         if self.stub.is_live or self._stepped_in >= self.root.iteration or not self.root.iteration:

@@ -61,6 +61,8 @@ class RecordedInputs:
         self._names: dict[str, tuple[str, ...]] = {}
         self._known: dict[tuple[str, str], Any] = {}
         self._allows_missing = allows_missing
+        inputs = tuple(inputs)
+        self._functions = {each.key: each.initial for each in inputs if each.arguments is not None}
         for each in inputs:
             if each.arguments is None and each.name != DONE:
                 self._names[each.component] = (*self._names.get(each.component, ()), each.name)
@@ -78,6 +80,15 @@ class RecordedInputs:
                 if value is not None and value != self._known.get((component, name)):
                     self._known[component, name] = value
                     changes.setdefault(component, {})[name] = value
+        for (component, name), initial in self._functions.items():
+            table = [
+                [call.get("arguments"), call.get("value")]
+                for call in iteration.calls
+                if (call.get("component"), call.get("output")) == (component, name)
+            ]
+            if table != self._known.get((component, name), []):
+                self._known[component, name] = table
+                changes.setdefault(component, {})[name] = {"value": initial, "table": table}
         return changes
 
     def _value(self, component: str, name: str, values: Mapping[str, Any] | None) -> Any:
@@ -235,7 +246,7 @@ class _Replay:
         await self.client.run(Request(kind="run", count=len(chunk), script=script, times_ns=times_ns), answers.append)
         for recorded, replayed in zip(chunk, answers, strict=True):
             if not self.allows_missing:
-                _require_no_calls(replayed)
+                _require_calls(recorded, replayed)
             self._remember(recorded, replayed)
             self.comparison.add(recorded, replayed, self._values)
             self._count, self._number, self._time_ns = self._count + 1, recorded.iteration, recorded.time_ns
@@ -260,16 +271,30 @@ def _take_consecutive(
 
 
 def _with_live_stubs(prepared: PreparedRun, first: IterationResult) -> PreparedRun:
-    """Components that only provide values are not stepped: their stubs show new values at once."""
-    stubs = (replace(stub, is_live=stub.is_live or stub.component in first.inputs) for stub in prepared.setup.stubs)
+    """Components that only provide values are not stepped: their stubs show new values at once, as functions do."""
+    stubs = (
+        replace(
+            stub,
+            is_live=stub.is_live or stub.component in first.inputs,
+            outputs=tuple(replace(each, is_live=each.is_function) for each in stub.outputs),
+        )
+        for stub in prepared.setup.stubs
+    )
     return replace(prepared, setup=replace(prepared.setup, stubs=tuple(stubs)))
 
 
-def _require_no_calls(replayed: IterationResult) -> None:
+def _require_calls(recorded: IterationResult, replayed: IterationResult) -> None:
+    known = [(call.get("component"), call.get("output"), call.get("arguments")) for call in recorded.calls]
     for call in replayed.calls:
-        raise MissingValuesError(
-            f"the design calls {call['component']}.{call['output']}, an output with arguments, which a trace lacks"
-        )
+        if (call["component"], call["output"], call["arguments"]) not in known:
+            arguments = ", ".join(
+                value if name.isdigit() else f"{name}={value}"
+                for name, value in ((name, str(value)) for name, value in call["arguments"].items())
+            )
+            raise MissingValuesError(
+                f"at {recorded.time_ns / 1e9:.3f} s, iteration {recorded.iteration}, the design calls "
+                f"{call['component']}.{call['output']}({arguments}), which the trace has no result of"
+            )
 
 
 def _input_values(iteration: IterationResult) -> Iterator[tuple[str, Mapping[str, Any] | None]]:
