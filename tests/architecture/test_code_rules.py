@@ -32,6 +32,7 @@ PACKAGE_OF_LIBRARY = {
     "pygls": "xabsl",
     "pygments": "docsite",
     "pygraphviz": "diagram",
+    "pymunk": "simulated_robot",
     "regex": "editor",
     "reportlab": "diagram",
     "resvg_py": "diagram",

@@ -36,6 +36,7 @@ def test_the_robot_finds_through_the_corridor(seed: int) -> None:
     world = Corridor(seed)
     drive(walk_corridor, world, seconds=400)
     assert world.finished, (world.x, world.y, world.heading)
+    assert world.bumps == 0
 
 
 def test_nothing_is_sensed_that_is_not_there() -> None:

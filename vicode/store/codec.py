@@ -21,12 +21,12 @@ from vicode.store.schema_types import (
 
 def decode_design(value: FormatValue, default_name: str) -> Design:
     """Build a design; `default_name` is the component name if the file has none."""
-    return cast("Design", _decode_record(DESIGN, value, {"component": default_name}))
+    return cast("Design", decode_record(DESIGN, value, {"component": default_name}))
 
 
 def decode_project(value: FormatValue, default_name: str) -> Project:
     """Build a project without designs; `default_name` is its name if the file has none."""
-    return cast("Project", _decode_record(PROJECT, value, {"name": default_name}))
+    return cast("Project", decode_record(PROJECT, value, {"name": default_name}))
 
 
 def encode_design(design: Design) -> FormatValue:
@@ -47,7 +47,7 @@ def _decode(schema: ValueSchema, value: Any) -> Any:
         case MapSchema():
             return _decode_map(schema, value)
         case RecordSchema():
-            return _decode_record(schema, value, {})
+            return decode_record(schema, value, {})
 
 
 def _decode_map(schema: MapSchema, pairs: Any) -> Any:
@@ -56,12 +56,13 @@ def _decode_map(schema: MapSchema, pairs: Any) -> Any:
     if not schema.name_field:
         return pairs
     if isinstance(schema.value_schema, RecordSchema):
-        return tuple(_decode_record(schema.value_schema, value, {schema.name_field: name}) for name, value in pairs)
+        return tuple(decode_record(schema.value_schema, value, {schema.name_field: name}) for name, value in pairs)
     assert schema.entry_model is not None, "a map of values with a name_field lacks its entry_model"
     return tuple(schema.entry_model(**{schema.name_field: name, schema.value_field: value}) for name, value in pairs)
 
 
-def _decode_record(schema: RecordSchema, pairs: FormatValue, defaults: Mapping[str, Any]) -> Any:
+def decode_record(schema: RecordSchema, pairs: FormatValue, defaults: Mapping[str, Any]) -> Any:
+    """Build the model of a record; `defaults` are fields of the model that the record may set."""
     values = dict(cast("tuple[tuple[str, FormatValue], ...]", pairs))
     arguments = dict(defaults)
     nested: dict[str, dict[str, Any]] = {}

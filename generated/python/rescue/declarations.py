@@ -7,6 +7,10 @@ from typing import Final
 maximum_laser_value: Final = 0.8
 # In m/s
 forward_speed: Final = 0.4
+# Of the robot while it turns (in m/s)
+curve_speed: Final = 0.2
+# A wall at a side is near below this distance from the center of the robot (in m)
+side_clearance: Final = 0.45
 # Until what the sensors say is new; the thesis took 2 s, as its sensor data came late (in s)
 settling_time: Final = 0.2
 # To the left; turned round it is to the right (in deg/s)

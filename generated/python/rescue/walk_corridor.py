@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from vicode.bica import Component, State
 
-from .declarations import forward_speed, maximum_laser_value, settling_time, turn_speed
+from .declarations import curve_speed, forward_speed, maximum_laser_value, settling_time, side_clearance, turn_speed
 from .interfaces import Laser, differential_drive, wait
 
 if TYPE_CHECKING:
@@ -40,6 +40,14 @@ class walk_corridor(Component):
             if float(self.world.laser_max) < maximum_laser_value:
                 self._change_to("move_back")
                 return
+            # away from what is near on the left
+            if float(self.world.laser_min_wnw) < side_clearance or float(self.world.laser_min_nw) < side_clearance:
+                self._change_to("move_right")
+                return
+            # away from what is near on the right
+            if float(self.world.laser_min_ene) < side_clearance or float(self.world.laser_min_ne) < side_clearance:
+                self._change_to("move_left")
+                return
             if float(self.world.laser_max) == float(self.world.laser_min_n):
                 self._change_to("move_forward")
                 return
@@ -61,35 +69,53 @@ class walk_corridor(Component):
         self._call(self.wait, time=settling_time)
 
     def _in_move_forward(self, decide: bool = True) -> None:
-        # another way has become longer
-        if decide and float(self.world.laser_max) != float(self.world.laser_min_n):
-            self._change_to("decide_movement")
-            return
+        if decide:
+            # another way has become longer
+            if float(self.world.laser_max) != float(self.world.laser_min_n):
+                self._change_to("decide_movement")
+                return
+            # a wall is near
+            if (
+                float(self.world.laser_min_wnw) < side_clearance
+                or float(self.world.laser_min_nw) < side_clearance
+                or float(self.world.laser_min_ene) < side_clearance
+                or float(self.world.laser_min_ne) < side_clearance
+            ):
+                self._change_to("decide_movement")
+                return
         self._call(self.differential_drive, speed=forward_speed, turning_speed=0.0)
 
     def _in_move_left(self, decide: bool = True) -> None:
-        # go on till threat is over
-        if decide and (
-            float(self.world.laser_max) == float(self.world.laser_min_nne)
-            or float(self.world.laser_max) == float(self.world.laser_min_ne)
-            or float(self.world.laser_max) == float(self.world.laser_min_ene)
-            or float(self.world.laser_max) == float(self.world.laser_min_n)
-        ):
-            self._change_to("decide_movement")
-            return
-        self._call(self.differential_drive, speed=forward_speed, turning_speed=float(turn_speed))
+        if decide:
+            if float(self.world.laser_min_ene) < side_clearance or float(self.world.laser_min_ne) < side_clearance:
+                self._stay()
+                return
+            # go on till threat is over
+            if (
+                float(self.world.laser_max) == float(self.world.laser_min_nne)
+                or float(self.world.laser_max) == float(self.world.laser_min_ne)
+                or float(self.world.laser_max) == float(self.world.laser_min_ene)
+                or float(self.world.laser_max) == float(self.world.laser_min_n)
+            ):
+                self._change_to("decide_movement")
+                return
+        self._call(self.differential_drive, speed=curve_speed, turning_speed=float(turn_speed))
 
     def _in_move_right(self, decide: bool = True) -> None:
-        # go on till threat is over
-        if decide and (
-            float(self.world.laser_max) == float(self.world.laser_min_nnw)
-            or float(self.world.laser_max) == float(self.world.laser_min_nw)
-            or float(self.world.laser_max) == float(self.world.laser_min_wnw)
-            or float(self.world.laser_max) == float(self.world.laser_min_n)
-        ):
-            self._change_to("decide_movement")
-            return
-        self._call(self.differential_drive, speed=forward_speed, turning_speed=float(-turn_speed))
+        if decide:
+            if float(self.world.laser_min_wnw) < side_clearance or float(self.world.laser_min_nw) < side_clearance:
+                self._stay()
+                return
+            # go on till threat is over
+            if (
+                float(self.world.laser_max) == float(self.world.laser_min_nnw)
+                or float(self.world.laser_max) == float(self.world.laser_min_nw)
+                or float(self.world.laser_max) == float(self.world.laser_min_wnw)
+                or float(self.world.laser_max) == float(self.world.laser_min_n)
+            ):
+                self._change_to("decide_movement")
+                return
+        self._call(self.differential_drive, speed=curve_speed, turning_speed=float(-turn_speed))
 
     def _in_move_back(self, decide: bool = True) -> None:
         # there is room again

@@ -1,0 +1,54 @@
+"""A bridge in a few lines: turns each robot once around, in lock step, by the clock, or with the lines of JXI."""
+
+import asyncio
+import json
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+
+@asynccontextmanager
+async def fake_bridge(*, greeting: bytes = b"Robot connection accepted\n", error: str = "") -> AsyncIterator[int]:
+    """Yield the port of a bridge that ends with the block."""
+    tasks = []
+
+    async def serve(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        tasks.append(asyncio.current_task())
+        writer.write(greeting)
+        turned, yaw, drive, number = 0.0, None, None, 0
+        while line := await reader.readline():
+            is_json = line.startswith(b"{")
+            message = json.loads(line) if is_json else _read_jxi(line)
+            if "hello" in message:
+                writer.write(_json({"error": error} if error else {"welcome": {"robot": message["hello"]["robot"]}}))
+            if "INS" not in message:
+                continue
+            new = float(message["INS"][2])
+            turned += 0.0 if yaw is None else (new - yaw + 180) % 360 - 180
+            yaw, number = new, number + 1
+            before, drive = drive, [0.1, 30] if turned < 360 else [0, 0]
+            state = {"active": [["drive_circle", "turn" if drive[1] else "stop"]]}
+            commands = {"DIFFERENTIALDRIVE": drive} if drive != before else {}
+            if "tick" in message:
+                writer.write(_json({"tick": message["tick"], "commands": commands, "state": state, "age_ms": 0}))
+            elif is_json:
+                writer.write(_json({"commands": commands, "state": state, "age_ms": 1.5}))
+            elif commands:
+                writer.write(f"DIFFERENTIALDRIVE:{drive[0]},{drive[1]}\nUNKNOWN:?\n".encode())
+        writer.close()
+        await writer.wait_closed()
+
+    server = await asyncio.start_server(serve, "127.0.0.1", 0)
+    try:
+        yield server.sockets[0].getsockname()[1]
+    finally:
+        server.close()
+        await asyncio.gather(*filter(None, tasks), return_exceptions=True)
+
+
+def _json(message: object) -> bytes:
+    return json.dumps(message).encode() + b"\n"
+
+
+def _read_jxi(line: bytes) -> dict[str, list[str]]:
+    target, _colon, values = line.decode().partition(":")
+    return {target: values.split(",")}

@@ -1,0 +1,77 @@
+"""A simulated robot that a bridge drives: lock step, real time, the lines of JXI, and refusals."""
+
+import asyncio
+
+import pytest
+
+from tests.simulated_robot.fake_bridge import fake_bridge
+from vicode.simulated_robot.arena import Arena
+from vicode.simulated_robot.client import BridgeError
+from vicode.simulated_robot.session import BridgeAddress, SimulationSession
+from vicode.simulated_robot.world_map import WorldMap
+
+
+def drive(*, is_lock_step: bool = True, is_jxi: bool = False, seed: int = 1, robots: int = 1, seconds: float = 30.0):
+    async def run() -> SimulationSession:
+        async with fake_bridge() as port:
+            session = SimulationSession(
+                Arena(WorldMap(), robots=robots, seed=seed), BridgeAddress(port=port, is_jxi=is_jxi)
+            )
+            if is_lock_step:
+                await session.run_lock_step(
+                    seconds, is_over=lambda: all(each.state == "stop" for each in session.tracks)
+                )
+            else:
+                await session.run_real_time(seconds)
+            return session
+
+    return asyncio.run(run())
+
+
+def test_in_lock_step_a_circle_takes_its_time_in_the_simulation() -> None:
+    session = drive()
+    (track,) = session.tracks
+    assert 360 <= track.robot.turned <= 365
+    assert 11 < session.arena.now_s < 14
+    assert track.state_changes == 1
+    assert len(track.points) == round(session.arena.now_s / 0.05)
+
+
+def test_the_same_seed_gives_the_same_run() -> None:
+    first, second, other = (drive(seed=seed).tracks[0].points for seed in (1, 1, 2))
+    assert first == second
+    assert first != other
+
+
+def test_several_robots_have_a_connection_each() -> None:
+    session = drive(robots=3)
+    assert [track.robot.number for track in session.tracks] == [1, 2, 3]
+    assert all(track.robot.turned >= 360 for track in session.tracks)
+
+
+@pytest.mark.parametrize("is_jxi", [False, True])
+def test_in_real_time_commands_are_followed_when_they_come(is_jxi: bool) -> None:
+    session = drive(is_lock_step=False, is_jxi=is_jxi, seconds=0.5)
+    (track,) = session.tracks
+    assert track.robot.turned > 1
+    assert track.robot.driven_m > 0
+    assert session.arena.now_s == pytest.approx(0.5, abs=0.05)
+    assert (track.age_ms is None) is is_jxi
+
+
+def test_a_server_that_is_no_bridge_is_named() -> None:
+    async def run() -> None:
+        async with fake_bridge(greeting=b"220 mail ready\n") as port:
+            await SimulationSession(Arena(WorldMap()), BridgeAddress(port=port)).run_lock_step(1)
+
+    with pytest.raises(BridgeError, match="the server is no bridge: it greets with b'220 mail ready"):
+        asyncio.run(run())
+
+
+def test_a_refusal_of_the_bridge_is_passed_on() -> None:
+    async def run() -> None:
+        async with fake_bridge(error="no behavior 'dance'") as port:
+            await SimulationSession(Arena(WorldMap()), BridgeAddress(port=port)).run_lock_step(1)
+
+    with pytest.raises(BridgeError, match="the bridge reports: no behavior 'dance'"):
+        asyncio.run(run())

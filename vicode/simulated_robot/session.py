@@ -1,0 +1,200 @@
+"""Runs a simulated world whose robots are driven by behaviors behind a bridge, in lock step or in real time."""
+
+import asyncio
+from collections.abc import Callable, Sequence
+from contextlib import AsyncExitStack
+from dataclasses import dataclass, field
+from itertools import count, pairwise
+
+from vicode.simulated_robot.arena import Arena, SimulatedRobot
+from vicode.simulated_robot.client import Answer, RobotConnection, RobotHello, Sensors
+from vicode.simulated_robot.world_map import Point
+
+TICK_S = 0.05
+"""The pace of the robots: 20 Hz."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BridgeAddress:
+    """Where the bridge listens, and how robots talk to it."""
+
+    host: str = "127.0.0.1"
+    port: int = 7001
+    behavior: str = ""
+    token: str = ""
+    is_jxi: bool = False
+    name: str = "robot"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrackPoint:
+    """What one robot did at one tick; `state` is that of the root, `active` are all."""
+
+    time_s: float
+    at: Point
+    yaw: float
+    active: tuple[tuple[str, str], ...] = ()
+    age_ms: float | None = None
+
+    @property
+    def state(self) -> str:
+        return self.active[0][1] if self.active else ""
+
+
+@dataclass(slots=True, eq=False)
+class RobotTrack:
+    """A robot with everything it did."""
+
+    robot: SimulatedRobot
+    points: list[TrackPoint] = field(default_factory=list)
+    active: tuple[tuple[str, str], ...] = ()
+    age_ms: float | None = None
+    ranges: Sequence[float] = ()
+
+    @property
+    def state(self) -> str:
+        return self.active[0][1] if self.active else ""
+
+    @property
+    def state_changes(self) -> int:
+        states = [point.state for point in self.points]
+        return sum(before != after for before, after in pairwise(states))
+
+    def take(self, answer: Answer) -> None:
+        """Follow an answer of the bridge."""
+        if command := answer.commands.get("DIFFERENTIALDRIVE"):
+            self.robot.drive(*command[:2])
+        if answer.active is not None:
+            self.active = answer.active
+        self.age_ms = answer.age_ms if answer.age_ms is not None else self.age_ms
+
+    def record(self, time_s: float) -> None:
+        robot = self.robot
+        self.points.append(
+            TrackPoint(time_s=time_s, at=robot.at, yaw=robot.yaw, active=self.active, age_ms=self.age_ms)
+        )
+
+
+class SimulationSession:
+    """One world and the connections of its robots.
+
+    Attributes:
+        arena: The world.
+        tracks: What each robot did.
+    """
+
+    def __init__(self, arena: Arena, address: BridgeAddress) -> None:
+        self.arena = arena
+        self.tracks = tuple(RobotTrack(robot) for robot in arena.robots)
+        self._address = address
+        self._links: tuple[RobotConnection, ...] = ()
+
+    async def run_lock_step(
+        self, seconds: float, *, is_over: Callable[[], bool] = lambda: False, on_tick: Callable[[], None] = lambda: None
+    ) -> None:
+        """Simulate as fast as the bridge answers, until the time is over or `is_over`.
+
+        Raises:
+            BridgeError: The bridge refused or closed a connection.
+        """
+        async with AsyncExitStack() as stack:
+            await self._connect(stack, is_lock_step=True)
+            for tick in count(1):
+                self.arena.advance(TICK_S)
+                now = round(tick * TICK_S, 6)
+                for track, link in zip(self.tracks, self._links, strict=True):
+                    link.send_tick(self._sense(track, is_first=tick == 1), time_s=now)
+                for track, link in zip(self.tracks, self._links, strict=True):
+                    track.take(await link.read())
+                    track.record(now)
+                on_tick()
+                if is_over() or now >= seconds:
+                    return
+
+    async def run_real_time(
+        self,
+        seconds: float,
+        *,
+        is_over: Callable[[], bool] = lambda: False,
+        on_tick: Callable[[], None] = lambda: None,
+        period_s: float = TICK_S,
+    ) -> None:
+        """Simulate in real time; messages that the bridge does not take in time are not sent."""
+        async with AsyncExitStack() as stack:
+            await self._connect(stack, is_lock_step=False)
+            group = await stack.enter_async_context(_ReaderGroup())
+            for track, link in zip(self.tracks, self._links, strict=True):
+                group.follow(track, link)
+            loop = asyncio.get_running_loop()
+            start = due = loop.time()
+            for tick in count(1):
+                # A late tick is not repeated: its time is simulated with the next one.
+                due = max(due + period_s, loop.time())
+                await asyncio.sleep(due - loop.time())
+                self.arena.advance(max(0.0, due - start - self.arena.now_s))
+                for track, link in zip(self.tracks, self._links, strict=True):
+                    link.send(self._sense(track, is_first=tick == 1), time_s=round(self.arena.now_s, 6))
+                    track.record(self.arena.now_s)
+                    await link.drain()
+                on_tick()
+                if is_over() or self.arena.now_s >= seconds or group.is_closed:
+                    return
+
+    async def _connect(self, stack: AsyncExitStack, *, is_lock_step: bool) -> None:
+        address, links = self._address, []
+        for track in self.tracks:
+            hello = RobotHello(
+                robot=f"{address.name}{track.robot.number}",
+                behavior=address.behavior,
+                token=address.token,
+                is_lock_step=is_lock_step,
+                priority=len(self.tracks) - track.robot.number,
+            )
+            link = await RobotConnection.connect(address.host, address.port, hello, is_jxi=address.is_jxi)
+            stack.push_async_callback(link.close)
+            links.append(link)
+        self._links = tuple(links)
+
+    def _sense(self, track: RobotTrack, *, is_first: bool) -> Sensors:
+        robot = track.robot
+        track.ranges = self.arena.scan(robot)
+        sensors: dict[str, Sequence[float]] = {
+            "LASER": track.ranges,
+            "INS": _rounded(robot.odometry()),
+            "GROUNDTRUTH": _rounded((*robot.at, robot.yaw)),
+        }
+        return {"NUMBER": (robot.number,), **sensors} if is_first else sensors
+
+
+class _ReaderGroup:
+    """Tasks that read what the bridge sends; they end with the group."""
+
+    def __init__(self) -> None:
+        self._tasks: list[asyncio.Task[None]] = []
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the bridge closed all connections."""
+        return bool(self._tasks) and all(task.done() for task in self._tasks)
+
+    def follow(self, track: RobotTrack, link: RobotConnection) -> None:
+        self._tasks.append(asyncio.create_task(_follow(track, link)))
+
+    async def __aenter__(self) -> "_ReaderGroup":
+        return self
+
+    async def __aexit__(self, *_exception: object) -> None:
+        for task in self._tasks:
+            task.cancel()
+        for result in await asyncio.gather(*self._tasks, return_exceptions=True):
+            if isinstance(result, Exception):
+                raise result
+
+
+async def _follow(track: RobotTrack, link: RobotConnection) -> None:
+    async for answer in link.answers():
+        track.take(answer)
+
+
+def _rounded(values: Sequence[float]) -> tuple[float, ...]:
+    return tuple(round(value, 4) for value in values)
