@@ -38,7 +38,7 @@ _PYTHON = frozenset(keyword.kwlist)
 _LANGUAGES = (
     Language("python", "Python", _PYTHON, editor_mode="Python", fence="python", comment=r"#.*", is_generated=True),
     # C++17 with its alternative tokens.
-    Language("cpp", "C++", frozenset(_CPP.split()), editor_mode="C++", fence="cpp"),
+    Language("cpp", "C++", frozenset(_CPP.split()), editor_mode="C++", fence="cpp", is_generated=True),
     Language("xabsl", "XABSL", frozenset(_XABSL.split()), editor_mode="C", is_generated=True),
 )
 LANGUAGES = {each.name: each for each in _LANGUAGES}

@@ -94,7 +94,24 @@ def _xabsl_generator() -> Generator:
     )
 
 
-GENERATORS: Mapping[str, Callable[[], Generator]] = {"python": _python_generator, "xabsl": _xabsl_generator}
+def _cpp_generator() -> Generator:
+    from vicode.generators import cpp  # noqa: PLC0415 - most projects do not generate C++
+
+    return Generator(
+        write=cpp.generate_cpp,
+        list_paths=cpp.list_paths,
+        reserved_modules=cpp.RESERVED_MODULES,
+        component_writer=cpp.component_writer,
+        find_origins=cpp.find_origins,
+        list_regions=cpp.list_regions,
+    )
+
+
+GENERATORS: Mapping[str, Callable[[], Generator]] = {
+    "python": _python_generator,
+    "cpp": _cpp_generator,
+    "xabsl": _xabsl_generator,
+}
 """Functions that load the generator of a language."""
 
 

@@ -2,6 +2,7 @@
 
 from vicode.generators.plan.component import INTERFACES_MODULE, plan_component
 from vicode.generators.plan.expressions import UnsoundDesignError, literal_value
+from vicode.generators.plan.interfaces import plan_interface
 from vicode.generators.plan.plan_types import (
     ActionStep,
     AssignStep,
@@ -54,6 +55,7 @@ __all__ = [
     "collect_components",
     "literal_value",
     "plan_component",
+    "plan_interface",
     "plan_package",
     "plan_project",
 ]

@@ -1,0 +1,878 @@
+/// The runtime of components that vicode generates in C++17. It needs the standard library only, and neither
+/// exceptions nor run-time type information; nothing allocates memory after construction, except traces.
+///
+/// The semantics are those of docs/semantics.md in vicode.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#if !defined(BICA_NO_HOST) && !defined(ARDUINO)
+#define BICA_HOST 1
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <thread>
+#include <vector>
+#endif
+
+#if defined(__cpp_exceptions)
+#include <exception>
+#endif
+
+namespace bica {
+
+using Nanoseconds = std::int64_t;
+
+// Arithmetic: the results that docs/semantics.md defines, the same in all generated languages
+
+inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Converts an integer, exact to 2^53.
+constexpr double to_float(std::int64_t x) { return static_cast<double>(x); }
+constexpr double to_float(double x) { return x; }
+
+/// IEEE division: a division by 0 gives an infinity or nan.
+inline double divide(double a, double b) {
+#if defined(__clang__) || defined(__GNUC__)
+    if (b == 0.0) {  // defined by IEEE, but the sanitizers of undefined behavior report it
+        return a == 0.0 || std::isnan(a) ? nan : std::copysign(std::numeric_limits<double>::infinity(), a) * std::copysign(1.0, b);
+    }
+#endif
+    return a / b;
+}
+
+/// The remainder with the sign of `b`; nan if `b` is 0.
+inline double modulo(double a, double b) {
+    if (b == 0.0) {
+        return nan;
+    }
+    double rest = std::fmod(a, b);
+    if (rest == 0.0) {
+        return std::copysign(0.0, b);
+    }
+    return (b < 0.0) != (rest < 0.0) ? rest + b : rest;
+}
+
+/// The quotient, rounded towards minus infinity; a division by 0 as in `divide`.
+inline double floor_divide(double a, double b) {
+    if (b == 0.0) {
+        return divide(a, b);
+    }
+    double rest = std::fmod(a, b);
+    double quotient = (a - rest) / b;
+    if (rest != 0.0 && (b < 0.0) != (rest < 0.0)) {
+        quotient -= 1.0;
+    }
+    if (quotient == 0.0) {
+        return std::copysign(0.0, a / b);
+    }
+    const double floored = std::floor(quotient);
+    return quotient - floored > 0.5 ? floored + 1.0 : floored;
+}
+
+/// Division as in the XABSL engine: by 0.0000001 instead of 0.
+constexpr double xabsl_divide(double a, double b) { return a / (b == 0.0 ? 1e-7 : b); }
+
+/// Remainder of the integer parts as in the XABSL engine: the sign of `a`, and 0 if the integer part of `b` is 0.
+inline double xabsl_remainder(double a, double b) {
+    const double divisor = std::trunc(b);
+    return std::isfinite(a) && std::isfinite(b) && divisor != 0.0 ? std::fmod(std::trunc(a), divisor) : 0.0;
+}
+
+/// Converts an integral double, limited to 64 bits; nan gives 0.
+inline std::int64_t saturate(double x) {
+    if (std::isnan(x)) {
+        return 0;
+    }
+    if (x >= 9223372036854775808.0) {
+        return std::numeric_limits<std::int64_t>::max();
+    }
+    return x > -9223372036854775808.0 ? static_cast<std::int64_t>(x) : std::numeric_limits<std::int64_t>::min();
+}
+
+inline std::int64_t to_int(double x) { return saturate(x); }
+inline std::int64_t floor(double x) { return saturate(std::floor(x)); }
+inline std::int64_t ceil(double x) { return saturate(std::ceil(x)); }
+
+/// The nearest integer; halves to the even one.
+inline std::int64_t round(double x) {
+    const double below = std::floor(x);
+    const double rest = x - below;
+    const bool is_up = rest > 0.5 || (rest == 0.5 && std::fmod(below, 2.0) != 0.0);
+    return saturate(is_up ? below + 1.0 : below);
+}
+
+template <class Number>
+constexpr Number abs(Number x) {
+    if constexpr (std::is_floating_point_v<Number>) {
+        return x < 0 || x == 0 ? 0 - x : x;
+    } else {
+        return x < 0 ? -x : x;
+    }
+}
+
+template <class Number>
+constexpr Number min(Number a, Number b) {
+    return b < a ? b : a;
+}
+template <class Number, class... More>
+constexpr Number min(Number a, Number b, More... more) {
+    return min(min(a, b), more...);
+}
+
+template <class Number>
+constexpr Number max(Number a, Number b) {
+    return b > a ? b : a;
+}
+template <class Number, class... More>
+constexpr Number max(Number a, Number b, More... more) {
+    return max(max(a, b), more...);
+}
+
+template <class Number>
+constexpr Number clamp(Number x, Number low, Number high) {
+    return x < low ? low : high < x ? high : x;
+}
+
+template <class Number>
+constexpr std::int64_t sign(Number x) {
+    return (x > 0 ? 1 : 0) - (x < 0 ? 1 : 0);
+}
+
+inline double sqrt(double x) { return std::sqrt(x); }
+inline double exp(double x) { return std::exp(x); }
+inline double log(double x) { return x == 0.0 ? -std::numeric_limits<double>::infinity() : std::log(x); }
+inline double sin(double x) { return std::sin(x); }
+inline double cos(double x) { return std::cos(x); }
+inline double tan(double x) { return std::tan(x); }
+inline double asin(double x) { return std::asin(x); }
+inline double acos(double x) { return std::acos(x); }
+inline double atan(double x) { return std::atan(x); }
+inline double atan2(double y, double x) { return std::atan2(y, x); }
+inline double hypot(double x, double y) { return std::sqrt(x * x + y * y); }
+constexpr double degrees(double x) { return x * (180.0 / pi); }
+constexpr double radians(double x) { return x * (pi / 180.0); }
+inline bool is_nan(double x) { return std::isnan(x); }
+
+// Teams
+
+class Component;
+
+/// A state that robots of a team enter together, or that a limited number of them may be in.
+struct StateKey {
+    const char* component;
+    const char* state;
+};
+
+inline bool operator==(const StateKey& a, const StateKey& b) {
+    return std::strcmp(a.component, b.component) == 0 && std::strcmp(a.state, b.state) == 0;
+}
+
+/// What a robot tells its team after an iteration; the robot program sends it. At most `capacity` states of each kind.
+struct TeamMessage {
+    static constexpr std::size_t capacity = 32;
+
+    struct States {
+        std::array<StateKey, capacity> keys{};
+        std::size_t size = 0;
+
+        void add(const StateKey& key) {
+            if (size < capacity) {
+                keys[size++] = key;
+            }
+        }
+        const StateKey* begin() const { return keys.data(); }
+        const StateKey* end() const { return keys.data() + size; }
+    };
+
+    std::int64_t priority = 0;
+    States executed;
+    States entering;
+    States near;
+};
+
+class Team;
+
+/// A cooperative state of this robot, and what the other robots do there.
+class CooperativeState {
+public:
+    CooperativeState(Team& team, const Component& component, StateKey key, std::int64_t number, bool is_capacity);
+    CooperativeState(const CooperativeState&) = delete;
+    CooperativeState& operator=(const CooperativeState&) = delete;
+
+    /// Whether this robot may enter the state now; if not, the team is told that it waits, unless it yields.
+    bool may_enter();
+    /// Whether other robots fill the capacity.
+    bool is_full() const { return is_capacity_ && executing_ >= number_; }
+
+private:
+    friend class Team;
+
+    bool can_enter_within_capacity();
+    bool can_enter_together();
+    void reset();
+
+    Team& team_;
+    const Component& component_;
+    StateKey key_;
+    std::int64_t number_;
+    bool is_capacity_;
+    bool is_entering_ = false;
+    std::int64_t executing_ = 0;
+    std::int64_t others_entering_ = 0;
+    std::int64_t in_component_ = 0;
+    std::int64_t highest_priority_ = 0;
+    std::int64_t waiting_iterations_ = 0;
+    CooperativeState* next_ = nullptr;
+};
+
+/// The cooperative states of this robot.
+class Team {
+public:
+    std::int64_t priority = 0;
+    /// The number of iterations until the team answers a message.
+    std::int64_t ticks = 0;
+
+    /// Clears the messages of the last iteration; call it before `hear`.
+    void prepare();
+    /// Takes the message of another robot; unknown states are ignored.
+    void hear(const TeamMessage& message);
+    /// The message to the other robots; call it after each iteration.
+    TeamMessage tell() const;
+
+private:
+    friend class CooperativeState;
+
+    CooperativeState* find(const StateKey& key);
+
+    CooperativeState* first_ = nullptr;
+    CooperativeState* last_ = nullptr;
+};
+
+// Components
+
+/// Receives the values of a component, or its parameters.
+class ValueVisitor {
+public:
+    virtual ~ValueVisitor() = default;
+    virtual void visit(const char* name, bool value) = 0;
+    virtual void visit(const char* name, std::int64_t value) = 0;
+    virtual void visit(const char* name, double value) = 0;
+    /// An element of an enumeration.
+    virtual void visit(const char* name, const char* enumeration, const char* element) = 0;
+};
+
+/// Watches the steps of all components of a root.
+class Observer {
+public:
+    virtual ~Observer() = default;
+    virtual void begin_step(const Component& component, bool is_modulated, bool works) = 0;
+    virtual void end_step(const Component& component) = 0;
+    virtual void error(const Component& component, const char* what) = 0;
+};
+
+/// The top of an activation tree: time, iteration, team, and what observes them.
+class Root {
+public:
+    Root() = default;
+    Root(const Root&) = delete;
+    Root& operator=(const Root&) = delete;
+
+    /// Runs one iteration of the root component. If the clock was set back, time continues from the last iteration.
+    template <class Main>
+    void step(Main& main, Nanoseconds clock_ns) {
+        Nanoseconds now = clock_ns + lag_ns_;
+        if (now < now_ns_) {
+            lag_ns_ += now_ns_ - now;
+            now = now_ns_;
+        }
+        now_ns_ = now;
+        ++iteration_;
+        main.step();
+    }
+
+    Nanoseconds now_ns() const { return now_ns_; }
+    std::int64_t iteration() const { return iteration_; }
+
+    /// Counts an error; without a handler or observer it is printed once per component.
+    void report(Component& component, const char* what);
+
+    Team team;
+    Observer* observer = nullptr;
+    /// Called with each error, instead of printing it.
+    void (*on_error)(const Component& component, const char* what) = nullptr;
+
+private:
+    friend class Component;
+
+    Nanoseconds now_ns_ = 0;
+    Nanoseconds lag_ns_ = 0;
+    std::int64_t iteration_ = 0;
+    const Component* modulated_ = nullptr;
+};
+
+/// The parameters of a component without any.
+struct NoParameters {};
+
+/// A unit of functionality that works iteratively while other components step it.
+///
+/// A component written by hand implements `work`, and overrides `restart` if needed.
+class Component {
+public:
+    Component(Root& root_, const char* name, double frequency_hz = 0.0) : root(root_), name_(name), period_ns_(period(frequency_hz)) {}
+    virtual ~Component() = default;
+    Component(const Component&) = delete;
+    Component& operator=(const Component&) = delete;
+
+    /// Activates the component: restarts it if it was inactive, then works if its period has elapsed.
+    virtual void step() {
+        StepGuard observed(*this);
+        attempt([this] {
+            begin_iteration([this](bool) { restart_times(); restart(); });
+            if (must_work()) {
+                work();
+            }
+        });
+    }
+
+    const char* name() const { return name_; }
+    virtual const char* state_name() const { return ""; }
+    virtual void visit_values(ValueVisitor&) const {}
+    virtual void visit_parameters(ValueVisitor&) const {}
+
+    using Parameters = NoParameters;
+    void modulate(const NoParameters&) {}
+
+    /// Works at another frequency from now on; 0 means in each iteration. A generated component must have a frequency.
+    void set_frequency(double hertz) { period_ns_ = period(hertz); }
+
+    double state_time() const { return to_float(state_time_ns()) / 1e9; }
+    double component_time() const { return to_float(component_time_ns()) / 1e9; }
+    Nanoseconds state_time_ns() const { return root.now_ns_ - entered_ns_; }
+    Nanoseconds component_time_ns() const { return root.now_ns_ - started_ns_; }
+
+    /// Whether the component was in a final state after its last step, in this or the previous iteration.
+    bool is_done() const { return in_final_state() && is_recent(); }
+    bool was_stepped() const { return stepped_in_ == root.iteration_; }
+    /// The state that the last step left; nullptr if it left none.
+    const char* left_state() const { return left_; }
+    /// The id of the transition that the last step took; nullptr if it has none.
+    const char* transition() const { return transition_; }
+
+    Root& root;
+    /// Number of reported errors.
+    std::int64_t errors = 0;
+
+protected:
+    virtual void work() {}
+    virtual void restart() {}
+    virtual bool in_final_state() const { return false; }
+    virtual bool is_recent() const { return root.iteration_ - stepped_in_ <= 1; }
+
+    /// Tells the observer of a step, and that the component is not being modulated any more.
+    class StepGuard {
+    public:
+        explicit StepGuard(Component& component) : component_(component) {
+            if (component.root.observer != nullptr) {
+                const bool is_modulated = component.root.modulated_ == &component;
+                component.root.modulated_ = nullptr;
+                component.left_ = component.transition_ = nullptr;
+                component.root.observer->begin_step(component, is_modulated, component.will_work());
+            }
+        }
+        ~StepGuard() {
+            if (component_.root.observer != nullptr) {
+                component_.root.observer->end_step(component_);
+            }
+        }
+        StepGuard(const StepGuard&) = delete;
+        StepGuard& operator=(const StepGuard&) = delete;
+
+    private:
+        Component& component_;
+    };
+
+    /// Runs one step of a generated component.
+    template <class Machine>
+    static void step_machine(Machine& machine, bool resume) {
+        StepGuard observed(machine);
+        attempt_in(machine, [&machine, resume] {
+            machine.begin_iteration([&machine, resume](bool is_first) {
+                if (is_first || !resume) {
+                    machine.restart_times();
+                    machine.start();
+                }
+            });
+            machine.require(0);
+            if (machine.must_work()) {
+                machine.forget_calls();
+                machine.decide();
+                machine.act();
+            } else {
+                machine.repeat_calls();
+            }
+        });
+    }
+
+    /// Modulates and steps a component.
+    template <class Target>
+    void call(Target& target, const typename Target::Parameters& parameters) {
+        target.modulate(parameters);
+        step_modulated(target);
+    }
+
+    /// Calls a component, and stores the call until the next work if this component has a frequency.
+    template <class Target, class Stored>
+    void call(Target& target, const typename Target::Parameters& parameters, Stored& calls) {
+        target.modulate(parameters);
+        if (period_ns_ != 0) {
+            calls.add(target, parameters);
+        }
+        step_modulated(target);
+    }
+
+    void step_modulated(Component& target) {
+        root.modulated_ = &target;
+        target.step();
+    }
+
+    /// Notes that a state was left, for observers, and starts the time of the new one.
+    void change_state(const char* left, const char* transition) {
+        left_ = left;
+        transition_ = transition;
+        entered_ns_ = root.now_ns_;
+    }
+
+    // What a generated component without these parts uses.
+    void require(std::uint32_t) {}
+    void forget_calls() {}
+    void repeat_calls() {}
+
+    Nanoseconds period_ns() const { return period_ns_; }
+    Nanoseconds entered_ns() const { return entered_ns_; }
+
+    template <class Start>
+    void begin_iteration(Start start) {
+        const std::int64_t missed = root.iteration_ - stepped_in_;
+        stepped_in_ = root.iteration_;
+        if (missed > 1) {
+            start(missed > root.iteration_);
+        }
+    }
+
+    void restart_times() {
+        started_ns_ = entered_ns_ = root.now_ns_;
+        worked_ns_ = root.now_ns_ - period_ns_;
+    }
+
+    std::int64_t stepped_in_ = -1;
+
+private:
+    friend class Root;
+
+    static Nanoseconds period(double hertz) { return hertz == 0.0 ? 0 : bica::round(1e9 / hertz); }
+
+    bool will_work() const {
+        const bool restarts = root.iteration_ - stepped_in_ > 1;
+        return period_ns_ == 0 || restarts || root.now_ns_ - worked_ns_ >= period_ns_;
+    }
+
+    bool must_work() {
+        if (period_ns_ != 0 && root.now_ns_ - worked_ns_ < period_ns_) {
+            return false;
+        }
+        worked_ns_ = root.now_ns_;
+        return true;
+    }
+
+    template <class Body>
+    void attempt(Body body) {
+        attempt_in(*this, body);
+    }
+
+    template <class Body>
+    static void attempt_in(Component& component, Body body) {
+#if defined(__cpp_exceptions)
+        try {
+            body();
+        } catch (const std::exception& error) {
+            component.root.report(component, error.what());
+        } catch (...) {
+            component.root.report(component, "unknown exception");
+        }
+#else
+        static_cast<void>(component);
+        body();
+#endif
+    }
+
+    const char* name_;
+    const char* left_ = nullptr;
+    const char* transition_ = nullptr;
+    Nanoseconds period_ns_;
+    Nanoseconds started_ns_ = 0;
+    Nanoseconds entered_ns_ = 0;
+    Nanoseconds worked_ns_ = 0;
+};
+
+/// The calls of the last work of a component with a frequency; they are repeated until it works again.
+template <std::size_t Count, std::size_t Size>
+class Calls {
+public:
+    template <class Target>
+    void add(Target& target, const typename Target::Parameters& parameters) {
+        using Parameters = typename Target::Parameters;
+        static_assert(std::is_trivially_copyable_v<Parameters> && sizeof(Parameters) <= Size);
+        if (size_ == Count) {
+            return;  // not reached: Count is the number of calls in the design
+        }
+        Call& call = calls_[size_++];
+        call.target = &target;
+        std::memcpy(call.parameters.data(), &parameters, sizeof(Parameters));
+        call.modulate = [](Component& component, const unsigned char* bytes) {
+            Parameters copy;
+            std::memcpy(&copy, bytes, sizeof(Parameters));
+            static_cast<Target&>(component).modulate(copy);
+        };
+    }
+
+    void clear() { size_ = 0; }
+
+    /// Sets the parameters again, since another component may have set them, and steps.
+    template <class Step>
+    void repeat(Step step) {
+        for (std::size_t index = 0; index < size_; ++index) {
+            Call& call = calls_[index];
+            call.modulate(*call.target, call.parameters.data());
+            step(*call.target);
+        }
+    }
+
+private:
+    struct Call {
+        Component* target = nullptr;
+        void (*modulate)(Component&, const unsigned char*) = nullptr;
+        std::array<unsigned char, Size> parameters{};
+    };
+
+    std::array<Call, Count> calls_{};
+    std::size_t size_ = 0;
+};
+
+/// A component with the semantics of the XABSL engine (`arithmetic: xabsl`).
+class XabslComponent : public Component {
+public:
+    using Component::Component;
+
+protected:
+    /// A component that was inactive in the last iteration is restarted by each step of this one.
+    void restart_again() {
+        if (stepped_in_ == root.iteration() && restarted_in_ == root.iteration()) {
+            stepped_in_ = root.iteration() - 2;
+        }
+    }
+    void mark_restart() { restarted_in_ = root.iteration(); }
+    bool is_recent() const override {
+        const bool is_current = stepped_in_ == root.iteration();
+        return is_current ? restarted_in_ != root.iteration() : stepped_in_ == root.iteration() - 1;
+    }
+
+private:
+    std::int64_t restarted_in_ = -1;
+};
+
+inline void Root::report(Component& component, const char* what) {
+    ++component.errors;
+    if (observer != nullptr) {
+        observer->error(component, what);
+    }
+    if (on_error != nullptr) {
+        on_error(component, what);
+    }
+#if defined(BICA_HOST)
+    else if (component.errors == 1) {
+        std::fprintf(stderr, "%s, state '%s': %s (reported once)\n", component.name(), component.state_name(), what);
+    }
+#endif
+}
+
+inline CooperativeState::CooperativeState(Team& team, const Component& component, StateKey key, std::int64_t number, bool is_capacity)
+    : team_(team), component_(component), key_(key), number_(number), is_capacity_(is_capacity) {
+    (team.last_ != nullptr ? team.last_->next_ : team.first_) = this;
+    team.last_ = this;
+}
+
+inline bool CooperativeState::may_enter() { return is_capacity_ ? can_enter_within_capacity() : can_enter_together(); }
+
+inline bool CooperativeState::can_enter_within_capacity() {
+    const bool is_contested = executing_ + others_entering_ >= number_;
+    if (is_contested && !is_full() && highest_priority_ == team_.priority) {
+        return false;  // robots with equal priority yield to each other
+    }
+    const bool is_free = !is_full() && !(is_contested && highest_priority_ > team_.priority);
+    if (is_free && waiting_iterations_ >= team_.ticks) {
+        return true;
+    }
+    is_entering_ = true;
+    return false;
+}
+
+inline bool CooperativeState::can_enter_together() {
+    is_entering_ = true;
+    const bool has_enough_robots = in_component_ + 1 >= number_;
+    const bool is_team_ready = executing_ + others_entering_ == in_component_;
+    return has_enough_robots && is_team_ready && waiting_iterations_ > team_.ticks / 2;
+}
+
+inline void CooperativeState::reset() {
+    executing_ = others_entering_ = in_component_ = 0;
+    waiting_iterations_ = is_entering_ ? waiting_iterations_ + 1 : 0;
+    is_entering_ = false;
+}
+
+inline void Team::prepare() {
+    for (CooperativeState* state = first_; state != nullptr; state = state->next_) {
+        state->reset();
+    }
+}
+
+inline CooperativeState* Team::find(const StateKey& key) {
+    CooperativeState* state = first_;
+    while (state != nullptr && !(state->key_ == key)) {
+        state = state->next_;
+    }
+    return state;
+}
+
+inline void Team::hear(const TeamMessage& message) {
+    for (const StateKey& key : message.executed) {
+        if (CooperativeState* state = find(key)) {
+            ++state->executing_;
+        }
+    }
+    for (const StateKey& key : message.entering) {
+        if (CooperativeState* state = find(key)) {
+            const bool is_first = state->others_entering_++ == 0;
+            state->highest_priority_ = is_first ? message.priority : max(state->highest_priority_, message.priority);
+        }
+    }
+    for (const StateKey& key : message.near) {
+        if (CooperativeState* state = find(key)) {
+            ++state->in_component_;
+        }
+    }
+}
+
+inline TeamMessage Team::tell() const {
+    TeamMessage message;
+    message.priority = priority;
+    for (const CooperativeState* state = first_; state != nullptr; state = state->next_) {
+        if (!state->component_.was_stepped()) {
+            continue;
+        }
+        message.near.add(state->key_);
+        if (std::strcmp(state->component_.state_name(), state->key_.state) == 0) {
+            message.executed.add(state->key_);
+        } else if (state->is_entering_) {
+            message.entering.add(state->key_);
+        }
+    }
+    return message;
+}
+
+#if defined(BICA_HOST)
+
+/// The monotonic clock of the machine.
+inline Nanoseconds clock_ns() {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+/// Steps the root component in real time, once per tick, until `is_stopping` returns true. Missed ticks are skipped.
+template <class Main, class Stopping>
+void run(Root& root, Main& main, Nanoseconds tick_ns, Stopping is_stopping) {
+    const Nanoseconds start = clock_ns();
+    Nanoseconds due = 0;
+    while (!is_stopping()) {
+        root.step(main, due);
+        const Nanoseconds passed = clock_ns() - start;
+        due = max(due + tick_ns, (passed + tick_ns - 1) / tick_ns * tick_ns);
+        std::this_thread::sleep_for(std::chrono::nanoseconds(due - passed));
+    }
+}
+
+/// Times of the steps of one component, including those of the components that it steps.
+struct CycleTimes {
+    const Component* component = nullptr;
+    std::int64_t count = 0;
+    Nanoseconds total_ns = 0;
+    Nanoseconds longest_ns = 0;
+};
+
+/// Measures the steps of up to `Capacity` components.
+template <std::size_t Capacity = 64>
+class CycleStatistics final : public Observer {
+public:
+    void begin_step(const Component&, bool, bool) override {
+        if (depth_ < Capacity) {
+            starts_[depth_] = clock_ns();
+        }
+        ++depth_;
+    }
+    void end_step(const Component& component) override {
+        --depth_;
+        CycleTimes* times = depth_ < Capacity ? find(component) : nullptr;
+        if (times != nullptr) {
+            const Nanoseconds duration = clock_ns() - starts_[depth_];
+            ++times->count;
+            times->total_ns += duration;
+            times->longest_ns = max(times->longest_ns, duration);
+        }
+    }
+    void error(const Component&, const char*) override {}
+
+    const CycleTimes* begin() const { return times_.data(); }
+    const CycleTimes* end() const { return times_.data() + size_; }
+
+private:
+    CycleTimes* find(const Component& component) {
+        for (std::size_t index = 0; index < size_; ++index) {
+            if (times_[index].component == &component) {
+                return &times_[index];
+            }
+        }
+        if (size_ == Capacity) {
+            return nullptr;
+        }
+        times_[size_].component = &component;
+        return &times_[size_++];
+    }
+
+    std::array<CycleTimes, Capacity> times_{};
+    std::array<Nanoseconds, Capacity> starts_{};
+    std::size_t size_ = 0;
+    std::size_t depth_ = 0;
+};
+
+/// Writes a trace (docs/traces.md): one line per iteration.
+class TraceWriter final : public Observer {
+public:
+    explicit TraceWriter(std::FILE* file) : file_(file) {
+        std::fputs("{\"vicode-trace\": 1, \"runtime\": \"bica\", \"language\": \"cpp\"}\n", file_);
+    }
+
+    /// Writes the iteration that has just ended.
+    void end_iteration(const Root& root) {
+        std::fprintf(file_, "{\"iteration\": %lld, \"time_ns\": %lld, \"tree\": [", to_long(root.iteration()), to_long(root.now_ns()));
+        for (std::size_t index = 0; index < size_; ++index) {
+            std::fprintf(file_, "%s%s", index == 0 ? "" : ", ", steps_[index].c_str());
+        }
+        std::fprintf(file_, "], \"errors\": [%s]}\n", errors_.c_str());
+        size_ = 0;
+        errors_.clear();
+    }
+
+    void begin_step(const Component& component, bool is_modulated, bool works) override {
+        if (size_ == steps_.size()) {
+            steps_.emplace_back();
+        }
+        std::string& text = steps_[size_];
+        text.assign("{\"component\": ").append(quoted(component.name()));
+        text.append(", \"by\": ").append(active_.empty() ? "null" : quoted(active_.back().component->name()));
+        text.append(active_.empty() ? ", \"link\": \"root\"" : is_modulated ? ", \"link\": \"modulates\"" : ", \"link\": \"requires\"");
+        text.append(", \"worked\": ").append(works ? "true" : "false").append(", \"parameters\": {");
+        if (is_modulated) {
+            Values values(text);
+            component.visit_parameters(values);
+        }
+        text.append("}");
+        active_.push_back({&component, size_++});
+    }
+
+    void end_step(const Component& component) override {
+        std::string& text = steps_[active_.back().step];
+        active_.pop_back();
+        text.append(", \"state\": ").append(quoted(component.state_name()));
+        text.append(", \"state_time_ns\": ").append(std::to_string(component.state_time_ns()));
+        text.append(", \"component_time_ns\": ").append(std::to_string(component.component_time_ns()));
+        text.append(", \"changed_from\": ").append(component.left_state() != nullptr ? quoted(component.left_state()) : "null");
+        text.append(", \"transition\": ").append(component.transition() != nullptr ? quoted(component.transition()) : "null");
+        text.append(", \"done\": ").append(component.is_done() ? "true" : "false").append(", \"values\": {");
+        Values values(text);
+        component.visit_values(values);
+        text.append("}}");
+    }
+
+    void error(const Component& component, const char* what) override {
+        errors_.append(errors_.empty() ? "" : ", ").append("{\"component\": ").append(quoted(component.name()));
+        errors_.append(", \"state\": ").append(quoted(component.state_name())).append(", \"message\": ").append(quoted(what)).append("}");
+    }
+
+private:
+    struct Active {
+        const Component* component;
+        std::size_t step;
+    };
+
+    class Values final : public ValueVisitor {
+    public:
+        explicit Values(std::string& text) : text_(text) {}
+        void visit(const char* name, bool value) override { add(name).append(value ? "true" : "false"); }
+        void visit(const char* name, std::int64_t value) override { add(name).append(std::to_string(value)); }
+        void visit(const char* name, double value) override {
+            if (!std::isfinite(value)) {
+                add(name).append(std::isnan(value) ? "\"nan\"" : value > 0 ? "\"inf\"" : "\"-inf\"");
+                return;
+            }
+            std::array<char, 32> digits{};
+            std::snprintf(digits.data(), digits.size(), "%.17g", value);
+            std::string& text = add(name).append(digits.data());
+            text.append(std::strpbrk(digits.data(), ".e") == nullptr ? ".0" : "");
+        }
+        void visit(const char* name, const char* enumeration, const char* element) override {
+            add(name).append(quoted((std::string(enumeration) + "." + element).c_str()));
+        }
+
+    private:
+        std::string& add(const char* name) {
+            text_.append(text_.back() == '{' ? "" : ", ").append(quoted(name)).append(": ");
+            return text_;
+        }
+
+        std::string& text_;
+    };
+
+    static long long to_long(std::int64_t value) { return value; }
+
+    static std::string quoted(const char* text) {
+        std::string result = "\"";
+        for (; *text != '\0'; ++text) {
+            const auto byte = static_cast<unsigned char>(*text);
+            if (byte < 0x20 || byte == 0x7f) {
+                std::array<char, 8> code{};
+                std::snprintf(code.data(), code.size(), "\\u%04x", static_cast<unsigned>(byte));
+                result.append(code.data());
+            } else {
+                result.append(byte == '"' || byte == '\\' ? "\\" : "").push_back(*text);
+            }
+        }
+        return result.append("\"");
+    }
+
+    std::FILE* file_;
+    std::vector<std::string> steps_;
+    std::vector<Active> active_;
+    std::string errors_;
+    std::size_t size_ = 0;
+};
+
+#endif
+
+}  // namespace bica

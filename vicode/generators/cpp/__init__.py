@@ -1,0 +1,82 @@
+"""C++ generator: a header and a source per component, on the header-only runtime bica.hpp."""
+
+from collections.abc import Callable, Iterator
+
+from vicode.generators.cpp.component import CppComponentWriter
+from vicode.generators.cpp.functions import action_code, guard_code
+from vicode.generators.cpp.names import RESERVED_MODULES, GlobalNames
+from vicode.generators.cpp.project import build_components, build_declarations, build_interfaces, list_interfaces
+from vicode.generators.origins import ComponentCode, Origin
+from vicode.generators.plan import CodePlan, ComponentPlan, PackagePlan, ProjectPlan
+from vicode.output import OutputFile
+from vicode.regions import add_header
+from vicode.templating import read_asset, render
+
+__all__ = ["RESERVED_MODULES", "component_writer", "find_origins", "generate_cpp", "list_paths", "list_regions"]
+
+LANGUAGE = "cpp"
+
+
+def generate_cpp(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ...]:  # noqa: ARG001 - as in other languages
+    """Generate all files of a project. The runtime is always part of them, so `standalone` changes nothing."""
+    names = GlobalNames.of_project(plan)
+    source = f"the project {plan.name}"
+    shared = {"components.hpp": build_components(plan, names), "CMakeLists.txt": build_components(plan, names)}
+    if plan.package.has_declarations:
+        shared["declarations.hpp"] = build_declarations(plan, names)
+    if list_interfaces(plan):
+        shared["interfaces.hpp"] = build_interfaces(plan, names)
+    files = [OutputFile(path=f"{LANGUAGE}/bica.hpp", text=add_header(read_asset("cpp/bica.hpp"), "bica.hpp", "//"))]
+    for name, view in shared.items():
+        text = render(f"cpp/{name}.jinja", view=view)
+        comment = "#" if name == "CMakeLists.txt" else "//"
+        files.append(OutputFile(path=f"{LANGUAGE}/{plan.package.name}/{name}", text=add_header(text, source, comment)))
+    for component in plan.components:
+        files += _component_files(plan, component, names)
+    return tuple(files)
+
+
+def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCode]:
+    """Return a function that writes the source file of one component."""
+    names = GlobalNames.of_project(plan)
+
+    def write(component: ComponentPlan) -> ComponentCode:
+        _header, source = _component_files(plan, component, names)
+        return ComponentCode(file=source, origins=find_origins(component, source.text))
+
+    return write
+
+
+def find_origins(component: ComponentPlan, text: str) -> tuple[Origin, ...]:  # noqa: ARG001
+    """Map the lines of a source file to elements of the design."""
+    return ()
+
+
+def list_regions(component: ComponentPlan) -> Iterator[CodePlan]:
+    """Yield the code that is generated as regions."""
+    yield from (code for code in (component.module_code, component.members) if code is not None)
+    yield from guard_code(component)
+    yield from action_code(component)
+
+
+def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:  # noqa: ARG001 - as in other languages
+    """List every path that `generate_cpp` may return."""
+    folder = f"{LANGUAGE}/{package.name}"
+    shared = ["components.hpp", "CMakeLists.txt", "interfaces.hpp"]
+    shared += ["declarations.hpp"] if package.has_declarations else []
+    modules = [f"{module}.{suffix}" for module in package.modules.values() for suffix in ("hpp", "cpp")]
+    return (f"{LANGUAGE}/bica.hpp", *(f"{folder}/{name}" for name in (*shared, *modules)))
+
+
+def _component_files(plan: ProjectPlan, component: ComponentPlan, names: GlobalNames) -> tuple[OutputFile, OutputFile]:
+    view = CppComponentWriter(project=plan, component=component, global_names=names).build_view()
+    source = component.source or f"the design of {component.component}"
+    header, body = (
+        OutputFile(
+            path=f"{LANGUAGE}/{plan.package.name}/{component.module}.{suffix}",
+            text=add_header(render(f"cpp/component.{suffix}.jinja", view=view), source, "//"),
+            component=component.component,
+        )
+        for suffix in ("hpp", "cpp")
+    )
+    return header, body

@@ -1,0 +1,260 @@
+"""Prints typed expression trees as C++ with the fewest brackets."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from vicode.generators.cpp.names import GlobalNames, member_name
+from vicode.generators.plan import (
+    ComponentPlan,
+    Condition,
+    ExpressionCondition,
+    FunctionPlan,
+    TimerCondition,
+    literal_value,
+)
+from vicode.model.expressions import (
+    FLOAT,
+    INT,
+    Binary,
+    Boolean,
+    Comparison,
+    Done,
+    ElapsedTime,
+    EnumElement,
+    Expr,
+    FunctionCall,
+    Logic,
+    Minus,
+    Not,
+    Number,
+    OutputRef,
+    ScopeSymbolKind,
+    StatusFlag,
+    Ternary,
+    Variable,
+)
+from vicode.model.project import WORLD
+
+TERNARY, OR, AND, COMPARISON, SUM, PRODUCT, UNARY, ATOM = range(8)
+_FUNCTIONS = {"/": "divide", "//": "floor_divide", "%": "modulo"}
+_XABSL_FUNCTIONS = {"/": "xabsl_divide", "//": "floor_divide", "%": "xabsl_remainder"}
+_TEMPLATES = frozenset({"abs", "min", "max", "clamp", "sign"})
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A printed expression and the level of its outermost operator."""
+
+    text: str
+    level: int = ATOM
+
+    def at(self, level: int) -> str:
+        """The text, in brackets if an operator of this level needs them."""
+        return self.text if self.level >= level else f"({self.text})"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExpressionPrinter:
+    """Prints the expressions of one component.
+
+    Attributes:
+        names: Global names as seen in the class.
+        nonzero_constants: Constants that are safe divisors.
+        time_unit: "s" or "ms".
+        functions: Outputs with arguments by alias and name.
+        inputs: Outputs that the world provides, by alias and name: they are read by a method.
+    """
+
+    names: GlobalNames
+    nonzero_constants: frozenset[str] = frozenset()
+    time_unit: str = "s"
+    uses_xabsl_arithmetic: bool = False
+    functions: Mapping[tuple[str, str], FunctionPlan] = field(default_factory=dict)
+    inputs: frozenset[tuple[str, str]] = frozenset()
+
+    @classmethod
+    def of_component(
+        cls, component: ComponentPlan, names: GlobalNames, nonzero_constants: frozenset[str]
+    ) -> "ExpressionPrinter":
+        interfaces = component.project.interfaces()
+        provided = [use for use in component.uses if interfaces[use.component].implementation == WORLD]
+        inputs = {(use.alias, value.name) for use in provided for value in interfaces[use.component].readable}
+        return cls(
+            names=names,
+            nonzero_constants=nonzero_constants,
+            time_unit=component.time_unit,
+            uses_xabsl_arithmetic=component.arithmetic == "xabsl",
+            functions={(use.alias, item.result.name): item for use in component.uses for item in use.functions},
+            inputs=frozenset(inputs),
+        )
+
+    def print(self, node: Expr) -> Text:
+        match node:
+            case Number(value=value):
+                return Text(format_number(value))
+            case Boolean(value=value):
+                return Text(str(value).lower())
+            case EnumElement(element=element, type=enumeration):
+                return Text(f"{self.names.declared(enumeration)}::{member_name(element)}")
+            case Variable(name=name, kind=kind):
+                is_constant = kind == ScopeSymbolKind.CONSTANT
+                return Text(self.names.declared(name) if is_constant else member_name(name))
+            case ElapsedTime(kind=of):
+                is_in_ms = self.time_unit == "ms"
+                return Text(f"bica::to_float({of}_time_ns()) / 1e6", PRODUCT) if is_in_ms else Text(f"{of}_time()")
+            case StatusFlag(name=of) | Done(alias=of):
+                return Text(f"{of}()" if isinstance(node, StatusFlag) else f"{member_name(of)}.is_done()")
+            case OutputRef():
+                return self._output(node)
+            case _:
+                return self._operation(node)
+
+    def _operation(self, node: Expr) -> Text:
+        match node:
+            case Not(operand=operand):
+                return Text(f"!{self.print(operand).at(UNARY)}", UNARY)
+            case Minus(operand=operand):
+                inner = self.print(operand)
+                # Two signs in a row are the operator `--`.
+                return Text(f"-({inner.text})" if inner.text.startswith("-") else f"-{inner.at(UNARY)}", UNARY)
+            case Binary():
+                return self._binary(node)
+            case Comparison():
+                return self._comparison(node)
+            case Logic(operator=operator, operands=operands):
+                return self._logic(operator, operands)
+            case Ternary(test=test, then=then, otherwise=otherwise):
+                sides = [self._operand(side, node.type) for side in (then, otherwise)]
+                return Text(f"{self.print(test).at(OR)} ? {sides[0].at(OR)} : {sides[1].at(TERNARY)}", TERNARY)
+            case FunctionCall(function=function, arguments=arguments):
+                return self._call(function, arguments)
+            case _:
+                raise AssertionError(f"unexpected expression node: {node}")
+
+    def condition(self, condition: Condition) -> Text:
+        match condition:
+            case ExpressionCondition(expression=expression):
+                return self.print(expression)
+            case TimerCondition(ns=ns) if ns is not None:
+                return Text(f"state_time_ns() >= {_digit_groups(ns)}", COMPARISON)
+            case TimerCondition(time=time):
+                factor = "1e6" if self.time_unit == "ms" else "1e9"
+                return Text(f"state_time_ns() >= bica::round({self._float(time).at(PRODUCT)} * {factor})", COMPARISON)
+            case _:
+                return Text(f"when_{condition.code.stem}()")
+
+    def terms(self, conditions: tuple[Condition, ...]) -> list[str]:
+        """The terms of a guard, which `&&` joins."""
+        if len(conditions) == 1:
+            return self._conjuncts(conditions[0]) or [self.condition(conditions[0]).text]
+        terms = [self._conjuncts(each) or [self.condition(each).at(COMPARISON)] for each in conditions]
+        return [term for group in terms for term in group]
+
+    def _conjuncts(self, condition: Condition) -> list[str]:
+        """The operands if the condition is a conjunction."""
+        match condition:
+            case ExpressionCondition(expression=Logic(operator="and", operands=operands)):
+                return [self.print(operand).at(COMPARISON) for operand in operands]
+            case _:
+                return []
+
+    def _float(self, node: Expr) -> Text:
+        """An operand of a calculation with doubles."""
+        value = literal_value(node)
+        if node.type == FLOAT:
+            return self.print(node)
+        if value is not None:
+            return Text(format_number(float(value)), UNARY if value < 0 else ATOM)
+        return Text(f"bica::to_float({self.print(node).text})")
+
+    def _operand(self, node: Expr, type_: str) -> Text:
+        return self._float(node) if type_ == FLOAT else self.print(node)
+
+    def _binary(self, node: Binary) -> Text:
+        operator, left, right = node.operator, node.left, node.right
+        functions = _XABSL_FUNCTIONS if self.uses_xabsl_arithmetic else _FUNCTIONS
+        if operator in functions and not (operator == "/" and self._is_nonzero(right)):
+            return Text(f"bica::{functions[operator]}({self._float(left).text}, {self._float(right).text})")
+        level = SUM if operator in "+-" else PRODUCT
+        type_ = FLOAT if operator == "/" else node.type
+        return Text(
+            f"{self._operand(left, type_).at(level)} {operator} {self._operand(right, type_).at(level + 1)}", level
+        )
+
+    def _is_nonzero(self, node: Expr) -> bool:
+        if isinstance(node, Variable) and node.kind == ScopeSymbolKind.CONSTANT:
+            return node.name in self.nonzero_constants
+        return bool(literal_value(node))
+
+    def _comparison(self, node: Comparison) -> Text:
+        operands, operators = node.operands, node.operators
+        pairs = list(zip(operands, operators, operands[1:], strict=False))
+        if len(pairs) == 1:
+            return self._compare(*pairs[0])
+        if all(_is_simple(operand) for operand in operands[1:-1]):
+            return Text(" && ".join(self._compare(*pair).text for pair in pairs), AND)
+        # Each operand is evaluated at most once, and only if the comparisons before it hold.
+        lines = [f"const auto value_0 = {self.print(operands[0]).text};"]
+        for index, (left, operator, right) in enumerate(pairs):
+            lines.append(f"const auto value_{index + 1} = {self.print(right).text};")
+            sides = [f"value_{index}", f"value_{index + 1}"]
+            if FLOAT in (left.type, right.type) and INT in (left.type, right.type):
+                sides = [f"bica::to_float({side})" for side in sides]
+            test = f"{sides[0]} {operator} {sides[1]}"
+            lines.append(f"return {test};" if index == len(pairs) - 1 else f"if (!({test})) {{ return false; }}")
+        return Text(f"[&] {{ {' '.join(lines)} }}()")
+
+    def _compare(self, left: Expr, operator: str, right: Expr) -> Text:
+        type_ = FLOAT if FLOAT in (left.type, right.type) else left.type
+        sides = [self._operand(side, type_).at(SUM) for side in (left, right)]
+        return Text(f"{sides[0]} {operator} {sides[1]}", COMPARISON)
+
+    def _logic(self, operator: str, operands: tuple[Expr, ...]) -> Text:
+        # Compilers warn about `a && b || c` without brackets.
+        symbol, level = ("&&", AND) if operator == "and" else ("||", OR)
+        return Text(f" {symbol} ".join(self.print(operand).at(COMPARISON) for operand in operands), level)
+
+    def _call(self, function: str, arguments: tuple[Expr, ...]) -> Text:
+        if function == "float":
+            return self._float(arguments[0])
+        if function not in _TEMPLATES:
+            return Text(f"bica::{function if function != 'int' else 'to_int'}({self._list(arguments, FLOAT)})")
+        type_ = FLOAT if any(argument.type == FLOAT for argument in arguments) else INT
+        return Text(f"bica::{function}({self._list(arguments, type_)})")
+
+    def _list(self, arguments: tuple[Expr, ...], type_: str) -> str:
+        return ", ".join(self._argument(argument, type_) for argument in arguments)
+
+    def _argument(self, node: Expr, type_: str) -> str:
+        # The literal 3 is an int: templates need the type of the other arguments.
+        if type_ == INT and literal_value(node) is not None:
+            return f"std::int64_t{{{self.print(node).text}}}"
+        return self._operand(node, type_).text
+
+    def _output(self, reference: OutputRef) -> Text:
+        key = (reference.alias, reference.output)
+        target = f"{member_name(reference.alias)}.{member_name(reference.output)}"
+        if reference.arguments is None:
+            return Text(f"{target}()" if key in self.inputs else target)
+        given = dict(reference.arguments)
+        values = (given.get(argument.name, argument.initial) for argument in self.functions[key].arguments)
+        return Text(f"{target}({', '.join(self.print(value).text for value in values)})")
+
+
+def format_number(value: float) -> str:
+    return repr(value).replace("e+", "e")
+
+
+def _digit_groups(value: int) -> str:
+    return f"{value:,}".replace(",", "'")
+
+
+def _is_simple(node: Expr) -> bool:
+    """Whether evaluating a node twice gives the same value without a cost."""
+    match node:
+        case Number() | Boolean() | EnumElement() | Variable():
+            return True
+        case Minus(operand=operand):
+            return _is_simple(operand)
+        case _:
+            return False
