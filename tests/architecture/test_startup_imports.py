@@ -22,7 +22,7 @@ try:
     code = vicode.cli.main(sys.argv[1:])
 except SystemExit as exit:
     code = exit.code
-heavy = {"nicegui", "fastapi", "uvicorn", "reportlab", "resvg_py", "pygraphviz"} & set(sys.modules)
+heavy = {"nicegui", "fastapi", "uvicorn", "reportlab", "resvg_py", "pygraphviz", "zenoh"} & set(sys.modules)
 sys.exit(f"imported at startup: {sorted(heavy)}" if heavy else code)
 """
 

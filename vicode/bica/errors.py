@@ -2,7 +2,9 @@
 
 Exception
 ├── ComponentError    a component raised an exception and the root stops on errors
-└── CyclicUseError    components use each other in a cycle
+├── CyclicUseError    components use each other in a cycle
+└── OSError
+    └── NetworkError  there is no connection to other robots
 """
 
 from __future__ import annotations
@@ -85,6 +87,10 @@ class CyclicUseError(Exception):
     def __init__(self, names: tuple[str, ...]) -> None:
         super().__init__(f"components use each other in a cycle: {' -> '.join(names)}; remove one of these uses")
         self.names = names
+
+
+class NetworkError(OSError):
+    """There is no connection to other robots; the message says why."""
 
 
 def make_error_record(component: Component, error: Exception) -> ErrorRecord:

@@ -35,8 +35,17 @@ def watch_root(
         print_error(f"vicode attach {server.address}{access}", kind="watch")
     elif server.control != control or token not in ("", server.token):
         raise OSError(f"{server.address} is open with another token or permission to control")
-    root._closing.callback(server.remove, server.add(root, name))
+    root._closing.callback(
+        server.remove, server.add(root, name or (root.network.name if root.network is not None else ""))
+    )
+    if root.network is not None:
+        root.network.announce(server.address)
     return server
+
+
+def find_address(root: Root) -> str:
+    """Return where a root is watched, "" if it is not."""
+    return next((each.address for each in _servers if each.shows(root)), "")
 
 
 def watch_from_environment(root: Root) -> None:

@@ -141,7 +141,7 @@ class Observer:
         }
         before, self._stepped = self._stepped, []
         if self._values:
-            inputs = {type(each).__name__: _read_inputs(each) for each in self._find_passive(root)}
+            inputs = {type(each).__name__: read_values(each) for each in self._find_passive(root)}
             if any(inputs.values()):
                 record["inputs"] = to_json_value({name: values for name, values in inputs.items() if values})
         try:
@@ -270,8 +270,8 @@ def _collect_values(component: Component) -> dict[str, object]:
     }
 
 
-def _read_inputs(component: Component) -> dict[str, object]:
-    """Return the plain values of a component that only provides values, including those of its properties."""
+def read_values(component: Component) -> dict[str, object]:
+    """Return the plain values of a component, including those of its properties."""
     values = _collect_values(component)
     for name, attribute in vars(type(component)).items():
         if isinstance(attribute, property) and not name.startswith("_"):

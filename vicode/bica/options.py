@@ -26,6 +26,8 @@ def make_parser(
     add("--reload", action="store_true", help=argparse.SUPPRESS)
     add("--watch", metavar="ADDRESS", help="let viewers connect: PORT, HOST:PORT or unix:PATH")
     add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
+    add("--net", metavar="NAME", help="connect to other robots under this name, with --real-time")
+    add("--team", metavar="TEAM", help="with --net: coordinate with the robots of this team")
     add("--path", metavar="DIR", action="append", default=[], help="add DIR to the import path; may be repeated")
     add("--seed", type=int, default=0, metavar="N", help="seed of the world (default: 0)")
     add("--ticks", type=count, metavar="N", help="stop after N iterations")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeVar, cast
@@ -17,6 +17,7 @@ from .timing import CycleTimes, measure_steps
 
 if TYPE_CHECKING:
     from .live_server import LiveServer
+    from .network import Network
     from .observer import Observer
     from .recorder import Recorder
 
@@ -59,6 +60,7 @@ class Root:
         self._has_on_error_failed = False
         self._observers: list[Observer] = [] if observer is None else [observer]
         self._error_listeners: list[Callable[[ErrorRecord], None]] = [each.add_error for each in self._observers]
+        self.network: Network | None = None
         self._components: dict[type[Component], Component] = {}
         self._under_construction: list[type[Component]] = []
         self._cycle_times: dict[str, CycleTimes] | None = None
@@ -76,14 +78,7 @@ class Root:
         self._before_reload: list[Callable[[], None]] = []
         self._step_main = self._find_step()
         self._set_step: Callable[[Callable[[], None]], None] = partial(setattr, self, "_step_main")
-        if "VICODE_RECORD" in os.environ:
-            from .recorder import record_from_environment  # noqa: PLC0415 - off by default
-
-            record_from_environment(self)
-        if "VICODE_WATCH" in os.environ:
-            from .live import watch_from_environment  # noqa: PLC0415 - off by default
-
-            watch_from_environment(self)
+        self._read_environment()
 
     def __enter__(self) -> Self:
         return self
@@ -155,7 +150,7 @@ class Root:
                 the same address share a server.
             token: What viewers must know, by default a random text, which is printed; a Unix socket needs none.
             control: Whether viewers may pause the robot and change values and states.
-            name: The name of the robot, by default that of its main component.
+            name: The name of the robot, by default that in the network, or else that of its main component.
 
         Raises:
             OSError: The address is in use or invalid, or the root is watched already.
@@ -191,6 +186,23 @@ class Root:
 
         return record_root(self, path, minutes=minutes, values=values, design=design, revision=revision)
 
+    def connect(self, name: str, *, team: str = "", fields: Sequence[str] | None = None) -> Network:
+        """Connect to other robots, which read and call the components of this one; needs `vicode[net]`.
+
+        Without the variable VICODE_NET_CONFIG, only programs of this machine are found.
+
+        Args:
+            name: The name of the robot.
+            team: The team, whose robots coordinate their states and share values.
+            fields: Attributes of the world to share, by default those that its `team_fields` names.
+
+        Raises:
+            NetworkError: zenoh is not installed, a name is invalid, or there is no network.
+        """
+        from .network import connect_root  # noqa: PLC0415 - off by default
+
+        return connect_root(self, name, team=team, fields=fields)
+
     def close(self) -> None:
         """Call `close` of each component, the last created first, and then of the world; later calls do nothing.
 
@@ -210,6 +222,20 @@ class Root:
             raise self.stop_error
         elif self.errors[record.place] == 1:
             print_error(f"{record} (reported once; repetitions are only counted)")
+
+    def _read_environment(self) -> None:
+        if "VICODE_RECORD" in os.environ:
+            from .recorder import record_from_environment  # noqa: PLC0415 - off by default
+
+            record_from_environment(self)
+        if "VICODE_NET" in os.environ:
+            from .network import connect_from_environment  # noqa: PLC0415 - off by default
+
+            connect_from_environment(self)
+        if "VICODE_WATCH" in os.environ:
+            from .live import watch_from_environment  # noqa: PLC0415 - off by default
+
+            watch_from_environment(self)
 
     def _call_on_error(self, on_error: Callable[[ErrorRecord], None], record: ErrorRecord) -> None:
         """Call the function; it stops the root with a `ComponentError`, and other exceptions are printed once."""
@@ -247,6 +273,8 @@ class Root:
 
     def _find_step(self) -> Callable[[], None]:
         step = self.main.step
+        if self.network is not None:
+            step = partial(self.network.run_iteration, step)
         for observer in self._observers:
             step = partial(observer.observe_iteration, self, step)
         return step

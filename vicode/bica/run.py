@@ -83,6 +83,10 @@ def _open_missing_streams() -> None:
 
 
 def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[Root, _RecordWriter]:
+    if options.net is not None and not options.real_time:
+        raise UserCodeError("--net needs --real-time: other robots do not wait for simulated time")
+    if options.team is not None and options.net is None:
+        raise UserCodeError("--team has no effect without --net; add --net and the name of this robot")
     component_class = load_component(options.component)
     try:
         # An open descriptor, such as the standard output, keeps what is there.
@@ -190,6 +194,8 @@ def _make_root(component_class: type[Component], world: Any, writer: _RecordWrit
         root.record(
             options.record, minutes=options.minutes, design=options.design or "", revision=options.revision or ""
         )
+    if options.net is not None:
+        root.connect(options.net, team=options.team or "")
     if options.watch is not None:
         root.watch(options.watch, token=os.environ.get("VICODE_WATCH_TOKEN", ""), control=options.control)
     return root

@@ -36,6 +36,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--reload", action="store_true", help="exchange the code while it runs when a design or a module changes")
     add("--watch", metavar="ADDRESS", help="let 'vicode attach' connect: PORT, HOST:PORT or unix:PATH (docs/live.md)")
     add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
+    add("--net", metavar="NAME", help="connect to other robots under this name, with --real-time (docs/network.md)")
+    add("--team", metavar="TEAM", help="with --net: coordinate with the robots of this team")
     add("--trace", metavar="FILE", help="write a trace (docs/traces.md) to FILE; - is the standard output")
     add("--values", action="store_true", help="include outputs and variables in the trace, for replay in the editor")
     add("--real-time", action="store_true", help="run in real time instead of as fast as possible")
@@ -117,6 +119,8 @@ def _command(opened: LoadedProject, names: tuple[str, str], folder: str, args: a
         "--tick-ms": args.tick_ms,
         "--trace": args.trace,
         "--watch": args.watch,
+        "--net": args.net,
+        "--team": args.team,
     }
     command += [part for name, value in given.items() if value is not None for part in (name, str(value))]
     command += ["--on-error", args.on_error]
