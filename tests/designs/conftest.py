@@ -4,4 +4,5 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-sys.path[:0] = [str(ROOT / "designs" / "forward"), str(ROOT / "designs" / "rescue"), str(ROOT / "generated" / "python")]
+DESIGNS = [str(ROOT / "designs" / name) for name in ("forward", "rescue", "soccer2d")]
+sys.path[:0] = [*DESIGNS, str(ROOT / "generated" / "python"), str(Path(__file__).parent)]
