@@ -172,20 +172,20 @@ def test_a_recorded_trace_is_viewed(editor: str, page: Page, tmp_path: Path) -> 
     expect(active(page)).to_have_attribute("data-id", "LookForBall")
 
 
-def test_a_trace_of_the_project_folder_is_viewed_at_a_time(editor: str, page: Page, project: Path) -> None:
-    root = {"component": "Player", "by": None, "link": "root", "changed_from": None}
+def write_match(path: Path, change: int) -> None:
+    """A long trace, in which the state changes after so many iterations."""
+    root = {"component": "Player", "by": None, "link": "root", "changed_from": None, "transition": None}
     lines: list[object] = [{"vicode-trace": 1, "runtime": "bica"}]
     for number in range(3000):
-        name = "LookForBall" if number < 1500 else "GetUp"
-        values = {"kicks": number // 100}
-        lines.append(
-            {
-                "iteration": number + 1,
-                "time_ns": number * 22 * 10**6,
-                "tree": [{**root, "state": name, "values": values}],
-            }
-        )
-    (project / "forward" / "match.jsonl").write_text("\n".join(json.dumps(line) for line in lines) + "\n")
+        name = "LookForBall" if number < change else "GetUp"
+        changed = {"changed_from": "LookForBall"} if number == change else {}
+        step = {**root, **changed, "state": name, "values": {"kicks": number // 100}}
+        lines.append({"iteration": number + 1, "time_ns": number * 22 * 10**6, "tree": [step]})
+    path.write_text("\n".join(json.dumps(line) for line in lines) + "\n")
+
+
+def test_a_trace_of_the_project_folder_is_viewed_at_a_time(editor: str, page: Page, project: Path) -> None:
+    write_match(project / "forward" / "match.jsonl", 1500)
     open_simulation(page, editor)
     choose(page, "Simulate with", "View a trace")
     choose(page, "Trace in the project folder", "match.jsonl")
@@ -194,6 +194,27 @@ def test_a_trace_of_the_project_folder_is_viewed_at_a_time(editor: str, page: Pa
     page.get_by_label("Go to this time").press("Enter")
     where(page, "44.00 s · iteration 2001 · GetUp")
     expect(page.locator("svg.plot rect.plot-state")).to_have_count(2)
+
+
+def test_a_heat_map_and_the_first_difference_from_another_trace(editor: str, page: Page, project: Path) -> None:
+    write_match(project / "forward" / "first.jsonl", 1500)
+    write_match(project / "forward" / "second.jsonl", 1000)
+    open_simulation(page, editor)
+    choose(page, "Simulate with", "View a trace")
+    choose(page, "Trace in the project folder", "first.jsonl")
+    where(page, "before the first step")
+    page.get_by_text("Heat map", exact=True).click()
+    expect(page.locator("g.node.heat-red")).to_have_count(1)
+    expect(state(page, "LookForBall")).to_have_class(re.compile("heat-red"))
+    expect(state(page, "GetUp")).to_have_class(re.compile("heat-orange"))
+    expect(state(page, "Kick")).to_have_class(re.compile("heat-never"))
+    expect(page.locator('g.edge.heat-red[data-id="@common/0"]')).to_have_count(1)
+    choose(page, "Compare with", "second.jsonl")
+    expect(page.get_by_text("First difference at 22.00 s: Player is LookForBall here, GetUp there.")).to_be_visible()
+    page.get_by_role("button", name="Show the first difference").click()
+    where(page, "22.00 s · iteration 1001 · LookForBall")
+    page.get_by_text("Heat map", exact=True).click()
+    expect(page.locator("g.node.heat-red")).to_have_count(0)
 
 
 def test_the_menu_runs_to_a_state_and_sets_breakpoints(editor: str, page: Page) -> None:
@@ -296,6 +317,7 @@ def test_simulate_asks_once_before_it_runs_the_code_of_a_folder(
         dialog = page.get_by_role("dialog", name="Trust this folder?")
         dialog.get_by_role("button", name="Cancel").click()
         expect(page.locator(".simulation-message")).to_contain_text("The folder is not trusted")
+        expect(dialog).to_have_count(0)
         page.keyboard.press("F10")
         expect(dialog).to_contain_text("without a sandbox, with all rights of your user account: VICODE_SANDBOX is off")
         dialog.get_by_role("button", name="Trust and simulate").click()

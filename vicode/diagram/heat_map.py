@@ -42,6 +42,11 @@ def render_heat_map(
     )
 
 
+def heat_color(share: float) -> str:
+    """The color of a share from 0 to 1."""
+    return next(name for least, name in _LEVELS if share >= least)
+
+
 def _heated_node(node: DiagramNode, states: Mapping[str, StateHeat], whole_s: float) -> DiagramNode:
     if node.node_type != "state":
         return node
@@ -49,7 +54,7 @@ def _heated_node(node: DiagramNode, states: Mapping[str, StateHeat], whole_s: fl
     if heat is None or not heat.entries:
         return replace(node, color="", badges=(), subtitle=_NEVER, title=f"{node.title}\nnever entered")
     share = heat.total_s / whole_s if whole_s else 0.0
-    color = next(name for least, name in _LEVELS if share >= least)
+    color = heat_color(share)
     words = f"entered {heat.entries} times, {heat.total_s:.2f} s ({share:.0%}), longest {heat.longest_s:.2f} s"
     subtitle = f"{heat.entries}× {share:.0%}"
     return replace(node, color=color, badges=(), subtitle=subtitle, title=f"{node.title}\n{words}")

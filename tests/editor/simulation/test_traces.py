@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import asdict
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from tests.editor.simulation.lamp_project import prepare_lamp, recorded_iteratio
 from vicode.bica.observer import TRACE_HEADER
 from vicode.editor.session.simulation import Recording, RunConfig, Simulation, prepare_run
 from vicode.editor.session.simulation.guard_values import evaluate_guards, latest_steps
+from vicode.editor.session.simulation.trace_overlays import measure_heat
 from vicode.editor.session.simulation.traces import input_script, read_iterations
 from vicode.model.design import Design
 from vicode.simulation.trace import TraceError
@@ -165,3 +167,28 @@ def test_done_action_done_and_conflict_are_known_in_a_trace(tmp_path: Path) -> N
         }
         seen.add((iteration.state, found[f"{iteration.state}/0"]["reads"]["done(task)"]))
     assert seen == {("Order", False), ("Order", True), ("Rest", False), ("Rest", True)}
+
+
+def test_a_heat_map_counts_states_and_transitions(lamps: Path) -> None:
+    states = ["Dark", "Lit", "Lit", "Lit", "Dark", "Lit"]
+    lines = [
+        {"iteration": number, "time_ns": number * 10**9, "tree": [{"component": "Lamp", "by": None, **step}]}
+        for number, step in enumerate(
+            ({"state": now, "changed_from": left if left != now else None} for left, now in pairwise([None, *states])),
+            start=1,
+        )
+    ]
+    text = "\n".join(json.dumps(line) for line in (TRACE_HEADER, *lines))
+    recording = Recording()
+    for iteration in read_iterations(text, lamp_of(lamps)):
+        recording.add(iteration, {})
+    heat = measure_heat(recording, lamp_of(lamps))
+    state = {item.id: (heat.colors[item], heat.words[item]) for item in heat.words if item.kind == "states"}
+    assert state["Lit"] == ("red", "entered 2 times, 3.00 s (60%), longest 3.00 s")
+    assert state["Dark"] == ("orange", "entered 2 times, 2.00 s (40%), longest 1.00 s")
+    assert state["Broken"] == ("never", "never entered")
+    taken = {item.id: heat.words[item] for item in heat.words if item.kind == "transitions"}
+    # Both lead from Dark to Lit and have no ids.
+    assert taken["Dark/0"] == taken["Dark/1"] == "taken 2 times"
+    assert taken["Lit/0"] == "taken 1 time"
+    assert taken["@common/0"] == "never taken"

@@ -63,6 +63,9 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._active: tuple[list[str], int, list[str], dict[str, str]] = ([], -1, [], {})
         self._inside: dict[ItemRef, list[dict[str, Any]]] = {}
         self._breakpoints: list[dict[str, str]] = []
+        self._heat: list[dict[str, str]] = []
+        self.heat_words: Mapping[ItemRef, str] = {}
+        """The figures of elements in the trace that is shown as a heat map."""
         self._controls_robot = False
         self._acknowledged = -1
         self._sent = -1
@@ -177,6 +180,12 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._breakpoints = [item_json(item) for item in items]
         self._call("setBreakpoints", self._breakpoints)
 
+    def show_heat(self, colors: Mapping[ItemRef, str], words: Mapping[ItemRef, str]) -> None:
+        """Color elements by the statistics of a trace, with figures for their tooltips; empty mappings end it."""
+        self.heat_words = words
+        self._heat = [{**item_json(item), "color": color} for item, color in colors.items()]
+        self._call("painter.showHeat", self._heat)
+
     def set_controls_robot(self, flag: bool) -> None:
         """Offer in menus what needs control of a robot."""
         if flag != self._controls_robot:
@@ -280,6 +289,8 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             self._call("scrollToInitial", *self._initial_target)
             self._initial_target = None
         self._call("setBreakpoints", self._breakpoints)
+        if self._heat:
+            self._call("painter.showHeat", self._heat)
         self._call("commands.setControlsRobot", self._controls_robot)
         self._send_presence()
         for item, machines in self._inside.items():

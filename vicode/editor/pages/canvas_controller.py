@@ -163,6 +163,8 @@ class CanvasController:
 
     def _show_tooltip(self, item: ItemRef) -> None:
         sections = tooltip_sections(self.context.design, item, self.context.workspace.project.languages)
+        if item in self.canvas.heat_words:
+            sections = [{"name": "trace", "text": self.canvas.heat_words[item]}, *sections]
         self.canvas.show_tooltip(item, sections)
 
     def _edit(self, gesture: RequestedEdit, rev: int) -> None:

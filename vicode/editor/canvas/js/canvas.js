@@ -67,6 +67,7 @@ class Canvas {
     this.selection.keys = new Set();
     this.selection.set(kept, { quiet: true });
     this.painter.mark("breakpoint", this.breakpoints ?? []);
+    this.painter.showHeat();
     if (this.fitPending && this.viewport.measure()) restoreView(this);
     this.#sceneChanged();
     this.host.dataset.ready = "true";

@@ -7,7 +7,8 @@ import { drawNode, placeNode } from "./node_svg.js";
 import { placeInitialMark } from "./initial_mark.js";
 import { bakeTransform } from "./group_transforms.js";
 import { showBreakpoint } from "./breakpoint_sign.js";
-import { EVERY_STATE, LAYERS, MARKS } from "./strings.js";
+import { keyOf } from "./scene.js";
+import { EVERY_STATE, HEAT, LAYERS, MARKS } from "./strings.js";
 import { bringToFront, svg } from "./svg.js";
 
 // Marked elements stay mounted even in the overview, up to this many of each mark.
@@ -35,7 +36,8 @@ export class Painter {
     this.scene = scene;
     this.router = router;
     this.items = new Map();
-    this.marks = new Map(["selected", "active", "taken", "breakpoint", "drop", "held", "lit", "hover"].map((name) => [name, new Set()]));
+    const names = ["selected", "active", "taken", "breakpoint", "drop", "held", "lit", "hover", ...HEAT.map((color) => `heat-${color}`)];
+    this.marks = new Map(names.map((name) => [name, new Set()]));
     this.layers = Object.fromEntries(LAYER_STACK.flat().map((name) => [name, layer(name, isInset)]));
     this.hitAreas = LAYER_STACK.map(() => svg("rect", { class: "ground" }));
     this.svgRoots = LAYER_STACK.map((names, index) => svg("svg", { role: "presentation" }, [this.hitAreas[index], ...names.map((name) => this.layers[name])]));
@@ -83,6 +85,13 @@ export class Painter {
     this.marks.set(name, now);
     for (const key of old) if (!now.has(key)) this.#toggle(key, name, false);
     for (const key of now) if (!old.has(key)) this.#toggle(key, name, true);
+  }
+
+  /** Colors elements by the statistics of a trace; without items, as before. */
+  showHeat(items = this.heat ?? []) {
+    this.heat = items;
+    for (const color of HEAT) this.mark(`heat-${color}`, items.filter((item) => item.color === color).map(({ of, id }) => keyOf(of, id)));
+    for (const root of this.svgRoots) root.classList.toggle("heat", items.length > 0);
   }
 
   /** Redraws changed elements. Edges at `affectedNodes` and near `changedRects`, where nodes came or left, are rerouted. */

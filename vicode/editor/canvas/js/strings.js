@@ -41,7 +41,9 @@ export const ZOOM_TO_100 = "Zoom to 100% (0)";
 export const namesOnly = (percent) => `The whole diagram at ${percent}%: names only. Zoom in to read guards.`;
 
 // Descriptions of elements
-export const MARKS = { selected: "selected", active: "active", taken: "last transition taken", breakpoint: "breakpoint" };
+export const MARKS = { selected: "selected", active: "active", taken: "last transition taken", breakpoint: "breakpoint", "heat-never": "never in the trace" };
+// The colors of the heat map.
+export const HEAT = ["blue", "yellow", "orange", "red", "never"];
 export const CHANGED_OUTSIDE = "code changed outside";
 export const DISABLED = "disabled";
 export const EVERY_STATE = "every state";

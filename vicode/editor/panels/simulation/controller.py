@@ -52,6 +52,8 @@ class SimulationController:
         self.breakpoints = Breakpoints()
         self.config = RunConfig()
         self.trace: tuple[IterationResult, ...] | Recording = ()
+        self.trace_path: Path | None = None
+        """The file of the trace, if it is one on this machine."""
         self.is_replay = False
         self.speed = 1.0
         self.pauses_on_errors = True
@@ -153,6 +155,7 @@ class SimulationController:
             TraceError: It is not a trace of this design.
         """
         self.trace, self.is_replay = read_iterations(text, self.context.design), is_replay
+        self.trace_path = None
         self.is_stale = self.simulation is not None
         self._notify()
 
@@ -168,13 +171,13 @@ class SimulationController:
             self.trace = await run.io_bound(read_recording, path, design, on_progress) or ()
         else:
             self.trace = await run.io_bound(read_beginning, path, design) or ()
-        self.is_replay = is_replay
+        self.trace_path, self.is_replay = path, is_replay
         self.is_stale = self.simulation is not None
         self._notify()
 
     def clear_trace(self) -> None:
         """Return to manual inputs."""
-        self.trace, self.is_replay = (), False
+        self.trace, self.trace_path, self.is_replay = (), None, False
         self.is_stale = self.simulation is not None
         self._notify()
 

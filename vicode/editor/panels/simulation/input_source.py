@@ -9,6 +9,7 @@ from vicode.editor.access import MAX_BODY_BYTES
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.panels.simulation.robot_form import RobotForm
 from vicode.editor.panels.simulation.trace_files import TraceFileChoice
+from vicode.editor.panels.simulation.trace_overlays import TraceOverlays
 from vicode.editor.session.simulation import stubbed_components, used_components
 from vicode.simulation.trace import TraceError
 
@@ -53,6 +54,7 @@ class InputSourceForm:
         # The browser opens its file dialog only within the click event, without a round trip to the server.
         self.pick.classes("trace-pick").on("click", js_handler=f"() => runMethod({self.upload.id}, 'pickFiles', [])")
         self.files = TraceFileChoice(controller, lambda: self.source == _REPLAY)
+        self.overlays = TraceOverlays(controller)
         self.robot_form = RobotForm(controller.robot)
         self.options = ui.expansion("Run options").classes("section run-options").props("dense dense-toggle")
         with self.options:
@@ -70,6 +72,7 @@ class InputSourceForm:
 
     def refresh(self) -> None:
         self.robot_form.refresh()
+        self.overlays.refresh()
         self.options.set_visibility(self.source != _ROBOT)
         has_trace = bool(self.controller.trace)
         self.files.set_visibility(self.source in (_FROM_TRACE, _REPLAY))

@@ -102,6 +102,10 @@ class TransitionKeys:
         keys = [*self._by_ends.get((left, state), ()), *self._by_ends.get((COMMON, state), ())]
         return keys[0] if len(keys) == 1 else None
 
+    def between(self, left: str, state: str) -> list[str]:
+        """The keys of all transitions that may have been taken."""
+        return self._by_ends.get((left, state)) or self._by_ends.get((COMMON, state), [])
+
     def complete(self, iteration: IterationResult) -> IterationResult:
         """The iteration with the key of its transition."""
         own = iteration.step
