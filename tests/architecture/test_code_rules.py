@@ -65,6 +65,7 @@ RUNNING_ALLOWED = frozenset(
 
 # Public class names that several modules define, and why.
 REPEATED_CLASS_NAMES = {
+    "Command": "an entry of the editor's command palette, and the declaration of a robot's command in vicode.bridge",
     "State": "the value in vicode.model, and the public runtime type of vicode.bica",
 }
 

@@ -32,7 +32,7 @@ def load_component(name: str) -> type[Component]:
     Raises:
         UserCodeError: It does not exist, it is not a component, or its module fails.
     """
-    component_class = _import_attribute(name)
+    component_class = load_attribute(name)
     if not (isinstance(component_class, type) and issubclass(component_class, Component)):
         raise UserCodeError(f"{name} is not a component; derive it from {Component.__module__}.Component")
     return component_class
@@ -46,10 +46,26 @@ def make_world(name: str | None, seed: int) -> Any:
     """
     if name is None:
         return None
-    world_class = _import_attribute(name)
+    world_class = load_attribute(name)
     with wrap_user_errors(f"cannot create {name}"):
         takes_seed = "seed" in inspect.signature(world_class).parameters
         return world_class(seed=seed) if takes_seed else world_class()
+
+
+def load_attribute(name: str) -> Any:
+    """Import `module:Class`.
+
+    Raises:
+        UserCodeError: It does not exist, or its module fails.
+    """
+    module, colon, attribute = name.partition(":")
+    if not colon:
+        raise UserCodeError(f"invalid name '{name}'; write it as module:Class")
+    try:
+        with wrap_user_errors(f"cannot load {name}"):
+            return getattr(importlib.import_module(module), attribute)
+    except SystemExit as error:
+        raise UserCodeError(f"cannot load {name}: {describe_user_error(error)}") from error
 
 
 @contextmanager
@@ -74,17 +90,6 @@ def wrap_user_errors(message: str, *, only_user_code: bool = False) -> Iterator[
 def describe_user_error(error: BaseException) -> str:
     """Describe an exception of user code with its location."""
     return _describe(error, _find_user_location(error))
-
-
-def _import_attribute(name: str) -> Any:
-    module, colon, attribute = name.partition(":")
-    if not colon:
-        raise UserCodeError(f"invalid name '{name}'; write it as module:Class")
-    try:
-        with wrap_user_errors(f"cannot load {name}"):
-            return getattr(importlib.import_module(module), attribute)
-    except SystemExit as error:
-        raise UserCodeError(f"cannot load {name}: {describe_user_error(error)}") from error
 
 
 def _describe(error: BaseException, place: tuple[str, int] | None) -> str:

@@ -92,6 +92,12 @@ class Root:
         return tuple(self._components.values())
 
     @property
+    def active_states(self) -> tuple[tuple[str, str], ...]:
+        """The components with states that were stepped in the last iteration, and their states, the root first."""
+        active = (each for each in self.components if each.state and each._stepped_in == self.iteration)
+        return tuple((type(each).__name__, each.state) for each in reversed(tuple(active)))
+
+    @property
     def measure(self) -> bool:
         """Whether cycle times are measured; cannot be switched off again."""
         return self._cycle_times is not None

@@ -20,6 +20,7 @@ COMMANDS = (
     "check",
     "docs",
     "run",
+    "bridge",
     "deploy",
     "replay",
     "trace",

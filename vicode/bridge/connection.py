@@ -1,0 +1,284 @@
+"""A connection of the server: bytes of one client to its robot, and commands back. Never waits, never buffers much."""
+
+import asyncio
+import hmac
+import socket
+import time
+from collections import deque
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from vicode.bridge.behaviors import ActiveState, BehaviorError
+from vicode.bridge.dialects import Dialect, JsonDialect, JxiDialect, Pace, RefusedError, RobotHello
+from vicode.bridge.frames import GREETING, FrameError, LineDecoder, is_json, shorten, show_bytes
+from vicode.bridge.parameters import Raw
+from vicode.bridge.robot import Robot
+
+if TYPE_CHECKING:
+    from vicode.bridge.server import BridgeServer
+
+_READ_BYTES = 32_768
+_SLICE_S = 0.002
+"""So long a connection handles lines before others get their turn."""
+_QUIET_SEND_S = 0.25
+"""A robot that sends nothing gets commands so often: whether it reads them is not known."""
+_MAX_UNSENT_BYTES = 65_536
+_ERROR_BURST, _ERRORS_PER_S = 5, 1.0
+_CLOSE_S = 1.0
+_KEEP_ALIVE_S = 10
+_DRIFT = 10_000
+
+
+class Connection(asyncio.BufferedProtocol):
+    """One client. It becomes a robot with its first line, unless a token is missing."""
+
+    def __init__(self, server: "BridgeServer") -> None:
+        self.server = server
+        self.robot: Robot | None = None
+        self.pace: Pace = "clock"
+        self.is_admitted = not server.options.token
+        self.tick_ms = shorten(server.options.tick_ns / 1e6)
+        self.peer = "?"
+        self.connected_s = self.heard_s = time.monotonic()
+        self._buffer = memoryview(bytearray(_READ_BYTES))
+        self._decoder = LineDecoder()
+        self._lines: deque[bytes] = deque()
+        self._dialect: Dialect | None = None
+        self._has_heard = True
+        self._sent_s = 0.0
+        self._sends_state = False
+        self._error_credit, self._error_s, self._hidden_errors = float(_ERROR_BURST), self.connected_s, 0
+        self._clock_offset = _ClockOffset()
+        self._tick_ns = 0
+        self._sent_states: list[ActiveState] | None = None
+        self._is_working = False
+        self._transport: asyncio.Transport
+
+    # asyncio
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        assert isinstance(transport, asyncio.Transport)
+        self._transport = transport
+        keep_alive(transport)
+        peer = transport.get_extra_info("peername")
+        self.peer = f"{peer[0]}:{peer[1]}" if isinstance(peer, tuple) else "?"
+        transport.write(GREETING)
+        if not self.server.add(self):
+            self.refuse("too many connections")
+
+    def get_buffer(self, sizehint: int) -> memoryview:  # noqa: ARG002 - of asyncio
+        return self._buffer
+
+    def buffer_updated(self, nbytes: int) -> None:
+        if self._dialect is None:
+            self._dialect = JsonDialect() if is_json(bytes(self._buffer[:1])) else JxiDialect()
+        self.heard_s = time.monotonic()
+        self._lines += self._decoder.feed(bytes(self._buffer[:nbytes]))
+        if self._lines and not self._is_working:
+            self._work()
+
+    def connection_lost(self, exc: Exception | None) -> None:  # noqa: ARG002 - of asyncio
+        self._lines.clear()
+        self.server.remove(self)
+
+    def pause_writing(self) -> None:
+        # A client that does not read the answers to its ticks gets no more of them.
+        if self.pace == "client":
+            self._transport.pause_reading()
+
+    def resume_writing(self) -> None:
+        if not self._is_working:
+            self._transport.resume_reading()
+
+    # Lines
+
+    def _work(self) -> None:
+        """Handle lines for a while; the rest waits until other connections and ticks had their turn."""
+        end_s, lines = time.perf_counter() + _SLICE_S, self._lines
+        while lines and time.perf_counter() < end_s:
+            self._handle(lines.popleft())
+        self._has_heard = True
+        self.flush()
+        was_working, self._is_working = self._is_working, bool(lines)
+        if self._transport.is_closing():
+            lines.clear()
+        elif lines:
+            self._transport.pause_reading()
+            asyncio.get_running_loop().call_soon(self._work)
+        elif was_working:
+            self._transport.resume_reading()
+
+    def _handle(self, line: bytes) -> None:
+        assert self._dialect is not None
+        try:
+            self._dialect.handle(line, self)
+        except UnknownTargetError as error:
+            self.complain(str(error))
+        except FrameError as error:
+            counts = self.robot.data.counts if self.robot is not None else self.server.counts
+            counts.malformed += 1
+            self.complain(str(error))
+        except RefusedError as error:
+            self.refuse(str(error))
+
+    # What lines do
+
+    def admit(self, token: str) -> None:
+        expected = self.server.options.token
+        if expected and not hmac.compare_digest(token.encode(), expected.encode()):
+            raise RefusedError("wrong token" if token else "this server needs a token")
+        self.is_admitted = True
+
+    def join(self, hello: RobotHello) -> str:
+        if self.robot is not None:
+            raise FrameError("the robot has its name already; name it before the first sensor")
+        self.pace, self._sends_state = hello.pace, hello.sends_state
+        self.robot = self.server.join(hello, self)
+        return self.robot.name
+
+    def select(self, behavior: str) -> str:
+        robot = self._require_robot()
+        name = behavior or robot.behavior_name or self.server.catalog.default
+        if not name:
+            raise FrameError(f"choose a behavior: {', '.join(self.server.catalog.names)}")
+        if name != robot.behavior_name:
+            try:
+                robot.select(name)
+            except BehaviorError as error:
+                raise FrameError(str(error)) from error
+            self.server.on_start(robot)
+        return name
+
+    def receive(self, target: str, raw: Raw, time_ns: int | None = None) -> None:
+        robot = self._require_robot()
+        if not robot.data.receive(target, raw, self._to_server_time(time_ns)):
+            shown = show_bytes(target.encode("ascii", "replace"))
+            raise UnknownTargetError(f"no sensor or event {shown}; the world has {', '.join(robot.data.targets)}")
+        if robot.behavior is None:
+            self.select("")
+
+    def tick(self, time_ns: int) -> None:
+        robot = self._require_robot()
+        if self.pace != "client":
+            raise FrameError('a tick needs {"hello": {"pace": "client"}}')
+        if time_ns < self._tick_ns:
+            raise FrameError(f"tick {time_ns / 1e9:g} is before tick {self._tick_ns / 1e9:g}")
+        self._tick_ns = time_ns
+        self.server.tick(robot, at_ns=time_ns, now_ns=time_ns)
+        more: dict[str, Any] = {"tick": shorten(time_ns / 1e9)} | self._describe(robot)
+        reports = robot.take_reports()
+        if reports:
+            more["errors"] = reports
+        self._write_commands(robot, more)
+
+    def _require_robot(self) -> Robot:
+        if self.robot is None:
+            self.join(RobotHello())
+        assert self.robot is not None
+        return self.robot
+
+    def _to_server_time(self, time_ns: int | None) -> int:
+        """When a value was sent, on the clock of the ticks: that of the server, or of a client that ticks."""
+        if self.pace == "client":
+            return self._tick_ns if time_ns is None else time_ns
+        now_ns = time.monotonic_ns()
+        return now_ns if time_ns is None else self._clock_offset.convert(time_ns, now_ns)
+
+    # Lines to the client
+
+    def send(self, line: bytes) -> None:
+        self._transport.write(line)
+
+    def flush(self) -> None:
+        """Send the commands that wait, if the robot is likely to have read those before."""
+        robot = self.robot
+        if robot is None or self.pace == "client" or not self._may_send():
+            return
+        states = robot.behavior.active_states() if self._sends_state and robot.behavior is not None else None
+        if robot.data.commands.has_waiting or (states is not None and states != self._sent_states):
+            self._sent_states = states
+            self._has_heard, self._sent_s = False, time.monotonic()
+            self._write_commands(robot, self._describe(robot))
+
+    def stop(self) -> None:
+        """Send the commands that stop the robot, and close the connection."""
+        if self.robot is not None and self._dialect is not None and not self._transport.is_closing():
+            self.send(self._dialect.encode_commands(self.robot.data.commands.stop(), {}))
+        self.close()
+
+    def complain(self, text: str) -> None:
+        """Send an error, unless there were many."""
+        now_s = time.monotonic()
+        self._error_credit = min(_ERROR_BURST, self._error_credit + (now_s - self._error_s) * _ERRORS_PER_S)
+        self._error_s = now_s
+        # A client that ticks waits for one answer to each line.
+        may_send = self.pace == "client" or self._error_credit >= 1
+        if self._dialect is None or not may_send or self._transport.get_write_buffer_size() > _MAX_UNSENT_BYTES:
+            self._hidden_errors += 1
+            return
+        self._error_credit -= 1
+        hidden = f" (and {self._hidden_errors} other errors)" if self._hidden_errors else ""
+        self._hidden_errors = 0
+        self.send(self._dialect.encode_error(text + hidden))
+
+    def refuse(self, text: str) -> None:
+        """Send an error and close the connection."""
+        if not self._transport.is_closing():
+            self.send((self._dialect or JxiDialect()).encode_error(text))
+            self.close()
+
+    def close(self) -> None:
+        """Close the connection when everything is sent, or soon."""
+        self._transport.close()
+        asyncio.get_running_loop().call_later(_CLOSE_S, self._transport.abort)
+
+    def _may_send(self) -> bool:
+        is_free = self._has_heard or time.monotonic() - self._sent_s >= _QUIET_SEND_S
+        return is_free and not self._transport.get_write_buffer_size() and not self._transport.is_closing()
+
+    def _describe(self, robot: Robot) -> dict[str, Any]:
+        """What a message says beside commands: the age of the data acted on, and active states if asked for."""
+        more: dict[str, Any] = {}
+        if (age_ns := robot.data.readings.age_ns) is not None:
+            more["age_ms"] = round(age_ns / 1e6, 3)
+        if self._sends_state and robot.behavior is not None:
+            more["state"] = {"active": robot.behavior.active_states()}
+        return more
+
+    def _write_commands(self, robot: Robot, more: Mapping[str, Any]) -> None:
+        assert self._dialect is not None
+        line = self._dialect.encode_commands(robot.data.commands.take(), more)
+        if line:
+            self.send(line)
+
+
+def keep_alive(transport: asyncio.Transport) -> None:
+    """Let the system find out that a silent client has gone."""
+    connection = transport.get_extra_info("socket")
+    if connection is not None and connection.family in (socket.AF_INET, socket.AF_INET6):
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+        if hasattr(socket, "TCP_KEEPIDLE"):
+            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_KEEPIDLE, _KEEP_ALIVE_S)
+
+
+class UnknownTargetError(FrameError):
+    """A target that the world does not declare: counted apart, as it is no fault of the line."""
+
+
+class _ClockOffset:
+    """Converts times of a robot to those of the server: the message that was fastest on its way has age 0."""
+
+    __slots__ = ("_last_ns", "_offset_ns")
+
+    def __init__(self) -> None:
+        self._offset_ns: int | None = None
+        self._last_ns = 0
+
+    def convert(self, robot_ns: int, now_ns: int) -> int:
+        offset_ns = now_ns - robot_ns
+        if self._offset_ns is not None:
+            # The clocks may drift apart by this much.
+            self._offset_ns += (now_ns - self._last_ns) // _DRIFT
+            offset_ns = min(offset_ns, self._offset_ns)
+        self._offset_ns, self._last_ns = offset_ns, now_ns
+        return robot_ns + offset_ns

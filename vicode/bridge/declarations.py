@@ -1,0 +1,161 @@
+"""What a world declares: sensors and events that a robot sends, and commands that it obeys."""
+
+import math
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any, Self, overload
+
+from vicode.bridge.parameters import ParameterTypes
+
+if TYPE_CHECKING:
+    from vicode.bridge.world import World
+
+_NS_PER_S = 1_000_000_000
+
+
+class Sensor:
+    """A value that the robot sends again and again; only the newest one counts.
+
+    `laser = Sensor("LASER", float, length=181)` also gives the world `laser_age`, in seconds, and `laser_is_stale`.
+
+    Args:
+        target: The name in lines.
+        value_type: float, int, bool or str; by default that of the project's output of the same name, or else float.
+        length: The number of parameters, or the least and the greatest number: the value is a tuple.
+        fields: Names of the parameters: the value is a named tuple.
+        range: The least and the greatest number; a line with another one is malformed.
+        unit: For documentation.
+        max_age: In seconds; an older value is stale: the sensor reads as `initial` then.
+        initial: The value before the first line, by default zeros.
+    """
+
+    def __init__(
+        self,
+        target: str,
+        value_type: type[Any] | None = None,
+        /,
+        *,
+        length: int | tuple[int, int] | None = None,
+        fields: Sequence[str] = (),
+        range: tuple[float, float] | None = None,  # noqa: A002 - the name in project.yaml
+        unit: str = "",
+        max_age: float | None = None,
+        initial: Any = None,
+    ) -> None:
+        least, most = length if isinstance(length, tuple) else (length or len(fields) or 1,) * 2
+        self.target, self.unit, self.name = target, unit, ""
+        self.parameters = ParameterTypes(
+            value_type=value_type,
+            least=least,
+            most=most,
+            fields=tuple(fields),
+            is_list=length is not None,
+            bounds=range,
+        )
+        self.max_age_ns = math.inf if max_age is None else round(max_age * _NS_PER_S)
+        self._initial = initial
+
+    def __set_name__(self, owner: type[Any], name: str) -> None:
+        self.name = name
+        for suffix, read in (("age", _read_age), ("is_stale", _read_is_stale)):
+            if f"{name}_{suffix}" not in vars(owner):
+                setattr(owner, f"{name}_{suffix}", property(partial(read, self)))
+
+    @property
+    def initial(self) -> Any:
+        return self.parameters.default() if self._initial is None else self._initial
+
+    @overload
+    def __get__(self, world: None, owner: type[Any]) -> Self: ...
+    @overload
+    def __get__(self, world: "World", owner: type[Any]) -> Any: ...
+    def __get__(self, world: "World | None", owner: type[Any]) -> Any:
+        return self if world is None else world.bridge.readings.read(self)
+
+
+class Event:
+    """Something that happens at one moment. Events are kept in order; each is visible for one tick.
+
+    Without a type, an event reads as true in its tick and as false otherwise. With one, it reads as its parameter (with
+    `fields`, as a named tuple) in its tick, and as `initial` otherwise.
+    """
+
+    def __init__(
+        self,
+        target: str,
+        value_type: type[Any] | None = None,
+        /,
+        *,
+        fields: Sequence[str] = (),
+        initial: Any = None,
+    ) -> None:
+        self.target, self.name = target, ""
+        self.has_value = value_type is not None or bool(fields)
+        number = len(fields) or 1
+        self.parameters = ParameterTypes(value_type=value_type, least=number, most=number, fields=tuple(fields))
+        self.initial = (self.parameters.default() if initial is None else initial) if self.has_value else False
+
+    def __set_name__(self, owner: type[Any], name: str) -> None:
+        self.name = name
+
+    @overload
+    def __get__(self, world: None, owner: type[Any]) -> Self: ...
+    @overload
+    def __get__(self, world: "World", owner: type[Any]) -> Any: ...
+    def __get__(self, world: "World | None", owner: type[Any]) -> Any:
+        return self if world is None else world.bridge.events.read(self)
+
+
+class Command:
+    """A command of the robot; the world has it as a method with these parameters, which are 0 if omitted.
+
+    It is sent when its parameters change, and when it is called again after a tick without a call.
+
+    Args:
+        target: The name in lines.
+        parameters: Names of the parameters, in the order of the line.
+        stop: Values that stop the robot, by default zeros; None if there is nothing to stop.
+        rate: In Hz: sent at this rate while it is called, changed or not.
+    """
+
+    def __init__(
+        self, target: str, /, *parameters: str, stop: Sequence[Any] | None = (), rate: float | None = None
+    ) -> None:
+        if stop and len(stop) != len(parameters):
+            raise TypeError(f"{target} has {len(parameters)} parameters, but stop has {len(stop)}")
+        self.target, self.parameters, self.name = target, parameters, ""
+        self.stop = None if stop is None else tuple(stop) or (0,) * len(parameters)
+        self.period_ns = 0 if rate is None else round(_NS_PER_S / rate)
+
+    def __set_name__(self, owner: type[Any], name: str) -> None:
+        self.name = name
+
+    @overload
+    def __get__(self, world: None, owner: type[Any]) -> Self: ...
+    @overload
+    def __get__(self, world: "World", owner: type[Any]) -> Callable[..., None]: ...
+    def __get__(self, world: "World | None", owner: type[Any]) -> Any:
+        return self if world is None else partial(self._call, world)
+
+    def _call(self, world: "World", *positional: Any, **named: Any) -> None:
+        world.bridge.commands.call(self, self._bind(positional, named))
+
+    def _bind(self, positional: tuple[Any, ...], named: dict[str, Any]) -> tuple[Any, ...]:
+        if len(positional) > len(self.parameters):
+            raise TypeError(f"{self.name} takes {len(self.parameters)} parameters, {len(positional)} were given")
+        values = dict(zip(self.parameters, positional, strict=False)) | named
+        if len(values) > len(self.parameters) or not values.keys() <= set(self.parameters):
+            unknown = ", ".join(sorted(values.keys() - set(self.parameters)))
+            raise TypeError(f"{self.name} has no parameter {unknown}; it has {', '.join(self.parameters) or 'none'}")
+        for name, value in values.items():
+            if isinstance(value, float) and not math.isfinite(value):
+                raise ValueError(f"{self.name}: {name} is {value}, which no robot can do")
+        return tuple(values.get(name, 0) for name in self.parameters)
+
+
+def _read_age(sensor: Sensor, world: "World") -> float:
+    return world.bridge.readings.age_s(sensor)
+
+
+def _read_is_stale(sensor: Sensor, world: "World") -> bool:
+    return world.bridge.readings.is_stale(sensor)

@@ -1,0 +1,176 @@
+"""One robot: its world, its behavior and its clock. No I/O: the server calls it with messages and ticks."""
+
+from collections import deque
+from collections.abc import Callable, Iterable
+from types import SimpleNamespace
+from typing import Any
+
+from vicode.bica.errors import describe_exception
+from vicode.bica.loader import describe_user_error
+from vicode.bridge.behaviors import Behavior, BehaviorCatalog, BehaviorError, BehaviorSetup, TickClock
+from vicode.bridge.world import World
+
+_KEPT_AGES = 1024
+
+
+class Broadcast:
+    """What a robot told its team at the end of a tick: the message of its behavior, and published values."""
+
+    __slots__ = ("message", "published", "time_ns")
+
+    def __init__(self, time_ns: int, message: Any, published: SimpleNamespace | None) -> None:
+        self.time_ns, self.message, self.published = time_ns, message, published
+
+
+class Robot:
+    """A robot and its state, which outlives a connection.
+
+    Args:
+        name: Unique in the server.
+        make_world: Creates the world.
+        catalog: The behaviors that it can run.
+        team: Robots with the same team and behavior hear each other.
+        priority: Of its messages to the team; unique there.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        make_world: Callable[[], World],
+        catalog: BehaviorCatalog,
+        *,
+        team: str = "",
+        priority: int = 0,
+    ) -> None:
+        self.name, self.team, self.priority = name, team, priority
+        self.world = make_world()
+        self.data = self.world.bridge
+        self.data.robot = name
+        self.clock = TickClock()
+        self.behavior: Behavior | None = None
+        self.behavior_name = ""
+        self.ages_ns: deque[int] = deque(maxlen=_KEPT_AGES)
+        """The age of the data acted on, of the last ticks in which any was read."""
+        self.reports: list[str] = []
+        """Lines about exceptions and malformed values since the last `take_reports`."""
+        self._reported: set[str] = set()
+        self._catalog = catalog
+        advance = getattr(self.world, "advance", None)
+        self._advance: Callable[[int], object] | None = advance if callable(advance) else None
+        self._start_ns = 0
+        self._broadcasts: deque[Broadcast] = deque(maxlen=2)
+
+    def select(self, name: str) -> None:
+        """Start a behavior in place of that before; the sensors keep their values.
+
+        Raises:
+            BehaviorError: There is no such behavior, or its code fails.
+        """
+        setup = BehaviorSetup(world=self.world, clock=self.clock, priority=self.priority, report=self._report)
+        before, self.clock.ns = self.clock.ns, 0
+        try:
+            behavior = self._catalog.create(name, setup)
+        except BehaviorError:
+            self.clock.ns = before
+            raise
+        if self.behavior is not None:
+            self.behavior.close()
+        self.behavior, self.behavior_name, self._start_ns = behavior, name, -1
+        self.data.commands.repeat()
+
+    def tick(self, at_ns: int, now_ns: int, mates: Iterable["Robot"]) -> None:
+        """Run the behavior once.
+
+        Args:
+            at_ns: When the tick is due, on a clock that all robots of a team share.
+            now_ns: The time on the clock of the messages, from which ages are counted.
+            mates: The other robots of the team.
+        """
+        behavior, data = self.behavior, self.data
+        if behavior is None:
+            return
+        if self._start_ns < 0:
+            self._start_ns = at_ns
+        self.clock.ns = max(self.clock.ns, at_ns - self._start_ns)
+        data.begin_tick(self.clock.ns, now_ns)
+        heard = [each for each in (mate.heard_at(at_ns) for mate in mates) if each is not None]
+        data.team = tuple(each.published for each in heard if each.published is not None)
+        behavior.hear(each.message for each in heard if each.message is not None)
+        if self._advance is not None:
+            self._advance_world(self._advance)
+        behavior.step()
+        data.commands.end_tick(self.clock.ns)
+        if (age_ns := data.readings.age_ns) is not None:
+            self.ages_ns.append(age_ns)
+        self._tell(at_ns, behavior)
+        for problem in data.take_problems():
+            self.reports.append(problem)
+
+    def heard_at(self, at_ns: int) -> Broadcast | None:
+        """What the other robots hear in their tick at this time: what was told before, so that order has no effect."""
+        if not self._broadcasts:
+            return None
+        newest = self._broadcasts[-1]
+        if newest.time_ns < at_ns:
+            return newest
+        return self._broadcasts[0] if len(self._broadcasts) > 1 else None
+
+    @property
+    def team_key(self) -> tuple[str, str]:
+        """Robots with the same key are a team."""
+        return self.team, self.behavior_name
+
+    @property
+    def speaks(self) -> bool:
+        """Whether the team hears anything of this robot."""
+        return bool(self._broadcasts)
+
+    def leave_team(self) -> None:
+        """Take back what the team heard: nobody controls this robot now."""
+        self._broadcasts.clear()
+
+    def take_reports(self) -> list[str]:
+        reports, self.reports = self.reports, []
+        return reports
+
+    def close(self) -> None:
+        """Close the behavior and the world."""
+        if self.behavior is not None:
+            self.behavior.close()
+            self.behavior = None
+        close_world = getattr(self.world, "close", None)
+        if callable(close_world):
+            try:
+                close_world()
+            except Exception as error:
+                self._report(f"close of the world: {describe_exception(error)}")
+
+    def _tell(self, at_ns: int, behavior: Behavior) -> None:
+        message = behavior.tell()
+        names = self.world.published
+        if message is None and not names:
+            self._broadcasts.clear()
+            return
+        self._broadcasts.append(Broadcast(at_ns, message, self._publish(names) if names else None))
+
+    def _advance_world(self, advance: Callable[[int], object]) -> None:
+        try:
+            advance(self.clock.ns)
+        except Exception as error:
+            self._report(describe_user_error(error))
+
+    def _publish(self, names: Iterable[str]) -> SimpleNamespace:
+        published = SimpleNamespace(robot=self.name)
+        for name in names:
+            try:
+                setattr(published, name, getattr(self.world, name))
+            except Exception as error:
+                self._report(f"published {name}: {describe_exception(error)}")
+        return published
+
+    def _report(self, line: str) -> None:
+        """Count an exception; report each one once."""
+        self.data.counts.errors += 1
+        if line not in self._reported and len(self._reported) < _KEPT_AGES:
+            self._reported.add(line)
+            self.reports.append(line)

@@ -1,0 +1,270 @@
+"""The server: accepts robots, runs their behaviors at each tick, keeps their state for a while after they left."""
+
+import asyncio
+import ipaddress
+import re
+import ssl
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from vicode.bica.loader import describe_user_error
+from vicode.bridge.behaviors import BehaviorCatalog
+from vicode.bridge.connection import Connection
+from vicode.bridge.dialects import RefusedError, RobotHello
+from vicode.bridge.robot import Robot
+from vicode.bridge.world import Counts, World
+
+DEFAULT_PORT = 7001
+DEFAULT_TICK_MS = 50.0
+MAX_CONNECTIONS = 1000
+_HANDSHAKE_S = 10.0
+_STOP_S = 2.0
+_TURN_S = 0.005
+"""So long robots are stepped before connections get their turn."""
+_ROBOT_NAME = re.compile(r"[\w.-]{1,64}")
+
+
+class ListenError(Exception):
+    """The server must not or cannot listen at an address; the text is one line."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BridgeOptions:
+    """How a server runs.
+
+    Attributes:
+        token: What clients must send first, if not empty.
+        grace_s: How long the state of a robot that left is kept.
+        tls: Certificate and key, None for plain TCP.
+    """
+
+    host: str = "127.0.0.1"
+    port: int = DEFAULT_PORT
+    tick_ns: int = round(DEFAULT_TICK_MS * 1e6)
+    token: str = ""
+    grace_s: float = 10.0
+    tls: ssl.SSLContext | None = None
+
+
+@dataclass(slots=True)
+class _Seat:
+    """A robot with its connection, or with the time when it left."""
+
+    robot: Robot
+    connection: Connection | None
+    is_named: bool
+    left_s: float = 0.0
+
+
+@dataclass(slots=True)
+class TickCounts:
+    """Ticks of the server's clock: those that ran, and those that were skipped because others took too long."""
+
+    run: int = 0
+    skipped: int = 0
+
+
+@dataclass(slots=True)
+class BridgeServer:
+    """A server for one catalog of behaviors.
+
+    Args:
+        catalog: The behaviors that robots can choose.
+        make_world: Creates the world of a robot.
+        options: Address, token, tick.
+        on_start: Called when a robot starts a behavior.
+        on_report: Called with a robot and a line about an exception or a malformed value.
+    """
+
+    catalog: BehaviorCatalog
+    make_world: Callable[[], World]
+    options: BridgeOptions = BridgeOptions()
+    on_start: Callable[[Robot], None] = lambda _robot: None
+    on_report: Callable[[Robot, str], None] = lambda _robot, _line: None
+    counts: Counts = field(default_factory=Counts)
+    """Counts of connections without a robot, and of robots that are gone."""
+    ticks: TickCounts = field(default_factory=TickCounts)
+    address: str = ""
+    ticker: asyncio.Task[None] | None = None
+    """Runs until `stop`; it ends earlier only with an exception."""
+    _seats: dict[str, _Seat] = field(default_factory=dict)
+    _connections: set[Connection] = field(default_factory=set)
+    _joined: int = 0
+    _listener: asyncio.Server | None = None
+
+    async def start(self) -> None:
+        """Listen and tick.
+
+        Raises:
+            ListenError: The address is in use or invalid, or other machines could connect without a token.
+        """
+        options = self.options
+        if not options.token and not _is_local(options.host):
+            raise ListenError(f"other machines could connect to {options.host}; add --token, or use 127.0.0.1")
+        loop = asyncio.get_running_loop()
+        try:
+            self._listener = await loop.create_server(
+                lambda: Connection(self), options.host, options.port, ssl=options.tls, backlog=512
+            )
+        except OSError as error:
+            raise ListenError(f"cannot listen at {options.host}:{options.port}: {error.strerror or error}") from error
+        name = self._listener.sockets[0].getsockname()
+        self.address = f"{name[0]}:{name[1]}"
+        self.ticker = loop.create_task(self._run_ticks())
+
+    @property
+    def port(self) -> int:
+        return int(self.address.rpartition(":")[2])
+
+    @property
+    def robots(self) -> list[Robot]:
+        """The robots that are connected."""
+        return [seat.robot for seat in self._seats.values() if seat.connection is not None]
+
+    def total(self) -> Counts:
+        """Counts of all robots since the start."""
+        return sum((seat.robot.data.counts for seat in self._seats.values()), self.counts)
+
+    async def stop(self) -> None:
+        """Stop all robots, close all connections, behaviors and worlds."""
+        if self.ticker is not None:
+            self.ticker.cancel()
+            await asyncio.wait([self.ticker])
+        if self._listener is not None:
+            self._listener.close()
+        for connection in [*self._connections]:
+            connection.stop()
+        end_s = time.monotonic() + _STOP_S
+        while self._connections and time.monotonic() < end_s:
+            await asyncio.sleep(0.01)
+        for seat in [*self._seats.values()]:
+            self._drop(seat)
+
+    # Called by connections
+
+    def add(self, connection: Connection) -> bool:
+        """Register a connection; return whether there is room."""
+        self._connections.add(connection)
+        return len(self._connections) <= MAX_CONNECTIONS
+
+    def remove(self, connection: Connection) -> None:
+        """A connection has ended: keep the state of a named robot for the grace time."""
+        self._connections.discard(connection)
+        robot = connection.robot
+        seat = self._seats.get(robot.name) if robot is not None else None
+        if seat is None or seat.connection is not connection:
+            return
+        seat.connection, seat.left_s = None, time.monotonic()
+        seat.robot.leave_team()
+        if not seat.is_named or connection.pace == "client" or not self.options.grace_s:
+            self._drop(seat)
+
+    def join(self, hello: RobotHello, connection: Connection) -> Robot:
+        """Return the robot of this name: that which was here before, or a new one.
+
+        Raises:
+            RefusedError: The name is invalid, or there are too many robots.
+        """
+        name = hello.name
+        if name and _ROBOT_NAME.fullmatch(name) is None:
+            raise RefusedError("the name of a robot has up to 64 letters, digits, dots and dashes")
+        seat = self._seats.get(name)
+        if seat is not None:
+            if seat.connection is not None:
+                seat.connection.refuse(f"robot {name} has connected again from {connection.peer}")
+            if connection.pace == "client":
+                self._drop(seat)
+            else:
+                seat.connection = connection
+                seat.robot.data.commands.repeat()
+                seat.robot.data.counts.connections += 1
+                return seat.robot
+        return self._join_new(hello, connection)
+
+    def _join_new(self, hello: RobotHello, connection: Connection) -> Robot:
+        if len(self._seats) >= MAX_CONNECTIONS:
+            oldest = min((each for each in self._seats.values() if each.connection is None), key=_left, default=None)
+            if oldest is None:
+                raise RefusedError("too many robots")
+            self._drop(oldest)
+        self._joined += 1
+        free = (f"robot{number}" for number in range(self._joined, self._joined + MAX_CONNECTIONS + 1))
+        unique = hello.name or next(each for each in free if each not in self._seats)
+        priority = -self._joined if hello.priority is None else hello.priority
+        try:
+            robot = Robot(unique, self.make_world, self.catalog, team=hello.team, priority=priority)
+        except Exception as error:
+            raise RefusedError(f"the world cannot be created: {describe_user_error(error)}") from error
+        robot.data.counts.connections = 1
+        self._seats[unique] = _Seat(robot, connection, is_named=bool(hello.name))
+        return robot
+
+    def tick(self, robot: Robot, *, at_ns: int, now_ns: int) -> None:
+        """Run one tick of a robot, with its team."""
+        self._tick_among(robot, self._speakers(), at_ns, now_ns)
+
+    # Ticks of the clock
+
+    async def _run_ticks(self) -> None:
+        """Tick at multiples of the tick; those that pass meanwhile are skipped."""
+        tick_s, start_s, number = self.options.tick_ns / 1e9, time.monotonic(), 0
+        while True:
+            late = int((time.monotonic() - start_s) / tick_s) - number
+            self.ticks.skipped += max(0, late)
+            number += 1 + max(0, late)
+            await asyncio.sleep(max(0.0, start_s + number * tick_s - time.monotonic()))
+            await self._tick_all(round((start_s + number * tick_s) * 1e9))
+            self._end_grace_times()
+
+    async def _tick_all(self, at_ns: int) -> None:
+        self.ticks.run += 1
+        speakers, turn_s = self._speakers(), time.monotonic() + _TURN_S
+        for seat in [*self._seats.values()]:
+            connection = seat.connection
+            if connection is None or connection.pace == "client" or seat.robot.behavior is None:
+                continue
+            self._tick_among(seat.robot, speakers, at_ns, time.monotonic_ns())
+            for line in seat.robot.take_reports():
+                connection.complain(line)
+            connection.flush()
+            if time.monotonic() > turn_s:
+                await asyncio.sleep(0)
+                turn_s = time.monotonic() + _TURN_S
+
+    def _tick_among(self, robot: Robot, speakers: Iterable[Robot], at_ns: int, now_ns: int) -> None:
+        robot.tick(at_ns, now_ns, [each for each in speakers if each is not robot and each.team_key == robot.team_key])
+        for line in robot.reports:
+            self.on_report(robot, line)
+
+    def _speakers(self) -> list[Robot]:
+        return [seat.robot for seat in self._seats.values() if seat.robot.speaks]
+
+    def _end_grace_times(self) -> None:
+        now_s = time.monotonic()
+        for seat in [*self._seats.values()]:
+            if seat.connection is None and now_s - seat.left_s > self.options.grace_s:
+                self._drop(seat)
+        for connection in [*self._connections]:
+            if not connection.is_admitted and now_s - connection.connected_s > _HANDSHAKE_S:
+                connection.refuse("no token was sent")
+
+    def _drop(self, seat: _Seat) -> None:
+        """Forget a robot."""
+        if self._seats.get(seat.robot.name) is seat:
+            del self._seats[seat.robot.name]
+        seat.robot.close()
+        self.counts += seat.robot.data.counts
+
+
+def _left(seat: _Seat) -> float:
+    return seat.left_s
+
+
+def _is_local(host: str) -> bool:
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
