@@ -191,3 +191,12 @@ def _collect_errors(page: Page, errors: list[str]) -> None:
 
     page.on("console", on_console)
     page.on("pageerror", on_page_error)
+
+
+@pytest.fixture
+def net_port(monkeypatch: pytest.MonkeyPatch) -> str:
+    """The first of the ports of this test process."""
+    port = str(20_000 + 32 * (os.getpid() % 1000))
+    monkeypatch.setenv("VICODE_NET_PORT", port)
+    monkeypatch.delenv("VICODE_NET_CONFIG", raising=False)
+    return port

@@ -14,15 +14,6 @@ from vicode.bica import Component, Root
 
 
 @pytest.fixture
-def net_port(monkeypatch: pytest.MonkeyPatch) -> str:
-    """The first of the ports of this test process."""
-    port = str(20_000 + 32 * (os.getpid() % 1000))
-    monkeypatch.setenv("VICODE_NET_PORT", port)
-    monkeypatch.delenv("VICODE_NET_CONFIG", raising=False)
-    return port
-
-
-@pytest.fixture
 def make_root(net_port: str) -> Iterator[MakeRoot]:
     roots: list[Root] = []
 

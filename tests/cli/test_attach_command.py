@@ -87,8 +87,8 @@ def test_a_wrong_token_is_one_line(options: tuple[str, ...], capsys: pytest.Capt
     assert "the token is wrong" in capsys.readouterr().err
 
 
-def test_what_is_no_address(capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_is_no_address(net_port: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert vicode("attach", "robot") == 2
     assert capsys.readouterr().err.splitlines() == [
-        "vicode: 'robot' is no address of a robot; write PORT, HOST:PORT or unix:PATH"
+        "vicode: there is no robot 'robot'; write PORT, HOST:PORT or unix:PATH"
     ]

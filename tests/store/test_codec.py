@@ -16,7 +16,7 @@ from vicode.store.project_format import PROJECT_RECORDS
 from vicode.store.schema_types import ListSchema, MapSchema, RecordSchema, ValueSchema
 
 RECORDS = {record.name: record for record in (*DESIGN_RECORDS, *PROJECT_RECORDS)}
-NOT_IN_FILE = {"Project.designs", "Project.unreadable"}
+NOT_IN_FILE = {"Interface.remote", "Project.designs", "Project.unreadable"}
 MODEL_CLASSES = [
     value
     for module in (design_model, project_model)
@@ -90,8 +90,10 @@ def _entry_fields(schema: ValueSchema) -> Iterator[str]:
         return
     if schema.wrapper is not None:
         yield "Code.texts"
-    if isinstance(schema.value_schema, RecordSchema) and schema.value_schema.model is not None:
-        yield f"{schema.value_schema.model.__name__}.{schema.name_field}"
+    if isinstance(schema.value_schema, RecordSchema):
+        for model in (schema.value_schema.model, *schema.value_schema.variants.values()):
+            if model is not None:
+                yield f"{model.__name__}.{schema.name_field}"
 
 
 def _iter_nodes(value: object) -> Iterator[object]:

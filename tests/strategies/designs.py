@@ -25,7 +25,7 @@ from vicode.model.design import (
     Transition,
     Use,
 )
-from vicode.model.project import Agent, Enumeration, Interface, Profile, Project
+from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, Project, RemoteReference
 
 AWKWARD_NAMES = ("on", "off", "no", "yes", "null", "true", "1e3", "007", "code", "doc", "elements", "default", "python")
 AWKWARD_TEXTS = (
@@ -205,7 +205,12 @@ profiles = st.builds(
     Profile,
     name=names,
     world=st.just("") | texts,
-    components=_pairs(2),
+    components=_unique(
+        st.builds(ProfileClass, component=names, implementation=texts)
+        | st.builds(RemoteReference, component=names, remote=texts, reliable=st.booleans(), max_age=frequencies),
+        "component",
+        2,
+    ),
 )
 projects = st.builds(
     Project,

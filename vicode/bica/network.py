@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import socket
 import time
 from collections import deque
 from collections.abc import Callable, Sequence
@@ -26,7 +27,9 @@ _MAX_TEXT = 100
 NAME, TEAM = "VICODE_NET", "VICODE_TEAM"
 
 
-def connect_root(root: Root, name: str, *, team: str = "", fields: Sequence[str] | None = None) -> Network:
+def connect_root(
+    root: Root, name: str, *, team: str = "", fields: Sequence[str] | None = None, on_call: bool = False
+) -> Network:
     """Connect a root under a name until it is closed.
 
     Raises:
@@ -35,7 +38,7 @@ def connect_root(root: Root, name: str, *, team: str = "", fields: Sequence[str]
     if root.network is not None:
         raise NetworkError(f"the root is connected as {root.network.name}")
     shared = getattr(root.world, "team_fields", ()) if fields is None else fields
-    network = Network(root, name, team, tuple(shared))
+    network = Network(root, name, team, tuple(shared), on_call=on_call)
     root.network = network
     root._closing.callback(network.close)
     root._set_step(root._find_step())
@@ -79,11 +82,12 @@ class Network:
         name: The name of the robot.
         team: The team, "" for none.
         fields: The attributes of the world that the team shares.
+        on_call: Whether only calls of other robots step the main component.
     """
 
-    def __init__(self, root: Root, name: str, team: str, fields: Sequence[str]) -> None:
+    def __init__(self, root: Root, name: str, team: str, fields: Sequence[str], *, on_call: bool) -> None:
         self.name = check_name(name)
-        self._root = root
+        self._root, self._is_on_call = root, on_call
         if team:
             check_name(team, "team")
         self._session = session = open_session()
@@ -103,13 +107,14 @@ class Network:
 
     def announce(self, address: str) -> None:
         """Let `vicode attach` find the address of the live view by the name of the robot."""
-        self._watched = self._session.declare_alive(watch_key(self.name, address))
+        self._watched = self._session.declare_alive(watch_key(self.name, _public_address(address)))
 
     def run_iteration(self, step: Callable[[], None]) -> None:
         """Receive, run an iteration, step the components that other robots call, and send."""
         iteration = self._root.iteration
         self._guard(self._receive)
-        step()
+        if not self._is_on_call:
+            step()
         for component, caller in self._callers.items():
             if component._stepped_in != iteration and caller.until_s >= time.monotonic():
                 component.step()
@@ -215,3 +220,15 @@ class Network:
             "done": component.is_done,
             "values": read_values(component),
         }
+
+
+def _public_address(address: str) -> str:
+    """Replace the address of all interfaces by that of one that other machines reach."""
+    host, _colon, port = address.rpartition(":")
+    if host not in ("0.0.0.0", "::"):  # noqa: S104 - compared only
+        return address
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe, suppress(OSError):
+        # Nothing is sent: it selects the interface.
+        probe.connect(("192.0.2.1", 9))
+        host = probe.getsockname()[0]
+    return f"{host}:{port}"

@@ -28,6 +28,7 @@ def make_parser(
     add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
     add("--net", metavar="NAME", help="connect to other robots under this name, with --real-time")
     add("--team", metavar="TEAM", help="with --net: coordinate with the robots of this team")
+    add("--on-call", action="store_true", help="with --net: step the component only while other robots call it")
     add("--path", metavar="DIR", action="append", default=[], help="add DIR to the import path; may be repeated")
     add("--seed", type=int, default=0, metavar="N", help="seed of the world (default: 0)")
     add("--ticks", type=count, metavar="N", help="stop after N iterations")

@@ -192,7 +192,9 @@ class Root:
 
         return record_root(self, path, minutes=minutes, values=values, design=design, revision=revision)
 
-    def connect(self, name: str, *, team: str = "", fields: Sequence[str] | None = None) -> Network:
+    def connect(
+        self, name: str, *, team: str = "", fields: Sequence[str] | None = None, on_call: bool = False
+    ) -> Network:
         """Connect to other robots, which read and call the components of this one; needs `vicode[net]`.
 
         Without the variable VICODE_NET_CONFIG, only programs of this machine are found.
@@ -201,13 +203,14 @@ class Root:
             name: The name of the robot.
             team: The team, whose robots coordinate their states and share values.
             fields: Attributes of the world to share, by default those that its `team_fields` names.
+            on_call: Whether the main component is only stepped while other robots call it.
 
         Raises:
             NetworkError: zenoh is not installed, a name is invalid, or there is no network.
         """
         from .network import connect_root  # noqa: PLC0415 - off by default
 
-        return connect_root(self, name, team=team, fields=fields)
+        return connect_root(self, name, team=team, fields=fields, on_call=on_call)
 
     def close(self) -> None:
         """Call `close` of each component, the last created first, and then of the world; later calls do nothing.

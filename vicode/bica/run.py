@@ -83,10 +83,7 @@ def _open_missing_streams() -> None:
 
 
 def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[Root, _RecordWriter]:
-    if options.net is not None and not options.real_time:
-        raise UserCodeError("--net needs --real-time: other robots do not wait for simulated time")
-    if options.team is not None and options.net is None:
-        raise UserCodeError("--team has no effect without --net; add --net and the name of this robot")
+    _check_network_options(options)
     component_class = load_component(options.component)
     try:
         # An open descriptor, such as the standard output, keeps what is there.
@@ -101,6 +98,14 @@ def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[Root, _Reco
             return _make_root(component_class, world, writer), writer
     except (CyclicUseError, OSError) as error:
         raise UserCodeError(str(error)) from error
+
+
+def _check_network_options(options: argparse.Namespace) -> None:
+    if options.net is not None and not options.real_time:
+        raise UserCodeError("--net needs --real-time: other robots do not wait for simulated time")
+    for name, is_given in {"--team": options.team is not None, "--on-call": options.on_call}.items():
+        if is_given and options.net is None:
+            raise UserCodeError(f"{name} has no effect without --net; add --net and the name of this robot")
 
 
 def _fail(message: str, *, is_streamed: bool) -> int:
@@ -195,7 +200,7 @@ def _make_root(component_class: type[Component], world: Any, writer: _RecordWrit
             options.record, minutes=options.minutes, design=options.design or "", revision=options.revision or ""
         )
     if options.net is not None:
-        root.connect(options.net, team=options.team or "")
+        root.connect(options.net, team=options.team or "", on_call=options.on_call)
     if options.watch is not None:
         root.watch(options.watch, token=os.environ.get("VICODE_WATCH_TOKEN", ""), control=options.control)
     return root

@@ -26,27 +26,51 @@ from vicode.languages import GENERATED_LANGUAGES
 from vicode.model.design import Declaration
 from vicode.model.expressions import Scope, build_scope
 from vicode.model.names import snake_case
-from vicode.model.project import INTERNAL, MISSING, WORLD, Project
+from vicode.model.project import INTERNAL, MISSING, WORLD, Project, RemoteReference
 
 _CLASS_IN_MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*\Z", re.ASCII)
+_ROBOT_AND_COMPONENT = re.compile(r"[A-Za-z0-9][\w.-]{0,63}/[A-Za-z]\w{0,63}\Z", re.ASCII)
 
 
 def find_bad_profiles(project: Project) -> Iterator[Finding]:
-    """P213: a profile of an unknown component, or a class that is not module:Class."""
+    """P213: a profile of an unknown component, a class that is not module:Class, or a bad remote component."""
     names = [interface.component for interface in project.components]
     for profile in project.profiles:
         path: DesignPath = ("profiles", profile.name)
         if profile.world and not _CLASS_IN_MODULE.match(profile.world):
             yield _make_finding("P213", (*path, "world"), f"'{profile.world}' is not of the form module:Class")
-        for component, implementation in profile.components:
-            place = (*path, "components", component)
-            if component not in names:
-                fix = did_you_mean(component, names, "declare it in 'components'")
-                message = f"'{component}' is not a hand-written component"
+        for choice in profile.components:
+            place = (*path, "components", choice.component)
+            if isinstance(choice, RemoteReference):
+                yield from _find_bad_remote(project, choice, place)
+            elif choice.component not in names:
+                fix = did_you_mean(choice.component, names, "declare it in 'components'")
+                message = f"'{choice.component}' is not a hand-written component"
                 yield _make_finding("P213", place, message, fix, is_key=True)
-            elif implementation not in (WORLD, INTERNAL) and not _CLASS_IN_MODULE.match(implementation):
+            elif choice.implementation not in (WORLD, INTERNAL) and not _CLASS_IN_MODULE.match(choice.implementation):
                 fix = "name the class, such as field.perception:Perception"
-                yield _make_finding("P213", place, f"'{implementation}' is not of the form module:Class", fix)
+                yield _make_finding("P213", place, f"'{choice.implementation}' is not of the form module:Class", fix)
+
+
+def _find_bad_remote(project: Project, choice: RemoteReference, place: DesignPath) -> Iterator[Finding]:
+    interface = project.interface(choice.component)
+    if interface is None:
+        if choice.component not in dict(project.unreadable):
+            fix = did_you_mean(choice.component, project.interfaces(), "declare it in 'components'")
+            yield _make_finding("P213", place, f"unknown component '{choice.component}'", fix, is_key=True)
+        return
+    if not _ROBOT_AND_COMPONENT.match(choice.remote):
+        fix = f"name the robot and its component, such as striker/{choice.component}"
+        yield _make_finding("P213", (*place, "remote"), f"'{choice.remote}' is not of the form robot/component", fix)
+    if choice.max_age is not None and not 0 < choice.max_age < float("inf"):
+        fix = "use a number above 0, or remove 'max_age'"
+        yield _make_finding("P213", (*place, "max_age"), f"{choice.max_age:g} s is not a valid age", fix)
+    for output in interface.readable:
+        if output.arguments is not None or output in interface.variables:
+            kind = "a variable" if output in interface.variables else "an output with arguments"
+            message = f"'{output.name}' of '{choice.component}' is {kind}, which another robot does not share"
+            fix = "use outputs without arguments and parameters"
+            yield _make_finding("P213", place, message, fix, is_key=True)
 
 
 def find_unusable_project_names(project: Project) -> Iterator[Finding]:

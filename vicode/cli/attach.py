@@ -3,6 +3,7 @@
 import argparse
 import asyncio
 import os
+import socket
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -16,8 +17,14 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("address", metavar="ADDRESS", help="PORT, HOST:PORT or unix:PATH, as the robot prints it")
+    add(
+        "address",
+        metavar="ADDRESS",
+        nargs="?",
+        help="PORT, HOST:PORT or unix:PATH, as the robot prints it, or its name",
+    )
     add("path", metavar="PATH", nargs="?", default=".", help="design file or folder (default: the current folder)")
+    add("--find", action="store_true", help="list the robots that are connected (docs/network.md) and can be watched")
     add("--token", help="token that the robot prints (default: VICODE_WATCH_TOKEN)")
     add("--print", action="store_true", help="print one line per state change instead of opening the editor")
     add("--port", type=port_number, help="port of the editor (default: a free port)")
@@ -28,12 +35,61 @@ def run(args: argparse.Namespace) -> int:
     """Connect once, so that mistakes are reported here; then print, or serve the editor."""
     from vicode.simulation.robots import TOKEN_VARIABLE, parse_address
 
-    address = parse_address(args.address)
+    if args.find:
+        return _print_robots()
+    if args.address is None:
+        print("vicode: give the address of a robot, or --find to list the robots", file=sys.stderr)
+        return 2
+    address = parse_address(_find_address(args.address))
     token = args.token if args.token is not None else os.environ.get(TOKEN_VARIABLE, "")
     if args.print:
         return asyncio.run(_print_changes(address, token))
     asyncio.run(_try(address, token))
     return _edit(args, address, token)
+
+
+def _print_robots() -> int:
+    from vicode.bica.net_session import find_watched
+
+    robots = find_watched()
+    for robot, host, address in robots:
+        print(f"{robot}  {address}" + ("" if _is_reachable(host, address) else f"  (only on {host})"))
+    if not robots:
+        print("vicode: no robot was found; connect robots with --net NAME --watch ADDRESS", file=sys.stderr)
+    return 0 if robots else 1
+
+
+def _find_address(text: str) -> str:
+    """The address of a robot that is given by its name; another text is returned as it is.
+
+    Raises:
+        OSError: There is no such robot or several, it is watched on its machine only, or there is no network.
+    """
+    if ":" in text or text.isdecimal():
+        return text
+    from vicode.bica.errors import NetworkError
+    from vicode.bica.net_session import check_name, find_watched
+
+    try:
+        robots = find_watched() if check_name(text) else []
+    except NetworkError as error:
+        raise OSError(f"'{text}' is no address (PORT, HOST:PORT or unix:PATH), and by name: {error}") from error
+    found = [(host, address) for robot, host, address in robots if robot == text]
+    if len(found) != 1:
+        names = ", ".join(sorted({robot for robot, _host, _address in robots}))
+        remedy = f"the robots are {names}" if robots else "write PORT, HOST:PORT or unix:PATH"
+        reason = f"{len(found)} robots have the name '{text}'; attach to an address" if found else ""
+        raise OSError(reason or f"there is no robot '{text}'; {remedy}")
+    host, address = found[0]
+    if not _is_reachable(host, address):
+        port = address.rpartition(":")[2]
+        raise OSError(f"{text} listens on {host} only: ssh -L {port}:{address} {host}, then attach to {port}")
+    return address
+
+
+def _is_reachable(host: str, address: str) -> bool:
+    """Whether an address is here, or one that other machines reach."""
+    return host == socket.gethostname() or not address.startswith(("127.", "localhost:", "unix:"))
 
 
 async def _try(address: "RobotAddress", token: str) -> None:

@@ -38,6 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
     add("--net", metavar="NAME", help="connect to other robots under this name, with --real-time (docs/network.md)")
     add("--team", metavar="TEAM", help="with --net: coordinate with the robots of this team")
+    add("--on-call", action="store_true", help="with --net: step the component only while other robots call it")
     add("--trace", metavar="FILE", help="write a trace (docs/traces.md) to FILE; - is the standard output")
     add("--values", action="store_true", help="include outputs and variables in the trace, for replay in the editor")
     add("--real-time", action="store_true", help="run in real time instead of as fast as possible")
@@ -130,6 +131,7 @@ def _command(opened: LoadedProject, names: tuple[str, str], folder: str, args: a
         "--real-time": args.real_time,
         "--until-done": args.until_done,
         "--control": args.control,
+        "--on-call": args.on_call,
         "--reload": args.reload,
     }
     return command + [name for name, is_given in flags.items() if is_given]

@@ -61,7 +61,12 @@ _RECORDS = (
     ("P210", "no-world", Severity.WARNING, "component of the world in a project without a world"),
     ("P211", "unset-output", Severity.ERROR, "output of a component that stores only variables"),
     ("P212", "different-class", Severity.WARNING, "hand-written class that differs from its declaration"),
-    ("P213", "bad-profile", Severity.ERROR, "profile of an unknown component, or class not in the form module:Class"),
+    (
+        "P213",
+        "bad-profile",
+        Severity.ERROR,
+        "profile of an unknown component, class not in the form module:Class, or bad remote component",
+    ),
     # Expressions
     ("E301", "not-an-expression", Severity.ERROR, "invalid expression syntax"),
     ("E302", "outside-grammar", Severity.ERROR, "unsupported expression syntax"),

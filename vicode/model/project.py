@@ -5,10 +5,11 @@ from dataclasses import dataclass, field, replace
 
 from vicode.model.design import Declaration, Design
 
-WORLD, INTERNAL, MISSING = "world", "internal", ""
+WORLD, INTERNAL, MISSING, REMOTE = "world", "internal", "", "remote"
 """Generated implementations: WORLD delegates to the world, INTERNAL stores shared variables.
 
-The class of a component that is not implemented yet (MISSING) stores outputs and parameters.
+The class of a component that is not implemented yet (MISSING) stores outputs and parameters. That of a component which
+a profile assigns to another robot (REMOTE) exchanges them with it.
 """
 
 
@@ -33,11 +34,34 @@ class Enumeration:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ProfileClass:
+    """Another class of a component, as "module:Class"."""
+
+    component: str
+    implementation: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RemoteReference:
+    """A component of another process or robot, "ROBOT/COMPONENT", in the place of a component.
+
+    Attributes:
+        reliable: Whether each message counts, and not only the newest.
+        max_age: Seconds after which its outputs are too old; None for the default.
+    """
+
+    component: str
+    remote: str
+    reliable: bool = False
+    max_age: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Interface:
     """The interface of a component, declared in project.yaml or derived from a design.
 
-    `implementation` is "module:Class" or, for generated classes, WORLD, INTERNAL or MISSING; empty for a design. Other
-    components can read `outputs` and `variables`, and set `variables`.
+    `implementation` is "module:Class" or, for generated classes, WORLD, INTERNAL, MISSING, or REMOTE with `remote`;
+    empty for a design. Other components can read `outputs` and `variables`, and set `variables`.
     """
 
     component: str
@@ -49,10 +73,11 @@ class Interface:
     parameters: tuple[Declaration, ...] = ()
     outputs: tuple[Declaration, ...] = ()
     variables: tuple[Declaration, ...] = ()
+    remote: RemoteReference | None = None
 
     @property
     def is_generated(self) -> bool:
-        return self.implementation in (WORLD, INTERNAL, MISSING)
+        return self.implementation in (WORLD, INTERNAL, MISSING) or self.remote is not None
 
     @property
     def readable(self) -> tuple[Declaration, ...]:
@@ -83,11 +108,11 @@ class Agent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Profile:
-    """Other implementations behind the same interfaces, as pairs of component and "module:Class", and another world."""
+    """Other implementations behind the same interfaces, and another world."""
 
     name: str
     world: str = ""
-    components: tuple[tuple[str, str], ...] = ()
+    components: tuple[ProfileClass | RemoteReference, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -140,15 +165,25 @@ def select_profile(project: Project, name: str) -> Project:
     profile = next((profile for profile in project.profiles if profile.name == name), None)
     if profile is None:
         raise KeyError(name)
-    implementations = dict(profile.components)
+    choices = {choice.component: choice for choice in profile.components}
+    remote = {name for name, choice in choices.items() if isinstance(choice, RemoteReference)}
+    designs = (derive_interface(design) for design in project.designs if design.component in remote)
     return replace(
         project,
         world=profile.world or project.world,
-        components=tuple(
-            replace(each, implementation=implementations.get(each.component, each.implementation))
-            for each in project.components
-        ),
+        components=tuple(_choose(each, choices.get(each.component)) for each in (*project.components, *designs)),
+        designs=tuple(design for design in project.designs if design.component not in remote),
     )
+
+
+def _choose(interface: Interface, choice: ProfileClass | RemoteReference | None) -> Interface:
+    match choice:
+        case ProfileClass(implementation=implementation):
+            return replace(interface, implementation=implementation)
+        case RemoteReference():
+            return replace(interface, implementation=REMOTE, remote=choice)
+        case None:
+            return interface
 
 
 def derive_interface(design: Design) -> Interface:

@@ -1,12 +1,13 @@
 """Version 1 of the format: all keys of project.yaml, with the model fields that hold them."""
 
-from vicode.model.project import Agent, Enumeration, Interface, Profile, Project
+from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, Project, RemoteReference
 from vicode.store.format import (
     ARGUMENT,
     CONSTANT,
     DOC_KEY,
     FLAG,
     FLOW_WIDTH,
+    FREQUENCY,
     FREQUENCY_KEY,
     NAME,
     NAMES,
@@ -77,6 +78,21 @@ AGENT = RecordSchema(
         XABSL_NAME_KEY,
     ),
 )
+CHOICE = RecordSchema(
+    name="profile_component",
+    description="a class as module:Class, or 'remote'",
+    variants={"implementation": ProfileClass, "remote": RemoteReference},
+    missing_message=("the component gets no other class", "add 'implementation' or 'remote'"),
+    dependent_keys=(("reliable", "remote"), ("max_age", "remote")),
+    shorthand_key="implementation",
+    flow_width=FLOW_WIDTH,
+    keys=(
+        KeySchema("implementation", TEXT, "class as module:Class", keeps_empty=True),
+        KeySchema("remote", TEXT, "the component of another process or robot, as robot/component", keeps_empty=True),
+        KeySchema("reliable", FLAG, "`true`: each message counts; default: only the newest", default=False),
+        KeySchema("max_age", FREQUENCY, "seconds after which outputs are too old; default: 1"),
+    ),
+)
 PROFILE = RecordSchema(
     name="profile",
     description="other implementations of components, and another world",
@@ -85,8 +101,8 @@ PROFILE = RecordSchema(
         KeySchema("world", TEXT, "class of the world as module:Class, if it is another one"),
         KeySchema(
             "components",
-            MapSchema(description="a mapping of components to classes", value_schema=TEXT, flow_width=FLOW_WIDTH),
-            "classes as module:Class, by component",
+            MapSchema(description="a mapping of components to classes", value_schema=CHOICE, name_field="component"),
+            "classes as module:Class, or components of other robots, by component",
         ),
     ),
 )
@@ -131,4 +147,16 @@ PROJECT = RecordSchema(
         ),
     ),
 )
-PROJECT_RECORDS = (PROJECT, ENUMERATION, CONSTANT, INTERFACE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT, AGENT, PROFILE)
+PROJECT_RECORDS = (
+    PROJECT,
+    ENUMERATION,
+    CONSTANT,
+    INTERFACE,
+    PARAMETER,
+    OUTPUT,
+    VARIABLE,
+    ARGUMENT,
+    AGENT,
+    PROFILE,
+    CHOICE,
+)

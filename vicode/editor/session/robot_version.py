@@ -31,7 +31,11 @@ def find_other_versions(
         projects = (project, *(select_profile(project, each.name) for each in project.profiles))
         for each, standalone in product(projects, (False, True)):
             files = generate(
-                each, components=list(known), languages=("python",), sources=sources, standalone=standalone
+                each,
+                components=[name for name in known if each.design(name)],
+                languages=("python",),
+                sources=sources,
+                standalone=standalone,
             )
             texts = {file.path: file.text for file in files}
             for name, found in hashes.items():

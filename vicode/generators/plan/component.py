@@ -187,6 +187,7 @@ class _ComponentPlanner:
         called = (action.alias for action in actions if isinstance(action, Call))
         components = {use.alias: use.component for use in self.design.uses}
         designs = {design.component for design in self.project.designs}
+        designs |= {interface.component for interface in self.project.components if interface.remote is not None}
         return tuple(dict.fromkeys(alias for alias in called if components.get(alias) in designs))
 
     def plan_steps(self, actions: tuple[Action, ...], source: str, phase: str) -> tuple[ActionStep, ...]:

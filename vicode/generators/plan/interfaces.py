@@ -19,4 +19,5 @@ def plan_interface(project: Project, interface: Interface) -> InterfacePlan:
         outputs=plan_values(interface.outputs, scope),
         functions=plan_functions(interface.readable, scope),
         variables=plan_values(interface.variables, scope),
+        remote=interface.remote,
     )

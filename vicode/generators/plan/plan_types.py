@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from vicode.findings import DesignPath
 from vicode.model.design import Code, Design
 from vicode.model.expressions import Expr
-from vicode.model.project import WORLD, Enumeration, Project
+from vicode.model.project import WORLD, Enumeration, Project, RemoteReference
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,7 +50,7 @@ class InterfacePlan:
     """A generated component without a design.
 
     Attributes:
-        implementation: WORLD, INTERNAL or MISSING.
+        implementation: WORLD, INTERNAL, MISSING or REMOTE.
         is_behavior: It is a basic behavior: each step passes its parameters to a method of the world.
     """
 
@@ -63,6 +63,7 @@ class InterfacePlan:
     outputs: tuple[ValuePlan, ...]
     functions: tuple[FunctionPlan, ...]
     variables: tuple[ValuePlan, ...]
+    remote: RemoteReference | None = None
 
     @property
     def stored_values(self) -> tuple[ValuePlan, ...]:

@@ -11,11 +11,11 @@ from vicode.generators.python.methods import BODY_INDENT
 from vicode.generators.python.names import component_class_name
 from vicode.generators.python.parameters import keyword_signature, modulate_method, type_name
 from vicode.generators.python.pretty_printer import Doc, call_doc, concat, render_doc
-from vicode.generators.python.text import declaration_description, docstring, section
+from vicode.generators.python.text import declaration_description, docstring, quoted, section
 from vicode.generators.python.views import InterfaceClassView, InterfacesModuleView, MethodView
 from vicode.model.expressions import BOOL, FLOAT, INT
 from vicode.model.names import python_attribute_name, snake_case
-from vicode.model.project import INTERNAL, MISSING, WORLD
+from vicode.model.project import INTERNAL, MISSING, REMOTE, WORLD, RemoteReference
 
 _MARGIN = " " * BODY_INDENT
 
@@ -29,7 +29,8 @@ def build_interfaces_view(plan: ProjectPlan, names: dict[str, str]) -> Interface
     names = names | {name: f"declarations.{names[name]}" for name in shared}
     printer = PythonExpressionPrinter(names=names, nonzero_constants=plan.nonzero_constants)
     classes = tuple(_InterfaceWriter(item, printer).build_view() for item in plan.interfaces)
-    imports = [Import(module=RUNTIME, name="Component")]
+    bases = {_base_class(item) for item in plan.interfaces}
+    imports = [Import(module=module, name=name) for module, name in sorted(bases)]
     uses_declarations = any(name.startswith("declarations.") for name in printer.used_names)
     own = [Import(module=".", name="declarations")] if uses_declarations else []
     return InterfacesModuleView(
@@ -59,6 +60,7 @@ class _InterfaceWriter:
             methods += self._work_method()
         return InterfaceClassView(
             name=component_class_name(plan.component),
+            base=_base_class(plan)[1],
             docstring=self._docstring(),
             methods=tuple(methods) or (_EMPTY_WORK,),
         )
@@ -73,10 +75,13 @@ class _InterfaceWriter:
         return docstring(plan.doc or _DOCS[plan.implementation], 4, sections)
 
     def _constructor(self) -> Iterator[MethodView]:
-        values = self.plan.stored_values
-        if not values:
+        remote = self.plan.remote
+        # The runtime sets these values of a component of another robot.
+        set_already = REMOTE_VALUES if remote is not None else ()
+        values = [value for value in self.plan.stored_values if value.name not in set_already]
+        if not values and remote is None:
             return
-        lines = [f"{_MARGIN}super().__init__(root)"]
+        lines = [f"{_MARGIN}super().__init__({', '.join(['root', *_remote_arguments(remote)])})"]
         for value in values:
             lines += format_statement(
                 f"self.{value.name} = ", self.expression_printer.to_doc(value.initial), indent=BODY_INDENT
@@ -137,9 +142,27 @@ class _InterfaceWriter:
         return value.type in (BOOL, INT, FLOAT)
 
 
+REMOTE_VALUES = ("data_age", "is_alive")
+
+
+def _base_class(plan: InterfacePlan) -> tuple[str, str]:
+    return (f"{RUNTIME}.remote", "RemoteComponent") if plan.remote is not None else (RUNTIME, "Component")
+
+
+def _remote_arguments(remote: RemoteReference | None) -> Iterator[str]:
+    if remote is None:
+        return
+    yield quoted(remote.remote)
+    if remote.reliable:
+        yield "reliable=True"
+    if remote.max_age is not None:
+        yield f"max_age={float(remote.max_age)!r}"
+
+
 _DOCS = {
     WORLD: "Provided by the world.",
     INTERNAL: "Shared variables.",
+    REMOTE: "A component of another robot.",
     MISSING: "Not implemented yet: the robot program sets the outputs.",
 }
 _EMPTY_WORK = MethodView(

@@ -60,6 +60,7 @@ class InterfaceClassView:
     """A component without a design."""
 
     name: str
+    base: str
     docstring: str
     methods: tuple[MethodView, ...]
 
