@@ -1,4 +1,4 @@
-"""Cost of the live view: the time of an iteration while nobody or someone watches, and the age of what viewers see.
+"""Cost of the live view and of recording: the time of an iteration, and the age of what viewers see.
 
 Run it with `python -m benchmarks.live`. Viewers read on loopback in their own processes. Times of the robot are of its
 thread, so that viewers and the server cost it only what they take from it.
@@ -14,8 +14,10 @@ import socket
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Iterator
+from pathlib import Path
 
 from benchmarks.sample_machines import TickClock, load_component, make_machine
 from benchmarks.senses import Senses
@@ -43,6 +45,8 @@ def main() -> None:
         "1 viewer": [],
         "10 viewers": [],
         "10 that hardly read": [],
+        "recording": [],
+        "recording without values": [],
     }
     plain_ns: list[float] = []
     for _round in range(options.rounds):
@@ -52,9 +56,11 @@ def main() -> None:
         ratios["1 viewer"].append(measure_watched(1, options.ticks) / base)
         ratios["10 viewers"].append(measure_watched(10, options.ticks) / base)
         ratios["10 that hardly read"].append(measure_watched(10, options.ticks, delay_s=1.0) / base)
+        ratios["recording"].append(measure_recorded(options.ticks, values=True) / base)
+        ratios["recording without values"].append(measure_recorded(options.ticks, values=False) / base)
     print(f"6 states, 12 transitions: {statistics.median(plain_ns) / 1000:.2f} µs an iteration")
     for name, values in ratios.items():
-        print(f"  {name:22} {statistics.median(values):6.3f} x")
+        print(f"  {name:24} {statistics.median(values):6.3f} x")
     print_ages()
 
 
@@ -85,6 +91,12 @@ def measure_watched(viewers: int, ticks: int, delay_s: float = 0.0) -> float:
         for _step in range(200):
             root.step()
             time.sleep(0.0005)
+        return measure(root, ticks)
+
+
+def measure_recorded(ticks: int, *, values: bool) -> float:
+    with tempfile.TemporaryDirectory() as folder, make_root() as root:
+        root.record(Path(folder, "run.jsonl"), values=values)
         return measure(root, ticks)
 
 

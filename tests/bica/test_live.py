@@ -23,7 +23,7 @@ from tests.bica.live_robot import (
     make_root,
     root,
 )
-from vicode.bica import Root
+from vicode.bica import Root, live_server
 from vicode.bica.live_server import MAX_VIEWERS
 
 __all__ = ["close_connections", "control", "root"]
@@ -85,6 +85,22 @@ def test_several_robots_share_a_server() -> None:
         assert names == {"one", "one 2"}
         with Background(other):
             assert viewer.get(lambda line: line.get("robot") == "one 2")["tree"]
+
+
+def test_robots_that_a_viewer_does_not_look_at_are_sent_less_often(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(live_server, "_REST_PERIOD_S", 1e6)
+    with make_root() as one, make_root() as other:
+        server = one.watch(name="one")
+        other._closing.callback(server.remove, server.add(other, "other"))
+        viewer = Viewer(server, one)
+        viewer.send({"focus": "one"})
+        viewer.get(is_iteration)
+        with Background(other):
+            robots = [viewer.get(is_iteration)["robot"] for _number in range(30)]
+            assert robots.count("other") <= 2
+            assert robots.count("one") >= 28
+            viewer.send({"focus": "other"})
+            assert viewer.get(lambda line: line.get("robot") == "other")["tree"]
 
 
 @pytest.mark.parametrize("first", [{"token": "wrong"}, {"token": None}, {"token": ["x"]}, {"token": "ä"}])

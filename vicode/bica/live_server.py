@@ -28,6 +28,8 @@ MAX_LINE_BYTES = 65_536
 MAX_VIEWERS = 32
 DEFAULT_RATE_HZ = 30.0
 MIN_RATE_HZ, MAX_RATE_HZ = 0.01, 200.0
+_REST_PERIOD_S = 0.5
+"""How often a viewer gets the robots that it does not look at."""
 _MAX_UNSENT_BYTES = 1_000_000
 """A viewer that asks for more answers without reading them is disconnected."""
 _HANDSHAKE_LIMIT_S = 5.0
@@ -185,6 +187,9 @@ class LiveServer:
         if not viewer.is_admitted:
             self._admit(viewer, request)
             return
+        if "focus" in request:
+            viewer.focus = str(request["focus"])
+            return
         feed = next((each for each in self._feeds if each.name == request.get("robot")), None)
         answer = {"answer": request.get("id"), "robot": request.get("robot")}
         if feed is None:
@@ -242,7 +247,10 @@ class LiveServer:
 
     def _send_newest(self, viewer: _Viewer, now_s: float) -> None:
         lines: list[bytes] = []
+        is_rest_due = now_s >= viewer.rest_due_s
         for feed in self._feeds:
+            if not is_rest_due and not viewer.looks_at(feed):
+                continue
             number, message = feed.newest
             last, last_change = viewer.seen.get(feed.name, (0, 0))
             if number == last:
@@ -254,6 +262,8 @@ class LiveServer:
             lines.append(_encode({**message, "changes": changes, "missed": missed}))
         if lines:
             viewer.due_s = now_s + viewer.period_s
+            if is_rest_due:
+                viewer.rest_due_s = now_s + max(_REST_PERIOD_S, viewer.period_s)
             viewer.unsent += b"".join(lines)
             self._write(viewer)
 
@@ -286,29 +296,36 @@ class LiveServer:
         if not self._viewers:
             return None
         now_s = time.monotonic()
-        waits = [
-            viewer.due_s - now_s if viewer.is_admitted else viewer.connected_s + _HANDSHAKE_LIMIT_S - now_s
-            for viewer in self._viewers
-            if not viewer.is_admitted or (not viewer.unsent and self._has_news(viewer))
-        ]
-        return max(0.0, min(waits)) if waits else None
+        dues = [due_s for viewer in self._viewers if (due_s := self._due_s(viewer)) is not None]
+        return max(0.0, min(dues) - now_s) if dues else None
 
-    def _has_news(self, viewer: _Viewer) -> bool:
-        return any(feed.newest[0] != viewer.seen.get(feed.name, (0, 0))[0] for feed in self._feeds)
+    def _due_s(self, viewer: _Viewer) -> float | None:
+        """When to do something for a viewer; None before there is news."""
+        if not viewer.is_admitted:
+            return viewer.connected_s + _HANDSHAKE_LIMIT_S
+        news = [feed for feed in self._feeds if feed.newest[0] != viewer.seen.get(feed.name, (0, 0))[0]]
+        if viewer.unsent or not news:
+            return None
+        return viewer.due_s if any(map(viewer.looks_at, news)) else max(viewer.due_s, viewer.rest_due_s)
 
 
 class _Viewer:
-    """A connection; `seen` are the numbers of the last message and state change sent, by robot."""
+    """A connection; `seen` are the numbers of the last message and state change sent, by robot.
+
+    `focus` is the robot that it looks at; others are sent less often.
+    """
 
     __slots__ = (
         "connected_s",
         "connection",
         "due_s",
+        "focus",
         "greeted",
         "has_control",
         "is_admitted",
         "period_s",
         "received",
+        "rest_due_s",
         "seen",
         "unsent",
     )
@@ -319,9 +336,13 @@ class _Viewer:
         self.received, self.unsent = bytearray(), bytearray()
         self.is_admitted = self.has_control = False
         self.period_s = 1 / DEFAULT_RATE_HZ
-        self.due_s = 0.0
+        self.due_s = self.rest_due_s = 0.0
+        self.focus = ""
         self.greeted = 0
         self.seen: dict[str, tuple[int, int]] = {}
+
+    def looks_at(self, feed: LiveFeed) -> bool:
+        return not self.focus or feed.name == self.focus
 
 
 def _listen(address: str) -> tuple[socket.socket, str]:

@@ -80,6 +80,10 @@ class SocketTransport:
         self._writer.write(line)
         await self._writer.drain()
 
+    def send_soon(self, line: bytes) -> None:
+        """Send a line without waiting; it is lost if the robot has ended."""
+        self._writer.write(line)
+
     async def receive(self) -> bytes:
         """Receive a line; empty after the connection has ended.
 

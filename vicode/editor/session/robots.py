@@ -234,6 +234,7 @@ class RobotLink:
     def follow(self, robot: str) -> None:
         if robot in self.robots and robot != self.followed:
             self.followed = robot
+            self._send_focus()
             self.changes.notify()
 
     async def request(self, do: str, **fields: Any) -> str:
@@ -327,6 +328,12 @@ class RobotLink:
             self.robots[description.name] = robot
         if self.followed not in self.robots:
             self.followed = next(iter(self.robots), "")
+        self._send_focus()
+
+    def _send_focus(self) -> None:
+        """Ask for each iteration of the shown robot; the others are sent less often."""
+        if self._transport is not None:
+            self._transport.send_soon(encode({"focus": self.followed}))
 
     def _take(self, message: Mapping[str, Any]) -> None:
         if "answer" in message:
