@@ -6,7 +6,7 @@ The editor sends a setup, then requests. Each request is answered by any number 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any, Literal
 
@@ -153,6 +153,12 @@ class IterationResult:
         if not self.component:
             return self.tree[0]
         return next((step for step in reversed(self.tree) if step["component"] == self.component), {})
+
+    def values(self) -> Iterator[tuple[str, dict[str, Any] | None]]:
+        """Components and their recorded values (None: not recorded): first the inputs, then those of each step."""
+        yield from self.inputs.items()
+        for step in self.tree:
+            yield str(step["component"]), step.get("values")
 
     @property
     def state(self) -> str:

@@ -25,6 +25,15 @@ def recorded(*states: str) -> Recording:
     return recording
 
 
+def test_inputs_are_plotted() -> None:
+    recording = Recording()
+    for number, slope in enumerate((1.0, 2.0), start=1):
+        tree = [{"component": "Lamp", "by": None, "state": "Dark", "transition": None}]
+        recording.add(IterationResult(iteration=number, time_ns=0, tree=tree, inputs={"Floor": {"slope": slope}}), {})
+    assert recording.names == ("Floor.slope",)
+    assert list(recording.column("Floor.slope")) == [1.0, 2.0]
+
+
 def test_iterations_are_stored_completely() -> None:
     recording = recorded("Dark", "Lit", "Lit")
     assert recording.iteration(2) == moment(2, "Lit", turns=2, lit=True, word="x")

@@ -14,6 +14,7 @@ from vicode.editor.session.simulation.guard_values import evaluate_guards, lates
 from vicode.editor.session.simulation.trace_overlays import measure_heat
 from vicode.editor.session.simulation.traces import input_script, read_iterations
 from vicode.model.design import Design
+from vicode.simulation import IterationResult
 from vicode.simulation.trace import TraceError
 from vicode.store import open_project
 
@@ -115,6 +116,22 @@ def test_guards_of_a_trace_are_evaluated_as_in_the_run(lamps: Path) -> None:
         if iteration.state == "Dark":
             assert [found[key]["holds"] for key in ("Dark/0", "Dark/1")] != [None, None]
     assert {"Dark", "Lit"} <= set(recording.states)
+
+
+def test_guards_read_what_the_world_provided(tmp_path: Path) -> None:
+    (tmp_path / "project.yaml").write_text(
+        "vicode: 1\nproject: Walk\ncomponents: {Floor: {implementation: world, outputs: {slope: float}}}\n", "utf-8"
+    )
+    (tmp_path / "walker.yaml").write_text(
+        "vicode: 1\ncomponent: Walker\nuses: {floor: Floor}\ninitial: Walk\n"
+        "states: {Walk: {transitions: [{to: Rest, when: floor.slope > 4}]}, Rest: {}}\n",
+        "utf-8",
+    )
+    project = open_project(tmp_path).project
+    step = {"component": "Walker", "state": "Walk", "state_time_ns": 0, "values": {}}
+    iteration = IterationResult(iteration=1, time_ns=0, tree=[step], inputs={"Floor": {"slope": 5.0}})
+    found = evaluate_guards(project, project.designs[0], iteration, {"Walker": step})
+    assert found == {"Walk/0": {"holds": True, "parts": [True], "reads": {"floor.slope": 5.0}}}
 
 
 BOSS = """

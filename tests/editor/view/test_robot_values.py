@@ -2,7 +2,7 @@
 
 import pytest
 
-from vicode.editor.view.robot_values import RobotComponentRow, component_row, parse_value
+from vicode.editor.view.robot_values import RobotComponentRow, component_row, input_row, parse_value
 
 
 def row(
@@ -56,3 +56,9 @@ def test_a_component_that_misses_its_rate_is_marked() -> None:
 def test_texts_become_values_of_the_same_type(text: str, old: object, value: object) -> None:
     assert parse_value(text, old) == value
     assert type(parse_value(text, old)) is type(value)
+
+
+def test_inputs_have_values_without_a_frequency() -> None:
+    row = input_row("Floor", {"slope": 2.5})
+    assert (row.component, row.timing, row.is_input) == ("Floor", "input", True)
+    assert [(each.name, each.text) for each in row.values] == [("slope", "2.5")]

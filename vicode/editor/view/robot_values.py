@@ -32,6 +32,8 @@ class RobotComponentRow:
     warning: str
     age: str
     values: tuple[RobotValueRow, ...]
+    is_input: bool = False
+    """Whether the world provides the values, so that viewers cannot set them."""
 
 
 def component_row(
@@ -62,16 +64,30 @@ def component_row(
         timing=" · ".join(parts),
         warning=_rate_warning(step_ms, frequency_hz, iteration_hz),
         age="" if age_s <= 0 else f"{age_s:.1f} s ago",
-        values=tuple(
-            RobotValueRow(
-                component=component,
-                name=str(name),
-                text=format_value(value),
-                raw=value,
-                is_held=(component, name) in held,
-            )
-            for name, value in (values.items() if isinstance(values, Mapping) else ())
-        ),
+        values=_value_rows(component, values if isinstance(values, Mapping) else {}, held),
+    )
+
+
+def input_row(component: str, values: Mapping[str, Any]) -> RobotComponentRow:
+    """The row of a component that only provides values, with those of the newest iteration."""
+    return RobotComponentRow(
+        component=component,
+        timing="input",
+        warning="",
+        age="",
+        values=_value_rows(component, values, {}),
+        is_input=True,
+    )
+
+
+def _value_rows(
+    component: str, values: Mapping[str, Any], held: Mapping[tuple[str, str], Any]
+) -> tuple[RobotValueRow, ...]:
+    return tuple(
+        RobotValueRow(
+            component=component, name=str(name), text=format_value(value), raw=value, is_held=(component, name) in held
+        )
+        for name, value in values.items()
     )
 
 

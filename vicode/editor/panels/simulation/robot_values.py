@@ -10,7 +10,7 @@ from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.panels.widgets import icon_button, primary_button
 from vicode.editor.session.robots import WatchedRobot
-from vicode.editor.view.robot_values import RobotComponentRow, RobotValueRow, component_row, parse_value
+from vicode.editor.view.robot_values import RobotComponentRow, RobotValueRow, component_row, input_row, parse_value
 
 
 class RobotValues:
@@ -44,10 +44,13 @@ class RobotValues:
         design = self.view.design
         known = robot.description.components
         names = dict.fromkeys((design.component, *(use.component for use in design.uses)))
+        inputs = robot.iteration.inputs if robot.iteration else {}
         rows = []
         for name in names:
             seen = robot.steps.get(name)
-            if seen is None or name not in known:
+            if name in inputs:
+                rows.append(input_row(name, inputs[name]))
+            if seen is None or name not in known or name in inputs:
                 continue
             rows.append(
                 component_row(
@@ -68,14 +71,14 @@ class RobotValues:
             with warning:
                 tip = ui.tooltip()
             timing = ui.label().classes("heading-hint")
-            if can_control:
+            if can_control and not row.is_input:
                 self._menu(row.component)
         labels = []
         for each in row.values:
             with ui.element("div").classes("robot-value" + (" is-held" if each.is_held else "")):
                 ui.label(each.name).classes("input-name mono")
                 labels.append(ui.label().classes("mono"))
-                if can_control:
+                if can_control and not row.is_input:
                     act = partial(self._ask_value, each.component, each.name)
                     button = icon_button("lock" if each.is_held else "edit", f"Set {each.component}.{each.name}", act)
                     button.props("size=xs")

@@ -59,9 +59,9 @@ def _describe_robot(view: RobotView) -> str:
     assert robot is not None
     words = f"{'Paused' if robot.is_paused else 'Live'}: {robot.name} at {link.address}"
     if robot.missed:
-        words += f", {robot.missed} iterations not shown"
+        words += f", {robot.missed} iteration{'s' * (robot.missed != 1)} not shown"
     if robot.error_count:
-        words += f", {robot.error_count} errors"
+        words += f", {robot.error_count} error{'s' * (robot.error_count != 1)}"
     if view.other_versions is None:
         words += ". Its version was not compared: the design has errors"
     return f"{words}."

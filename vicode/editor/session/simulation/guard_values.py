@@ -100,7 +100,8 @@ def _collect_values(design: Design, iteration: IterationResult, steps: Steps) ->
     if isinstance(step.get("state_time_ns"), int):
         values["state_time"] = step["state_time_ns"] / (1e6 if design.time_unit == "ms" else 1e9)
     for use in design.uses:
-        for name, value in (steps.get(use.component, {}).get("values") or {}).items():
+        known = iteration.inputs.get(use.component) or steps.get(use.component, {}).get("values") or {}
+        for name, value in known.items():
             values[f"{use.alias}.{name}"] = _plain(value)
         if use.component in now:
             values[f"done({use.alias})"] = now[use.component].get("done") is True

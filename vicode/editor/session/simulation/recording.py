@@ -132,11 +132,11 @@ class Recording:
 
     def _add_values(self, iteration: IterationResult) -> None:
         index = len(self) - 1
-        for step in iteration.tree:
-            for name, value in (step.get("values") or {}).items():
+        for component, values in iteration.values():
+            for name, value in (values or {}).items():
                 number = _number(value)
                 if number is not None:
-                    self._put(f"{step['component']}.{name}", index, number)
+                    self._put(f"{component}.{name}", index, number)
 
     def _put(self, name: str, index: int, number: float) -> None:
         if name not in self._columns and len(self._columns) >= _MAX_COLUMNS:

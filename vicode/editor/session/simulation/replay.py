@@ -255,7 +255,7 @@ class _Replay:
 
     def _remember(self, recorded: IterationResult, replayed: IterationResult) -> None:
         for known, iteration in zip(self._values, (recorded, replayed), strict=True):
-            known.update((name, each) for name, each in _all_values(iteration) if each)
+            known.update((name, each) for name, each in iteration.values() if each)
 
 
 def _take_consecutive(
@@ -299,10 +299,4 @@ def _require_calls(recorded: IterationResult, replayed: IterationResult) -> None
 
 def _input_values(iteration: IterationResult) -> Iterator[tuple[str, Mapping[str, Any] | None]]:
     yield PARAMETERS, iteration.tree[0].get("values")
-    yield from _all_values(iteration)
-
-
-def _all_values(iteration: IterationResult) -> Iterator[tuple[str, dict[str, Any] | None]]:
-    yield from iteration.inputs.items()
-    for step in iteration.tree:
-        yield str(step["component"]), step.get("values")
+    yield from iteration.values()
