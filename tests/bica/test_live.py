@@ -24,7 +24,7 @@ from tests.bica.live_robot import (
     root,
 )
 from vicode.bica import Root, live_server
-from vicode.bica.live_server import MAX_VIEWERS
+from vicode.bica.live_server import MAX_VIEWERS, LiveServer
 
 __all__ = ["close_connections", "control", "root"]
 
@@ -74,10 +74,27 @@ def test_nothing_is_replaced_before_and_after_a_visit(root: Root) -> None:
     assert root.component(Lamp).count == count + 1
 
 
+def test_a_server_that_stays_open_shows_the_robots_that_come_and_go() -> None:
+    server = LiveServer(stays_open=True)
+    try:
+        with make_root() as one:
+            server.add(one, "one")
+            viewer = Viewer(server, one)
+            assert [each["name"] for each in viewer.get(lambda line: "vicode-live" in line)["robots"]] == ["one"]
+        with make_root() as other:
+            server.add(other, "other")
+            viewer.root = other
+            hello = viewer.get(lambda line: "vicode-live" in line and line["robots"])
+            assert [each["name"] for each in hello["robots"]] == ["other"]
+            assert viewer.get(is_iteration)["robot"] == "other"
+    finally:
+        server.close()
+
+
 def test_several_robots_share_a_server() -> None:
     with make_root() as one, make_root() as other:
         server = one.watch(name="one")
-        other._closing.callback(server.remove, server.add(other, "one"))
+        server.add(other, "one")
         viewer = Viewer(server, one)
         names = {
             robot["name"] for robot in viewer.get(lambda line: "robots" in line and len(line["robots"]) == 2)["robots"]

@@ -25,7 +25,16 @@ from vicode.model.design import (
     Transition,
     Use,
 )
-from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, Project, RemoteReference
+from vicode.model.project import (
+    Agent,
+    BridgeSettings,
+    Enumeration,
+    Interface,
+    Profile,
+    ProfileClass,
+    Project,
+    RemoteReference,
+)
 
 AWKWARD_NAMES = ("on", "off", "no", "yes", "null", "true", "1e3", "007", "code", "doc", "elements", "default", "python")
 AWKWARD_TEXTS = (
@@ -212,6 +221,12 @@ profiles = st.builds(
         2,
     ),
 )
+bridges = st.builds(
+    BridgeSettings,
+    world=st.just("") | texts,
+    tick_ms=st.none() | st.sampled_from([20.0, 12.5]),
+    port=st.none() | st.integers(0, 65535),
+)
 projects = st.builds(
     Project,
     name=names,
@@ -224,4 +239,5 @@ projects = st.builds(
     components=_unique(interfaces, "component", 2),
     agents=_unique(agents, "name", 2),
     profiles=_unique(profiles, "name", 2),
+    bridge=bridges,
 )

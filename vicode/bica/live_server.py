@@ -45,13 +45,16 @@ class LiveServer:
         token: What viewers must send first; by default a random text. Viewers on a Unix socket need none, as the file
             is only accessible to its user.
         control: Whether viewers may pause and change the roots.
+        stays_open: Whether viewers may wait for roots; by default, the server closes with the last root.
 
     Raises:
         OSError: The address is in use or invalid.
     """
 
-    def __init__(self, address: str | int = 0, *, token: str = "", control: bool = False) -> None:
-        self.control = control
+    def __init__(
+        self, address: str | int = 0, *, token: str = "", control: bool = False, stays_open: bool = False
+    ) -> None:
+        self.control, self._stays_open = control, stays_open
         self._asked_address = str(address)
         self._listener, self.address = _listen(str(address))
         self.token = token or ("" if self.address.startswith(_UNIX) else secrets.token_urlsafe(12))
@@ -69,7 +72,7 @@ class LiveServer:
         self._thread.start()
 
     def add(self, root: Root, name: str = "") -> LiveFeed:
-        """Let viewers see a root under a name, by default that of its main component."""
+        """Let viewers see a root, until it is closed, under a name, by default that of its main component."""
         name = name or type(root.main).__name__
         taken = {feed.name for feed in self._feeds}
         unique, number = name, 2
@@ -77,14 +80,15 @@ class LiveServer:
             unique, number = f"{name} {number}", number + 1
         feed = LiveFeed(root, unique, self._wake)
         self._feeds = [*self._feeds, feed]
+        root._closing.callback(self.remove, feed)
         self._wake()
         return feed
 
     def remove(self, feed: LiveFeed) -> None:
-        """End the view of a root; the server closes with the last one."""
+        """End the view of a root; the server closes with the last one, unless it stays open."""
         feed.is_watched = False
         self._feeds = [each for each in self._feeds if each is not feed]
-        if self._feeds:
+        if self._feeds or self._stays_open:
             self._wake()
         else:
             self.close()
@@ -213,8 +217,9 @@ class LiveServer:
         self._greet(viewer)
 
     def _greet(self, viewer: _Viewer) -> None:
-        viewer.greeted = len(self._feeds)
-        robots = [feed.describe() for feed in self._feeds]
+        viewer.greeted = feeds = self._feeds
+        viewer.seen = {feed: seen for feed, seen in viewer.seen.items() if feed in feeds}
+        robots = [feed.describe() for feed in feeds]
         self._send(viewer, {"vicode-live": PROTOCOL_VERSION, "control": self.control, "robots": robots})
 
     def _deliver(self) -> None:
@@ -226,7 +231,7 @@ class LiveServer:
                     if now_s - viewer.connected_s > _HANDSHAKE_LIMIT_S:
                         self._drop(viewer)
                     continue
-                if viewer.greeted != len(self._feeds):
+                if viewer.greeted is not self._feeds:
                     self._greet(viewer)
                 if not viewer.unsent and now_s >= viewer.due_s:
                     self._send_newest(viewer, now_s)
@@ -252,12 +257,12 @@ class LiveServer:
             if not is_rest_due and not viewer.looks_at(feed):
                 continue
             number, message = feed.newest
-            last, last_change = viewer.seen.get(feed.name, (0, 0))
+            last, last_change = viewer.seen.get(feed, (0, 0))
             if number == last:
                 continue
             changes = [change for change in [*feed.changes] if change["number"] > last_change]
             newest_change = changes[-1]["number"] if changes else last_change
-            viewer.seen[feed.name] = (number, newest_change)
+            viewer.seen[feed] = (number, newest_change)
             missed = max(0, number - last - 1) if last else 0
             lines.append(_encode({**message, "changes": changes, "missed": missed}))
         if lines:
@@ -303,7 +308,7 @@ class LiveServer:
         """When to do something for a viewer; None before there is news."""
         if not viewer.is_admitted:
             return viewer.connected_s + _HANDSHAKE_LIMIT_S
-        news = [feed for feed in self._feeds if feed.newest[0] != viewer.seen.get(feed.name, (0, 0))[0]]
+        news = [feed for feed in self._feeds if feed.newest[0] != viewer.seen.get(feed, (0, 0))[0]]
         if viewer.unsent or not news:
             return None
         return viewer.due_s if any(map(viewer.looks_at, news)) else max(viewer.due_s, viewer.rest_due_s)
@@ -338,8 +343,8 @@ class _Viewer:
         self.period_s = 1 / DEFAULT_RATE_HZ
         self.due_s = self.rest_due_s = 0.0
         self.focus = ""
-        self.greeted = 0
-        self.seen: dict[str, tuple[int, int]] = {}
+        self.greeted: list[LiveFeed] | None = None
+        self.seen: dict[LiveFeed, tuple[int, int]] = {}
 
     def looks_at(self, feed: LiveFeed) -> bool:
         return not self.focus or feed.name == self.focus

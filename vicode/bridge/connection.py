@@ -143,10 +143,9 @@ class Connection(asyncio.BufferedProtocol):
             raise FrameError(f"choose a behavior: {', '.join(self.server.catalog.names)}")
         if name != robot.behavior_name:
             try:
-                robot.select(name)
+                self.server.start_behavior(robot, name)
             except BehaviorError as error:
                 raise FrameError(str(error)) from error
-            self.server.on_start(robot)
         return name
 
     def receive(self, target: str, raw: Raw, time_ns: int | None = None) -> None:

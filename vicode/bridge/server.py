@@ -5,6 +5,7 @@ import ipaddress
 import re
 import ssl
 import time
+from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
@@ -18,6 +19,7 @@ from vicode.bridge.world import Counts, World
 DEFAULT_PORT = 7001
 DEFAULT_TICK_MS = 50.0
 MAX_CONNECTIONS = 1000
+_KEPT_AGES = 100_000
 _HANDSHAKE_S = 10.0
 _STOP_S = 2.0
 _TURN_S = 0.005
@@ -74,14 +76,14 @@ class BridgeServer:
         make_world: Creates the world of a robot.
         options: Address, token, tick.
         on_start: Called when a robot starts a behavior.
-        on_report: Called with a robot and a line about an exception or a malformed value.
+        on_event: Called with the name of a robot and what happened, in one line.
     """
 
     catalog: BehaviorCatalog
     make_world: Callable[[], World]
     options: BridgeOptions = BridgeOptions()
     on_start: Callable[[Robot], None] = lambda _robot: None
-    on_report: Callable[[Robot, str], None] = lambda _robot, _line: None
+    on_event: Callable[[str, str], None] = lambda _robot, _line: None
     counts: Counts = field(default_factory=Counts)
     """Counts of connections without a robot, and of robots that are gone."""
     ticks: TickCounts = field(default_factory=TickCounts)
@@ -90,6 +92,7 @@ class BridgeServer:
     """Runs until `stop`; it ends earlier only with an exception."""
     _seats: dict[str, _Seat] = field(default_factory=dict)
     _connections: set[Connection] = field(default_factory=set)
+    _ages_ns: deque[int] = field(default_factory=lambda: deque(maxlen=_KEPT_AGES))
     _joined: int = 0
     _listener: asyncio.Server | None = None
 
@@ -126,6 +129,11 @@ class BridgeServer:
         """Counts of all robots since the start."""
         return sum((seat.robot.data.counts for seat in self._seats.values()), self.counts)
 
+    def list_ages_ns(self) -> list[int]:
+        """The age of the data acted on in the last ticks of all robots, in ascending order."""
+        current = (age_ns for seat in self._seats.values() for age_ns in seat.robot.ages_ns)
+        return sorted([*self._ages_ns, *current])
+
     async def stop(self) -> None:
         """Stop all robots, close all connections, behaviors and worlds."""
         if self.ticker is not None:
@@ -158,7 +166,10 @@ class BridgeServer:
         seat.connection, seat.left_s = None, time.monotonic()
         seat.robot.leave_team()
         if not seat.is_named or connection.pace == "client" or not self.options.grace_s:
+            self.on_event(seat.robot.name, "disconnected")
             self._drop(seat)
+        else:
+            self.on_event(seat.robot.name, f"disconnected; its state is kept for {self.options.grace_s:g} s")
 
     def join(self, hello: RobotHello, connection: Connection) -> Robot:
         """Return the robot of this name: that which was here before, or a new one.
@@ -177,6 +188,7 @@ class BridgeServer:
                 self._drop(seat)
             else:
                 seat.connection = connection
+                self.on_event(name, f"connected again from {connection.peer}")
                 seat.robot.data.commands.repeat()
                 seat.robot.data.counts.connections += 1
                 return seat.robot
@@ -198,7 +210,18 @@ class BridgeServer:
             raise RefusedError(f"the world cannot be created: {describe_user_error(error)}") from error
         robot.data.counts.connections = 1
         self._seats[unique] = _Seat(robot, connection, is_named=bool(hello.name))
+        self.on_event(unique, f"connected from {connection.peer}")
         return robot
+
+    def start_behavior(self, robot: Robot, name: str) -> None:
+        """Start a behavior of a robot.
+
+        Raises:
+            BehaviorError: There is no such behavior, or its code fails.
+        """
+        robot.select(name)
+        self.on_event(robot.name, f"runs {name}")
+        self.on_start(robot)
 
     def tick(self, robot: Robot, *, at_ns: int, now_ns: int) -> None:
         """Run one tick of a robot, with its team."""
@@ -235,7 +258,7 @@ class BridgeServer:
     def _tick_among(self, robot: Robot, speakers: Iterable[Robot], at_ns: int, now_ns: int) -> None:
         robot.tick(at_ns, now_ns, [each for each in speakers if each is not robot and each.team_key == robot.team_key])
         for line in robot.reports:
-            self.on_report(robot, line)
+            self.on_event(robot.name, line)
 
     def _speakers(self) -> list[Robot]:
         return [seat.robot for seat in self._seats.values() if seat.robot.speaks]
@@ -255,6 +278,7 @@ class BridgeServer:
             del self._seats[seat.robot.name]
         seat.robot.close()
         self.counts += seat.robot.data.counts
+        self._ages_ns.extend(seat.robot.ages_ns)
 
 
 def _left(seat: _Seat) -> float:

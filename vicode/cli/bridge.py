@@ -3,6 +3,7 @@
 import argparse
 import asyncio
 import gc
+import os
 import signal
 import ssl
 import sys
@@ -11,67 +12,93 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
-from vicode.cli.bridge_behaviors import BridgeSetup, load_bridge
+from vicode.cli.bridge_behaviors import LoadedBehaviors, load_behaviors, load_world
 
 if TYPE_CHECKING:
+    from vicode.bridge import World
+    from vicode.bridge.robot import Robot
     from vicode.bridge.server import BridgeServer
+    from vicode.cli.bridge_view import BridgeView
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("path", metavar="PATH", help="a design, a folder with a project, or an XABSL file with agents")
-    add("--behavior", metavar="NAME", default="", help="what robots run that choose nothing")
-    add("--port", type=int, metavar="N", help="port (default: that of project.yaml, or 7001); 0 selects a free one")
+    add("--behavior", metavar="NAME", default="", help="the behavior of robots that choose none")
+    add("--port", type=_port, metavar="N", help="port; 0 selects a free one (default: that of project.yaml, or 7001)")
     add("--host", metavar="ADDRESS", default="127.0.0.1", help="address to listen at (default: %(default)s)")
-    add("--token", metavar="TEXT", default="", help="what robots must send first; required with other addresses")
-    add("--cert", metavar="FILE", type=Path, help="certificate (PEM): robots connect with TLS")
-    add("--key", metavar="FILE", type=Path, help="key of the certificate, if it is in another file")
+    add("--token", metavar="TEXT", help="what robots must send first (default: VICODE_BRIDGE_TOKEN, or none)")
+    add("--cert", metavar="FILE", type=Path, help="certificate in PEM format: robots connect with TLS")
+    add("--key", metavar="FILE", type=Path, help="key of the certificate, if it is not in the same file")
     add("--tick-ms", type=options.tick_ms, metavar="MS", help="time between ticks (default: project.yaml, or 50)")
-    add("--grace", type=options.seconds, metavar="S", default=10.0, help="how long a robot may be gone (default: 10)")
+    add(
+        "--grace",
+        type=options.seconds,
+        metavar="S",
+        default=10.0,
+        help="how long the state of a robot without connection is kept (default: %(default)g)",
+    )
     add("--world", metavar="MODULE:CLASS", default="", help="class of the world (default: that of project.yaml)")
-    add("--path", metavar="DIR", dest="import_path", type=Path, help="folder of the world's module")
+    add("--path", metavar="DIR", dest="import_path", type=Path, help="folder of the module (default: that of PATH)")
     add("--profile", metavar="NAME", default="", help="use the implementations of this profile")
+    add("--watch", metavar="ADDRESS", help="let 'vicode attach' connect: PORT, HOST:PORT or unix:PATH (docs/live.md)")
     add("--plain", action="store_true", help="print one line per event; the default if stdout is no terminal")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Load the behaviors, and serve until Ctrl-C or SIGTERM."""
+    """Load the behaviors and the world, and serve until Ctrl-C or SIGTERM."""
     from vicode.bridge.server import ListenError
 
     with tempfile.TemporaryDirectory(prefix="vicode-bridge-") as folder:
-        setup = load_bridge(args, Path(folder))
-        if isinstance(setup, int):
-            return setup
+        # The generated code is only imported, once.
+        sys.dont_write_bytecode = True
+        loaded = load_behaviors(args, Path(folder))
+        if isinstance(loaded, int):
+            return loaded
+        world_class = load_world(args.world or loaded.settings.world, loaded)
+        if isinstance(world_class, int):
+            return world_class
+        # What is loaded by now stays: collections need not look at it.
         gc.collect()
         gc.freeze()
         try:
-            return asyncio.run(_serve(setup, args))
+            return asyncio.run(_serve(loaded, world_class, args))
         except ListenError as error:
             print(f"vicode: {error}", file=sys.stderr)
             return 2
 
 
-async def _serve(setup: BridgeSetup, args: argparse.Namespace) -> int:
-    from vicode.bridge.server import BridgeOptions, BridgeServer
+async def _serve(loaded: LoadedBehaviors, world_class: "type[World]", args: argparse.Namespace) -> int:
+    from vicode.bridge.server import DEFAULT_PORT, DEFAULT_TICK_MS, BridgeOptions, BridgeServer
+    from vicode.cli.bridge_view import open_view
 
+    settings = loaded.settings
+    port = next(each for each in (args.port, settings.port, DEFAULT_PORT) if each is not None)
     server = BridgeServer(
-        setup.catalog,
-        setup.make_world,
+        loaded.catalog,
+        world_class,
         BridgeOptions(
             host=args.host,
-            port=setup.port,
-            tick_ns=setup.tick_ns,
-            token=args.token,
+            port=port,
+            tick_ns=round((args.tick_ms or settings.tick_ms or DEFAULT_TICK_MS) * 1e6),
+            token=os.environ.get("VICODE_BRIDGE_TOKEN", "") if args.token is None else args.token,
             grace_s=args.grace,
             tls=_load_certificate(args),
         ),
     )
+    if args.watch is not None:
+        _let_viewers_connect(server, args.watch)
     await server.start()
-    print(f"listening at {server.address}; behaviors: {', '.join(setup.catalog.names)}", flush=True)
-    return await _wait_for_signal(server)
+    # Programs that start the bridge read this line.
+    print(f"listening at {server.address}; behaviors: {', '.join(loaded.catalog.names)}", flush=True)
+    view = open_view(server, is_plain=args.plain)
+    try:
+        return await _wait_for_signal(server, view)
+    finally:
+        view.close()
 
 
-async def _wait_for_signal(server: "BridgeServer") -> int:
+async def _wait_for_signal(server: "BridgeServer", view: "BridgeView") -> int:
     """Serve until a signal, stop all robots, and return the exit code."""
     loop, ended = asyncio.get_running_loop(), asyncio.Event()
     received: list[int] = []
@@ -80,18 +107,54 @@ async def _wait_for_signal(server: "BridgeServer") -> int:
         received.append(number)
         ended.set()
 
-    for number in (signal.SIGINT, signal.SIGTERM):
-        loop.add_signal_handler(number, end, number)
-    assert server.ticker is not None
-    server.ticker.add_done_callback(lambda _task: ended.set())
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
+            loop.add_signal_handler(number, end, number)
+    ticker = server.ticker
+    assert ticker is not None
+    ticker.add_done_callback(lambda _task: ended.set())
     await ended.wait()
     await server.stop()
-    return 128 + received[0] if received else 1
+    view.close()
+    if not received:
+        ticker.result()
+    return 128 + received[0]
+
+
+def _let_viewers_connect(server: "BridgeServer", address: str) -> None:
+    """Show the components of each robot to viewers."""
+    from vicode.bica.live_server import LiveServer
+    from vicode.bridge.behaviors import DesignBehavior, DesignCatalog
+
+    if not isinstance(server.catalog, DesignCatalog):
+        raise OSError("--watch shows designs only; 'vicode import' converts an XABSL behavior to designs")
+    viewers = LiveServer(address, token=os.environ.get("VICODE_WATCH_TOKEN", ""), stays_open=True)
+    print(
+        f"watch: vicode attach {viewers.address}{f', token {viewers.token}' if viewers.token else ''}", file=sys.stderr
+    )
+
+    def show(robot: "Robot") -> None:
+        if isinstance(robot.behavior, DesignBehavior):
+            viewers.add(robot.behavior.root, robot.name)
+
+    server.on_start = show
 
 
 def _load_certificate(args: argparse.Namespace) -> ssl.SSLContext | None:
     if args.cert is None:
+        if args.key is not None:
+            raise OSError("--key needs --cert")
         return None
     context = ssl.create_default_context(ssl.Purpose.CLIENT_AUTH)
-    context.load_cert_chain(args.cert, args.key)
+    try:
+        context.load_cert_chain(args.cert, args.key)
+    except ssl.SSLError as error:
+        raise OSError(f"{args.cert} is no certificate in PEM format, or not that of the key: {error.reason}") from None
     return context
+
+
+def _port(text: str) -> int:
+    number = int(text)
+    if not 0 <= number < 65_536:
+        raise argparse.ArgumentTypeError(f"{text} is no port; write a number from 0 to 65535")
+    return number

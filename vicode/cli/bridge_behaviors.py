@@ -1,114 +1,151 @@
-"""Loads what `vicode bridge` runs: generated designs or XABSL agents, and the class of the world."""
+"""Loads what `vicode bridge` runs: generated designs or XABSL agents, bound to the class of the world."""
 
 import argparse
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from vicode.cli.bridge_interfaces import design_requirements, design_types, xabsl_requirements
 from vicode.cli.console import print_findings
 from vicode.cli.project_loader import XABSL_SUFFIXES, LoadedProject, load_projects
+from vicode.model.project import BridgeSettings
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from vicode.bridge import World
     from vicode.bridge.behaviors import BehaviorCatalog
-
-_DEFAULT_PORT, _DEFAULT_TICK_MS = 7001, 50.0
+    from vicode.bridge.binding import DeclaredType, Requirement
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BridgeSetup:
-    """What a server runs, and its settings from the command line or project.yaml."""
+class LoadedBehaviors:
+    """Behaviors, what they require of the world, and the settings of their project."""
 
     catalog: "BehaviorCatalog"
-    make_world: "Callable[[], World]"
-    port: int
-    tick_ns: int
+    requirements: "Sequence[Requirement]"
+    types: "Mapping[str, DeclaredType]"
+    settings: BridgeSettings
 
 
-def load_bridge(args: argparse.Namespace, folder: Path) -> BridgeSetup | int:
-    """Load behaviors and world; the exit code, after the reasons were printed, if that is impossible.
+def load_behaviors(args: argparse.Namespace, folder: Path) -> LoadedBehaviors | int:
+    """Load the behaviors; the exit code, after the reasons were printed, if that is impossible.
 
     Args:
         args: The arguments of the command.
         folder: An empty folder for generated code.
     """
-    path = Path(args.path)
-    catalog = _load_agents(args, path) if path.suffix in XABSL_SUFFIXES else _load_designs(args, path, folder)
-    if isinstance(catalog, int):
-        return catalog
-    make_world = _load_world(args.world or "arena.bridge:RescueWorld")
-    if make_world is None:
+    is_xabsl = Path(args.path).suffix in XABSL_SUFFIXES
+    loaded = _load_agents(args) if is_xabsl else _load_designs(args, folder)
+    if isinstance(loaded, LoadedBehaviors) and args.behavior and args.behavior not in loaded.catalog.names:
+        names = ", ".join(loaded.catalog.names)
+        print(f"vicode: there is no behavior '{args.behavior}'; choose from: {names}", file=sys.stderr)
         return 2
-    return BridgeSetup(
-        catalog=catalog,
-        make_world=make_world,
-        port=_DEFAULT_PORT if args.port is None else args.port,
-        tick_ns=round((args.tick_ms or _DEFAULT_TICK_MS) * 1e6),
-    )
+    return loaded
 
 
-def _load_agents(args: argparse.Namespace, path: Path) -> "BehaviorCatalog | int":
+def load_world(name: str, loaded: LoadedBehaviors) -> "type[World] | int":
+    """Load the class of the world and bind it to the behaviors; the exit code, after the reasons were printed."""
+    from vicode.bica.loader import UserCodeError, describe_user_error
+    from vicode.bridge.binding import apply_types, find_missing, find_reserved_targets
+
+    if not name:
+        print("vicode: which world? Add 'bridge: {world: module:Class}' to project.yaml, or --world", file=sys.stderr)
+        return 2
+    try:
+        world_class = _import_world(name)
+        apply_types(world_class, loaded.types)
+        world = world_class()
+    except UserCodeError as error:
+        print(f"vicode: {error}", file=sys.stderr)
+        return 2
+    except Exception as error:
+        print(f"vicode: cannot create {name}: {describe_user_error(error)}", file=sys.stderr)
+        return 2
+    problems = [*find_reserved_targets(world_class), *find_missing(world, loaded.requirements)]
+    if problems:
+        print(f"vicode: {name} does not fit the behaviors:", *problems, sep="\n  ", file=sys.stderr)
+        return 1
+    return world_class
+
+
+def _import_world(name: str) -> "type[World]":
+    from vicode.bica.loader import UserCodeError, load_attribute
+    from vicode.bridge import World
+
+    world_class = load_attribute(name)
+    if not (isinstance(world_class, type) and issubclass(world_class, World)):
+        raise UserCodeError(f"{name} is no world of the bridge; derive it from vicode.bridge.World")
+    return world_class
+
+
+def _load_agents(args: argparse.Namespace) -> LoadedBehaviors | int:
     from vicode.bridge.behaviors import XabslCatalog
     from vicode.cli.xabsl_behavior import compile_behavior, print_behavior_findings
     from vicode.findings import Severity
     from vicode.xabsl.compiler import declared_symbols
 
+    path = Path(args.path)
     compiled = compile_behavior(path)
     print_behavior_findings([each for each in compiled.findings if each.severity is Severity.ERROR], path)
     if compiled.program is None:
         return 1
-    _add_import_path(args.import_path or path.parent)
     agents = [name for name, _root in compiled.program.agents]
-    default = args.behavior or (agents[0] if len(agents) == 1 else "")
-    return XabslCatalog(program=compiled.program, symbols=declared_symbols(compiled.table), default=default)
+    _add_import_path(args.import_path or path.parent)
+    return LoadedBehaviors(
+        catalog=XabslCatalog(
+            program=compiled.program,
+            symbols=declared_symbols(compiled.table),
+            default=args.behavior or _only(agents),
+        ),
+        requirements=xabsl_requirements(compiled.program, compiled.table, path.parent),
+        types={},
+        settings=BridgeSettings(),
+    )
 
 
-def _load_designs(args: argparse.Namespace, path: Path, folder: Path) -> "BehaviorCatalog | int":
+def _load_designs(args: argparse.Namespace, folder: Path) -> LoadedBehaviors | int:
     from vicode.bridge.behaviors import DesignCatalog
     from vicode.generators import generate, python_class_path
     from vicode.output import apply_diffs, compare_files
 
-    loaded = load_projects([args.path], args.profile)
-    if len(loaded) > 1:
-        print(f"vicode: {path} contains {len(loaded)} projects; specify one", file=sys.stderr)
+    projects = load_projects([args.path], args.profile)
+    if len(projects) > 1:
+        print(f"vicode: {args.path} contains {len(projects)} projects; specify one", file=sys.stderr)
         return 2
-    errors = loaded[0].errors_for("python")
-    if errors:
+    (loaded,) = projects
+    if errors := loaded.errors_for("python"):
         print_findings(errors, to_stderr=True)
         return 1
-    default = next(iter(loaded[0].requested), "")
-    (whole,) = load_projects([str(loaded[0].open_project.folder)], args.profile)
-    project = whole.open_project.project
-    names = [each for each in whole.selected_designs if each not in whole.components_with_errors("python")]
-    files = generate(project, components=names, languages=["python"], sources=whole.design_paths)
+    roots = _list_roots(loaded)
+    project = loaded.open_project.project
+    used = sorted(set(roots.values()))
+    files = generate(project, components=used, languages=["python"], sources=loaded.design_paths)
     apply_diffs(compare_files(files, folder), folder)
-    _add_import_path(whole.open_project.folder)
+    _add_import_path(args.import_path or loaded.open_project.folder)
     _add_import_path(folder / "python")
-    roots = {agent.name: agent.root for agent in project.agents if agent.root in names} | {name: name for name in names}
-    classes = {name: python_class_path(project, root) for name, root in roots.items()}
-    return DesignCatalog(classes=classes, default=args.behavior or default or _only_agent(whole))
+    default = args.behavior or _only(list(dict.fromkeys(roots.values())))
+    return LoadedBehaviors(
+        catalog=DesignCatalog(
+            classes={name: python_class_path(project, root) for name, root in roots.items()}, default=default
+        ),
+        requirements=design_requirements(loaded.open_project, used),
+        types=design_types(project),
+        settings=project.bridge,
+    )
 
 
-def _only_agent(whole: LoadedProject) -> str:
-    agents = [agent.name for agent in whole.open_project.project.agents] or list(whole.selected_designs)
-    return agents[0] if len(agents) == 1 else ""
+def _list_roots(loaded: LoadedProject) -> dict[str, str]:
+    """The root components by the names that robots choose: agents, and the designs that were given."""
+    project = loaded.open_project.project
+    designs = loaded.requested or loaded.selected_designs
+    agents = {agent.name: agent.root for agent in project.agents if agent.root in designs}
+    return agents | {name: name for name in designs}
 
 
-def _load_world(name: str) -> "Callable[[], World] | None":
-    from vicode.bica.loader import UserCodeError, load_attribute
-    from vicode.bridge import World
-
-    try:
-        world_class = load_attribute(name)
-    except UserCodeError as error:
-        print(f"vicode: {error}", file=sys.stderr)
-        return None
-    if not (isinstance(world_class, type) and issubclass(world_class, World)):
-        print(f"vicode: {name} is no world of the bridge; derive it from vicode.bridge.World", file=sys.stderr)
-        return None
-    return world_class
+def _only(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else ""
 
 
 def _add_import_path(folder: Path) -> None:

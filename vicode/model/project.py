@@ -116,6 +116,15 @@ class Profile:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class BridgeSettings:
+    """How `vicode bridge` runs the designs: the world as "module:Class", tick and port; None for the defaults."""
+
+    world: str = ""
+    tick_ms: float | None = None
+    port: int | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
     """The designs and declarations of a folder.
 
@@ -133,6 +142,7 @@ class Project:
     components: tuple[Interface, ...] = ()
     agents: tuple[Agent, ...] = ()
     profiles: tuple[Profile, ...] = ()
+    bridge: BridgeSettings = field(default_factory=BridgeSettings)
     designs: tuple[Design, ...] = ()
     unreadable: tuple[tuple[str, str], ...] = ()
     _interfaces: dict[str, "Interface"] = field(default_factory=dict, init=False, repr=False, compare=False)

@@ -1,9 +1,19 @@
 """Version 1 of the format: all keys of project.yaml, with the model fields that hold them."""
 
-from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, Project, RemoteReference
+from vicode.model.project import (
+    Agent,
+    BridgeSettings,
+    Enumeration,
+    Interface,
+    Profile,
+    ProfileClass,
+    Project,
+    RemoteReference,
+)
 from vicode.store.format import (
     ARGUMENT,
     CONSTANT,
+    COUNT,
     DOC_KEY,
     FLAG,
     FLOW_WIDTH,
@@ -106,6 +116,17 @@ PROFILE = RecordSchema(
         ),
     ),
 )
+BRIDGE = RecordSchema(
+    name="bridge",
+    description="settings of `vicode bridge`",
+    model=BridgeSettings,
+    flow_width=FLOW_WIDTH,
+    keys=(
+        KeySchema("world", TEXT, "class of the world of connected robots as module:Class"),
+        KeySchema("tick_ms", FREQUENCY, "time between two ticks in ms; default: 50"),
+        KeySchema("port", COUNT, "port that robots connect to; default: 7001", keeps_empty=True),
+    ),
+)
 PROJECT = RecordSchema(
     name="project",
     description="a project",
@@ -145,6 +166,7 @@ PROJECT = RecordSchema(
             MapSchema(description="a mapping of names to profiles", value_schema=PROFILE, name_field="name"),
             "sets of implementations, such as for simulation and for the robot (`--profile`)",
         ),
+        KeySchema("bridge", BRIDGE, "how `vicode bridge` runs the designs for connected robots"),
     ),
 )
 PROJECT_RECORDS = (
@@ -159,4 +181,5 @@ PROJECT_RECORDS = (
     AGENT,
     PROFILE,
     CHOICE,
+    BRIDGE,
 )

@@ -91,6 +91,9 @@ class WorldLinker:
             value = getattr(self.world, attribute)
         except AttributeError:
             raise LoadError([f"input symbol {symbol.name}: the world has no {attribute}"]) from None
+        except Exception:
+            # A property that has no value yet.
+            value = None
         if not callable(value):
             return InputAccess(f"w.{attribute}")
         self.functions[f"i{number}"] = value
@@ -98,7 +101,7 @@ class WorldLinker:
         if symbol.name in nested:
             cells = f"cells{number}"
             self.functions[cells] = [0.0] * len(symbol.parameters)
-        return InputAccess(f"i{number}", _keywords(symbol.name, symbol.parameters), symbol.parameters, cells)
+        return InputAccess(f"i{number}", keyword_names(symbol.name, symbol.parameters), symbol.parameters, cells)
 
     def _bind_outputs(self) -> dict[str, str]:
         outputs = {
@@ -110,11 +113,12 @@ class WorldLinker:
         return outputs
 
     def _bind_behavior(self, number: int, behavior: BasicBehavior) -> BehaviorBinding:
-        act, keywords = self.find_behavior(behavior.name), _keywords(behavior.name, behavior.parameters)
+        act, keywords = self.find_behavior(behavior.name), keyword_names(behavior.name, behavior.parameters)
         self.functions[f"a{number}"] = act
         self.functions[f"b{number}"] = BehaviorRecord(behavior.name, act, behavior.parameters, keywords)
         return BehaviorBinding(f"a{number}", f"b{number}", behavior.parameters, keywords)
 
 
-def _keywords(owner: str, slots: Iterable[TypedSlot]) -> dict[str, str]:
+def keyword_names(owner: str, slots: Iterable[TypedSlot]) -> dict[str, str]:
+    """The keywords of Python for the parameters of a symbol or basic behavior."""
     return {slot.name: python_name(slot.name.removeprefix(f"{owner}.")) for slot in slots}

@@ -1,0 +1,202 @@
+"""A world: typed values of sensors, their age, events in order, commands on change."""
+
+import math
+from typing import Any
+
+import pytest
+
+from tests.bridge.sample_robots import SampleWorld
+from vicode.bridge import Command, Event, Sensor, World
+from vicode.bridge.frames import FrameError
+from vicode.bridge.parameters import ParameterTypes
+
+MS = 1_000_000
+
+
+@pytest.fixture
+def world() -> SampleWorld:
+    return SampleWorld()
+
+
+def receive(world: World, target: str, raw: bytes | list[Any], at_ms: float = 0) -> None:
+    assert world.bridge.receive(target, raw, round(at_ms * MS))
+
+
+def tick(world: World, now_ms: float = 0) -> dict[str, tuple[Any, ...]]:
+    """Begin a tick; return the commands of the one before."""
+    world.bridge.commands.end_tick(world.bridge.time_ns)
+    taken = world.bridge.commands.take()
+    world.bridge.begin_tick(round(now_ms * MS), round(now_ms * MS))
+    return taken
+
+
+def test_values_have_the_declared_types(world: SampleWorld) -> None:
+    for target, raw in (("AHEAD", b" 2.5"), ("INS", [1, 2, 90]), ("LASER", b"1,2, 3"), ("MODE", b" fast \r")):
+        receive(world, target, raw)
+    tick(world)
+    assert world.range_ahead == 2.5
+    assert (world.pose.yaw, world.laser, world.mode) == (90.0, (1.0, 2.0, 3.0), "fast")
+
+
+def test_before_the_first_line_sensors_read_as_initial(world: SampleWorld) -> None:
+    tick(world)
+    assert (world.range_ahead, world.pose.x, world.laser, world.mode) == (9.0, 0.0, (0.0, 0.0, 0.0), "")
+    assert world.range_ahead_is_stale and world.range_ahead_age == math.inf
+    assert world.bridge.readings.age_ns is None
+
+
+def test_only_the_newest_value_counts(world: SampleWorld) -> None:
+    for number in range(10):
+        receive(world, "AHEAD", str(number).encode(), number)
+    tick(world, 20)
+    assert (world.range_ahead, world.range_ahead_age) == (9.0, 0.011)
+    assert world.bridge.readings.age_ns == 11 * MS
+    assert world.bridge.counts.dropped == 9
+
+
+def test_a_value_older_than_max_age_is_stale(world: SampleWorld) -> None:
+    receive(world, "AHEAD", b"2")
+    tick(world, 500)
+    assert (world.range_ahead, world.range_ahead_is_stale) == (2.0, False)
+    tick(world, 501)
+    assert (world.range_ahead, world.range_ahead_is_stale, world.range_ahead_age) == (9.0, True, 0.501)
+    assert world.bridge.readings.age_ns is None
+    assert world.bridge.counts.late == 0
+    receive(world, "AHEAD", b"3")
+    assert (world.range_ahead, world.bridge.counts.late) == (9.0, 1)
+
+
+def test_a_malformed_value_is_reported_and_the_one_before_stays(world: SampleWorld) -> None:
+    receive(world, "INS", b"1,2,3", 0)
+    tick(world, 10)
+    assert world.pose.x == 1
+    receive(world, "INS", b"4,zzz,6", 10)
+    tick(world, 20)
+    assert (world.pose.x, world.pose_age) == (1, 0.02)
+    assert world.bridge.take_problems() == ["INS: y is 'zzz', expected a number"]
+    assert (world.bridge.take_problems(), world.bridge.counts.malformed) == ([], 1)
+
+
+@pytest.mark.parametrize(
+    ("types", "raw", "message"),
+    [
+        (ParameterTypes(value_type=float, least=2, most=2, is_list=True), b"1", "found 1 parameters, expected 2"),
+        (ParameterTypes(value_type=float, least=1, most=3, is_list=True), b"", "expected a number"),
+        (ParameterTypes(value_type=float), b"nan", "parameter 1 is nan, expected a finite number"),
+        (ParameterTypes(value_type=float), b"1e999", "parameter 1 is inf, expected a finite number"),
+        (ParameterTypes(value_type=float, bounds=(0, 20)), b"20.5", "parameter 1 is 20.5, expected 0 to 20"),
+        (ParameterTypes(value_type=float, bounds=(0, 20)), ["a"], "parameter 1 is 'a', expected a number"),
+        (ParameterTypes(value_type=float), [True], "parameter 1 is True, expected a number"),
+        (ParameterTypes(value_type=float), b"\xff", "expected UTF-8"),
+        (ParameterTypes(value_type=int), b"1.5", "parameter 1 is '1.5', expected an integer"),
+        (ParameterTypes(value_type=int), ["1e999"], "parameter 1 is '1e999', expected an integer"),
+        (ParameterTypes(value_type=int, fields=("a",)), ["x" * 99], "a is 'x*"),
+        (ParameterTypes(value_type=bool), b"maybe", "parameter 1 is 'maybe', expected true or false"),
+        (ParameterTypes(value_type=str), [1], "parameter 1 is 1, expected a text"),
+        (ParameterTypes(value_type=str, elements=("left", "right")), b"up", "found 'up', expected left or right"),
+    ],
+)
+def test_what_is_wrong_with_parameters(types: ParameterTypes, raw: Any, message: str) -> None:
+    with pytest.raises(FrameError, match=message):
+        types.convert(raw)
+
+
+@pytest.mark.parametrize(
+    ("types", "raw", "value"),
+    [
+        (ParameterTypes(value_type=int), b"5.0", 5),
+        (ParameterTypes(value_type=int), [7], 7),
+        (ParameterTypes(value_type=bool), b"TRUE", True),
+        (ParameterTypes(value_type=bool), [0], False),
+        (ParameterTypes(value_type=bool), [False], False),
+        (ParameterTypes(value_type=float), ["2.5"], 2.5),
+        (ParameterTypes(value_type=str, elements=("left", "right")), ["right"], "right"),
+        (ParameterTypes(value_type=float, least=0, most=2, is_list=True), [], ()),
+    ],
+)
+def test_parameters_in_both_languages(types: ParameterTypes, raw: Any, value: Any) -> None:
+    assert types.convert(raw) == value
+    assert type(types.convert(raw)) is type(value)
+
+
+def test_each_event_is_visible_in_one_tick_in_order(world: SampleWorld) -> None:
+    for target, raw in (("WHISTLE", b""), ("BUTTON", b"1"), ("BUTTON", b"2"), ("WHISTLE", b""), ("BUTTON", b"x")):
+        receive(world, target, raw)
+    seen = []
+    for _tick in range(4):
+        tick(world)
+        seen.append((world.whistle, world.button))
+    assert seen == [(True, 1), (True, 2), (False, -1), (False, -1)]
+    assert world.bridge.take_problems() == ["BUTTON: parameter 1 is 'x', expected an integer"]
+
+
+def test_of_too_many_events_the_oldest_are_dropped(world: SampleWorld) -> None:
+    for number in range(100):
+        receive(world, "BUTTON", [number])
+    tick(world)
+    assert (world.button, world.bridge.counts.events_dropped) == (36, 36)
+
+
+def test_a_command_is_sent_when_it_changes_and_when_it_is_called_again(world: SampleWorld) -> None:
+    sent = []
+    for call in ((1.0, 0), (1.0, 0), (2.0, 5.5), None, (2.0, 5.5)):
+        tick(world)
+        if call is not None:
+            world.drive(*call)
+        sent.append(dict(tick(world)))
+    assert sent == [{"DRIVE": (1, 0)}, {}, {"DRIVE": (2, 5.5)}, {}, {"DRIVE": (2, 5.5)}]
+
+
+def test_a_command_with_a_rate_is_repeated(world: SampleWorld) -> None:
+    sent = 0
+    for number in range(20):
+        tick(world, number * 50)
+        world.lamp(brightness=1)
+        world.bridge.commands.end_tick(world.bridge.time_ns)
+        sent += "LAMP" in world.bridge.commands.take()
+    assert sent == 10
+
+
+def test_wrong_calls_of_a_command(world: SampleWorld) -> None:
+    with pytest.raises(TypeError, match="drive has no parameter sped; it has speed, turn"):
+        world.drive(sped=1)
+    with pytest.raises(TypeError, match="drive takes 2 parameters, 3 were given"):
+        world.drive(1, 2, 3)
+    with pytest.raises(ValueError, match="speed is nan"):
+        world.drive(speed=math.nan)
+    with pytest.raises(TypeError, match="2 parameters, but stop has 1"):
+        Command("X", "a", "b", stop=(1,))
+
+
+def test_commands_that_wait_are_replaced_by_newer_ones(world: SampleWorld) -> None:
+    for speed in (1, 2, 3):
+        world.drive(speed=speed)
+        world.lamp(speed)
+        world.bridge.commands.end_tick(speed * 1_000 * MS)
+    assert world.bridge.commands.take() == {"DRIVE": (3, 0), "LAMP": (3,)}
+    assert world.bridge.counts.commands_dropped == 4
+    assert world.bridge.commands.stop() == {"DRIVE": (0, 0)}
+
+
+def test_a_world_inherits_and_replaces_declarations() -> None:
+    class Better(SampleWorld):
+        range_ahead = Sensor("FRONT")
+        whistle = None  # type: ignore[assignment]
+        flag = Event("FLAG")
+
+        def __init__(self, number: int) -> None:
+            self.number = number
+
+    world = Better(3)
+    assert (world.number, Better.range_ahead.target) == (3, "FRONT")
+    assert world.bridge.targets == ("FRONT", "INS", "LASER", "MODE", "BUTTON", "FLAG")
+    assert not world.bridge.receive("WHISTLE", b"", 0)
+    assert world.bridge.counts.unknown == 1
+
+
+def test_worlds_do_not_share_values(world: SampleWorld) -> None:
+    receive(world, "AHEAD", b"2")
+    other = SampleWorld()
+    tick(world)
+    tick(other)
+    assert (world.range_ahead, other.range_ahead) == (2.0, 9.0)
