@@ -22,12 +22,13 @@ def receive(world: World, target: str, raw: bytes | list[Any], at_ms: float = 0)
     assert world.bridge.receive(target, raw, round(at_ms * MS))
 
 
-def tick(world: World, now_ms: float = 0) -> dict[str, tuple[Any, ...]]:
-    """Begin a tick; return the commands of the one before."""
-    world.bridge.commands.end_tick(world.bridge.time_ns)
-    taken = world.bridge.commands.take()
+def tick(world: World, now_ms: float = 0) -> None:
     world.bridge.begin_tick(round(now_ms * MS), round(now_ms * MS))
-    return taken
+
+
+def end_tick(world: World) -> dict[str, tuple[Any, ...]]:
+    world.bridge.commands.end_tick(world.bridge.time_ns)
+    return world.bridge.commands.take()
 
 
 def test_values_have_the_declared_types(world: SampleWorld) -> None:
@@ -41,7 +42,7 @@ def test_values_have_the_declared_types(world: SampleWorld) -> None:
 def test_before_the_first_line_sensors_read_as_initial(world: SampleWorld) -> None:
     tick(world)
     assert (world.range_ahead, world.pose.x, world.laser, world.mode) == (9.0, 0.0, (0.0, 0.0, 0.0), "")
-    assert world.range_ahead_is_stale and world.range_ahead_age == math.inf
+    assert (world.range_ahead_is_stale, world.range_ahead_age) == (True, math.inf)
     assert world.bridge.readings.age_ns is None
 
 
@@ -81,7 +82,7 @@ def test_a_malformed_value_is_reported_and_the_one_before_stays(world: SampleWor
     ("types", "raw", "message"),
     [
         (ParameterTypes(value_type=float, least=2, most=2, is_list=True), b"1", "found 1 parameters, expected 2"),
-        (ParameterTypes(value_type=float, least=1, most=3, is_list=True), b"", "expected a number"),
+        (ParameterTypes(value_type=float, least=1, most=3, is_list=True), b"", "found 0 parameters, expected 1 to 3"),
         (ParameterTypes(value_type=float), b"nan", "parameter 1 is nan, expected a finite number"),
         (ParameterTypes(value_type=float), b"1e999", "parameter 1 is inf, expected a finite number"),
         (ParameterTypes(value_type=float, bounds=(0, 20)), b"20.5", "parameter 1 is 20.5, expected 0 to 20"),
@@ -140,10 +141,9 @@ def test_of_too_many_events_the_oldest_are_dropped(world: SampleWorld) -> None:
 def test_a_command_is_sent_when_it_changes_and_when_it_is_called_again(world: SampleWorld) -> None:
     sent = []
     for call in ((1.0, 0), (1.0, 0), (2.0, 5.5), None, (2.0, 5.5)):
-        tick(world)
         if call is not None:
             world.drive(*call)
-        sent.append(dict(tick(world)))
+        sent.append(end_tick(world))
     assert sent == [{"DRIVE": (1, 0)}, {}, {"DRIVE": (2, 5.5)}, {}, {"DRIVE": (2, 5.5)}]
 
 
@@ -152,8 +152,7 @@ def test_a_command_with_a_rate_is_repeated(world: SampleWorld) -> None:
     for number in range(20):
         tick(world, number * 50)
         world.lamp(brightness=1)
-        world.bridge.commands.end_tick(world.bridge.time_ns)
-        sent += "LAMP" in world.bridge.commands.take()
+        sent += "LAMP" in end_tick(world)
     assert sent == 10
 
 

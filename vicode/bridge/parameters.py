@@ -116,7 +116,9 @@ def _convert(value: Any, value_type: type[Any]) -> Any:
         return None
     try:
         number = float(value)
-        return number if value_type is float else int(value) if number == int(number) else None
+        if value_type is float:
+            return number
+        return int(number) if number.is_integer() else None
     except (ValueError, OverflowError):
         return None
 
