@@ -1,9 +1,11 @@
 """A bridge in a few lines: turns each robot once around, in lock step, by the clock, or with the lines of JXI."""
 
 import asyncio
+import contextlib
 import json
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+import threading
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager, contextmanager
 
 
 @asynccontextmanager
@@ -13,29 +15,12 @@ async def fake_bridge(*, greeting: bytes = b"Robot connection accepted\n", error
 
     async def serve(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         tasks.append(asyncio.current_task())
-        writer.write(greeting)
-        turned, yaw, drive, number = 0.0, None, None, 0
-        while line := await reader.readline():
-            is_json = line.startswith(b"{")
-            message = json.loads(line) if is_json else _read_jxi(line)
-            if "hello" in message:
-                writer.write(_json({"error": error} if error else {"welcome": {"robot": message["hello"]["robot"]}}))
-            if "INS" not in message:
-                continue
-            new = float(message["INS"][2])
-            turned += 0.0 if yaw is None else (new - yaw + 180) % 360 - 180
-            yaw, number = new, number + 1
-            before, drive = drive, [0.1, 30] if turned < 360 else [0, 0]
-            state = {"active": [["drive_circle", "turn" if drive[1] else "stop"]]}
-            commands = {"DIFFERENTIALDRIVE": drive} if drive != before else {}
-            if "tick" in message:
-                writer.write(_json({"tick": message["tick"], "commands": commands, "state": state, "age_ms": 0}))
-            elif is_json:
-                writer.write(_json({"commands": commands, "state": state, "age_ms": 1.5}))
-            elif commands:
-                writer.write(f"DIFFERENTIALDRIVE:{drive[0]},{drive[1]}\nUNKNOWN:?\n".encode())
-        writer.close()
-        await writer.wait_closed()
+        with contextlib.suppress(ConnectionError):
+            writer.write(greeting)
+            await _drive(reader, writer, error)
+        with contextlib.suppress(ConnectionError):
+            writer.close()
+            await writer.wait_closed()
 
     server = await asyncio.start_server(serve, "127.0.0.1", 0)
     try:
@@ -43,6 +28,52 @@ async def fake_bridge(*, greeting: bytes = b"Robot connection accepted\n", error
     finally:
         server.close()
         await asyncio.gather(*filter(None, tasks), return_exceptions=True)
+
+
+@contextmanager
+def fake_bridge_thread() -> Iterator[int]:
+    """Yield the port of a bridge that runs in a thread."""
+    ports: list[int] = []
+    started, ended = threading.Event(), asyncio.Event()
+    loop = asyncio.new_event_loop()
+
+    async def run() -> None:
+        async with fake_bridge() as port:
+            ports.append(port)
+            started.set()
+            await ended.wait()
+
+    thread = threading.Thread(target=loop.run_until_complete, args=(run(),))
+    thread.start()
+    started.wait()
+    try:
+        yield ports[0]
+    finally:
+        loop.call_soon_threadsafe(ended.set)
+        thread.join()
+        loop.close()
+
+
+async def _drive(reader: asyncio.StreamReader, writer: asyncio.StreamWriter, error: str) -> None:
+    turned, yaw, drive = 0.0, None, None
+    while line := await reader.readline():
+        is_json = line.startswith(b"{")
+        message = json.loads(line) if is_json else _read_jxi(line)
+        if "hello" in message:
+            writer.write(_json({"error": error} if error else {"welcome": {"robot": message["hello"]["robot"]}}))
+        if "INS" not in message:
+            continue
+        new = float(message["INS"][2])
+        turned += 0.0 if yaw is None else (new - yaw + 180) % 360 - 180
+        yaw, before, drive = new, drive, [0.1, 30] if turned < 360 else [0, 0]
+        state = {"active": [["drive_circle", "turn" if drive[1] else "stop"]]}
+        commands = {"DIFFERENTIALDRIVE": drive} if drive != before else {}
+        if "tick" in message:
+            writer.write(_json({"tick": message["tick"], "commands": commands, "state": state, "age_ms": 0}))
+        elif is_json:
+            writer.write(_json({"commands": commands, "state": state, "age_ms": 1.5}))
+        elif commands:
+            writer.write(f"DIFFERENTIALDRIVE:{drive[0]},{drive[1]}\nUNKNOWN:?\n".encode())
 
 
 def _json(message: object) -> bytes:

@@ -21,6 +21,8 @@ COMMANDS = (
     "docs",
     "run",
     "bridge",
+    "sim",
+    "experiment",
     "deploy",
     "replay",
     "trace",

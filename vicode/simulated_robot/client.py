@@ -25,7 +25,7 @@ class BridgeError(Exception):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RobotHello:
+class HelloMessage:
     """What a robot says first.
 
     Attributes:
@@ -33,6 +33,7 @@ class RobotHello:
         behavior: The agent or design that drives it, "" for the default of the bridge.
         token: The secret of the bridge, if it has one.
         is_lock_step: Whether the robot's messages are the clock.
+        team: Robots with the same behavior and the same team coordinate.
         priority: Its priority in the team.
     """
 
@@ -40,12 +41,14 @@ class RobotHello:
     behavior: str = ""
     token: str = ""
     is_lock_step: bool = False
+    team: str = ""
     priority: int = 0
 
     def to_json(self) -> bytes:
         hello: dict[str, Any] = {"robot": self.robot, "state": True, "pace": "client" if self.is_lock_step else "clock"}
         hello |= {"behavior": self.behavior} if self.behavior else {}
         hello |= {"token": self.token} if self.token else {}
+        hello |= {"team": self.team} if self.team else {}
         hello |= {"priority": self.priority} if self.priority else {}
         return encode_json({"hello": hello})
 
@@ -64,11 +67,13 @@ class Answer:
         commands: New parameters by command.
         active: Active options or components with their states, the root first; None if the message does not say.
         age_ms: Age of the oldest sensor value that the behavior read.
+        errors: What went wrong in the tick: exceptions, and values that could not be read.
     """
 
     commands: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     active: tuple[tuple[str, str], ...] | None = None
     age_ms: float | None = None
+    errors: tuple[str, ...] = ()
 
 
 class RobotConnection:
@@ -78,7 +83,7 @@ class RobotConnection:
         self._reader, self._writer, self._is_jxi = reader, writer, is_jxi
 
     @staticmethod
-    async def connect(host: str, port: int, hello: RobotHello, *, is_jxi: bool = False) -> "RobotConnection":
+    async def connect(host: str, port: int, hello: HelloMessage, *, is_jxi: bool = False) -> "RobotConnection":
         """Connect and say hello.
 
         Raises:
@@ -94,7 +99,7 @@ class RobotConnection:
             raise
         return connection
 
-    async def _greet(self, hello: RobotHello) -> None:
+    async def _greet(self, hello: HelloMessage) -> None:
         greeting = await self._read_line()
         if greeting != GREETING:
             raise BridgeError(f"the server is no bridge: it greets with {greeting[:40]!r}")
@@ -169,13 +174,14 @@ def _decode(line: bytes) -> dict[str, Any]:
 
 def _read_json(line: bytes) -> Answer | None:
     message = _decode(line)
-    if not message.keys() & {"tick", "commands", "state"}:
+    if not message.keys() & {"tick", "commands", "state", "errors"}:
         return None
     active = message.get("state", {}).get("active")
     return Answer(
         commands={name: tuple(values) for name, values in message.get("commands", {}).items()},
         active=None if active is None else tuple((option, state) for option, state in active),
         age_ms=message.get("age_ms"),
+        errors=tuple(map(str, message.get("errors", ()))),
     )
 
 

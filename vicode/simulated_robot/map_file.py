@@ -5,7 +5,7 @@ from pathlib import PurePath
 from typing import cast
 
 from vicode.findings import Finding, sort_findings
-from vicode.simulated_robot.world_map import Circle, StartPose, WorldMap
+from vicode.simulated_robot.world_map import MAPS_FOLDER, Circle, StartPose, WorldMap
 from vicode.store.codec import decode_record
 from vicode.store.documents import read_record
 from vicode.store.format import DOC_KEY, FLOW_WIDTH, NAME, VERSION_KEY
@@ -66,3 +66,22 @@ def read_world_map(text: str | bytes, file: str = "map.yaml") -> MapReadResult:
         return MapReadResult(world_map=None, findings=findings)
     found = cast("WorldMap", decode_record(_MAP, root.value, {"name": PurePath(file).stem}))
     return MapReadResult(world_map=found, findings=findings)
+
+
+def load_world_map(name: str) -> WorldMap:
+    """Load a map that is part of vicode.
+
+    Raises:
+        KeyError: There is no map with this name.
+    """
+    path = MAPS_FOLDER / f"{name}.yaml"
+    if name not in map_names():
+        raise KeyError(name)
+    found = read_world_map(path.read_bytes(), path.name).world_map
+    assert found is not None, f"the map {name} has errors"
+    return found
+
+
+def map_names() -> tuple[str, ...]:
+    """The maps that are part of vicode."""
+    return tuple(sorted(path.stem for path in MAPS_FOLDER.glob("*.yaml")))

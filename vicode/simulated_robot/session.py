@@ -7,16 +7,18 @@ from dataclasses import dataclass, field
 from itertools import count, pairwise
 
 from vicode.simulated_robot.arena import Arena, SimulatedRobot
-from vicode.simulated_robot.client import Answer, RobotConnection, RobotHello, Sensors
+from vicode.simulated_robot.client import Answer, HelloMessage, RobotConnection, Sensors
 from vicode.simulated_robot.world_map import Point
 
 TICK_S = 0.05
 """The pace of the robots: 20 Hz."""
 
+_KEPT_ERRORS = 10
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BridgeAddress:
-    """Where the bridge listens, and how robots talk to it."""
+    """Where the bridge listens, and how robots talk to it; `name` is followed by the number of the robot."""
 
     host: str = "127.0.0.1"
     port: int = 7001
@@ -24,6 +26,7 @@ class BridgeAddress:
     token: str = ""
     is_jxi: bool = False
     name: str = "robot"
+    team: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,6 +53,7 @@ class RobotTrack:
     active: tuple[tuple[str, str], ...] = ()
     age_ms: float | None = None
     ranges: Sequence[float] = ()
+    errors: list[str] = field(default_factory=list)
 
     @property
     def state(self) -> str:
@@ -66,13 +70,8 @@ class RobotTrack:
             self.robot.drive(*command[:2])
         if answer.active is not None:
             self.active = answer.active
+        self.errors += answer.errors[: _KEPT_ERRORS - len(self.errors)]
         self.age_ms = answer.age_ms if answer.age_ms is not None else self.age_ms
-
-    def record(self, time_s: float) -> None:
-        robot = self.robot
-        self.points.append(
-            TrackPoint(time_s=time_s, at=robot.at, yaw=robot.yaw, active=self.active, age_ms=self.age_ms)
-        )
 
 
 class SimulationSession:
@@ -83,8 +82,10 @@ class SimulationSession:
         tracks: What each robot did.
     """
 
-    def __init__(self, arena: Arena, address: BridgeAddress) -> None:
+    def __init__(self, arena: Arena, address: BridgeAddress, *, is_recorded: bool = True) -> None:
+        """Prepare a session; only if it `is_recorded`, the tracks have points."""
         self.arena = arena
+        self._is_recorded = is_recorded
         self.tracks = tuple(RobotTrack(robot) for robot in arena.robots)
         self._address = address
         self._links: tuple[RobotConnection, ...] = ()
@@ -106,7 +107,7 @@ class SimulationSession:
                     link.send_tick(self._sense(track, is_first=tick == 1), time_s=now)
                 for track, link in zip(self.tracks, self._links, strict=True):
                     track.take(await link.read())
-                    track.record(now)
+                    self._record(track)
                 on_tick()
                 if is_over() or now >= seconds:
                     return
@@ -134,7 +135,7 @@ class SimulationSession:
                 self.arena.advance(max(0.0, due - start - self.arena.now_s))
                 for track, link in zip(self.tracks, self._links, strict=True):
                     link.send(self._sense(track, is_first=tick == 1), time_s=round(self.arena.now_s, 6))
-                    track.record(self.arena.now_s)
+                    self._record(track)
                     await link.drain()
                 on_tick()
                 if is_over() or self.arena.now_s >= seconds or group.is_closed:
@@ -143,10 +144,11 @@ class SimulationSession:
     async def _connect(self, stack: AsyncExitStack, *, is_lock_step: bool) -> None:
         address, links = self._address, []
         for track in self.tracks:
-            hello = RobotHello(
+            hello = HelloMessage(
                 robot=f"{address.name}{track.robot.number}",
                 behavior=address.behavior,
                 token=address.token,
+                team=address.team,
                 is_lock_step=is_lock_step,
                 priority=len(self.tracks) - track.robot.number,
             )
@@ -154,6 +156,12 @@ class SimulationSession:
             stack.push_async_callback(link.close)
             links.append(link)
         self._links = tuple(links)
+
+    def _record(self, track: RobotTrack) -> None:
+        if self._is_recorded:
+            time_s, robot = round(self.arena.now_s, 6), track.robot
+            point = TrackPoint(time_s=time_s, at=robot.at, yaw=robot.yaw, active=track.active, age_ms=track.age_ms)
+            track.points.append(point)
 
     def _sense(self, track: RobotTrack, *, is_first: bool) -> Sensors:
         robot = track.robot

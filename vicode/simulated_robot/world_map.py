@@ -43,12 +43,14 @@ class WorldMap:
     starts: tuple[StartPose, ...] = ()
     goals: tuple[Circle, ...] = ()
 
+    def lines(self) -> tuple[tuple[Point, ...], ...]:
+        """All walls as polylines."""
+        return *self.walls, *(_corners(circle) for circle in self.circles)
+
     def segments(self) -> Iterator[Wall]:
         """All walls as straight lines."""
-        for line in self.walls:
+        for line in self.lines():
             yield from pairwise(line)
-        for circle in self.circles:
-            yield from pairwise(_corners(circle))
 
     def bounds(self) -> tuple[float, float, float, float]:
         """The smallest and largest x and y of the walls, or of a square around the starts if there are none."""
@@ -63,9 +65,9 @@ class WorldMap:
         return any(hypot(point[0] - goal.at[0], point[1] - goal.at[1]) <= goal.radius for goal in self.goals)
 
 
-def _corners(circle: Circle) -> list[Point]:
+def _corners(circle: Circle) -> tuple[Point, ...]:
     angles = [2 * pi * number / _CIRCLE_SIDES for number in range(_CIRCLE_SIDES)]
     corners = [
         (circle.at[0] + circle.radius * cos(angle), circle.at[1] + circle.radius * sin(angle)) for angle in angles
     ]
-    return [*corners, corners[0]]
+    return *corners, corners[0]

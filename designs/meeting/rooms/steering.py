@@ -1,0 +1,50 @@
+"""Drives towards a point, and around what the laser sees on the way."""
+
+import math
+from collections.abc import Sequence
+
+Drive = tuple[float, float]
+"""Speed in m/s, and turning speed in degrees/s to the left."""
+
+ARRIVED_M = 0.1
+_CLEARANCE_M = 0.36
+_LOOK_AHEAD_M = 1.2
+_SPEED_M_S, _TURN_DEG_S = 0.4, 60.0
+_CANDIDATES = sorted(range(-90, 91, 10), key=abs)
+_ANGLES = tuple(math.radians(ray - 90) for ray in range(181))
+
+
+def steer(ranges: Sequence[float], bearing: float, distance: float) -> Drive:
+    """Return the drive towards a point.
+
+    Args:
+        ranges: Distances that the laser measures, one per degree, from right to left.
+        bearing: Of the point, in degrees to the left.
+        distance: Of the point, in m.
+    """
+    if distance < ARRIVED_M:
+        return 0.0, 0.0
+    reach = min(distance, _LOOK_AHEAD_M)
+    obstacles = [
+        (near * math.cos(angle), near * math.sin(angle))
+        for near, angle in zip(ranges, _ANGLES, strict=True)
+        if near < reach + _CLEARANCE_M
+    ]
+    directions = sorted((bearing, *_CANDIDATES), key=lambda each: abs(each - bearing))
+    free = {each: _free_path(obstacles, each, reach) for each in directions}
+    best = min(directions, key=lambda each: abs(each - bearing) + 150 * (1 - free[each] / reach))
+    turning_speed = max(-_TURN_DEG_S, min(_TURN_DEG_S, 2.5 * best))
+    ahead = _free_path(obstacles, 0.0, reach)
+    speed = _SPEED_M_S * max(0.0, math.cos(math.radians(best))) ** 2 * min(1.0, ahead / 0.4, distance / 0.3)
+    return speed, turning_speed
+
+
+def _free_path(obstacles: Sequence[tuple[float, float]], direction: float, reach: float) -> float:
+    """How far the robot can drive in a direction without coming closer to an obstacle than its clearance."""
+    ahead, across = math.cos(math.radians(direction)), math.sin(math.radians(direction))
+    free = reach
+    for x, y in obstacles:
+        along, beside = x * ahead + y * across, y * ahead - x * across
+        if along > 0 and abs(beside) < _CLEARANCE_M:
+            free = min(free, max(0.0, along - math.sqrt(_CLEARANCE_M**2 - beside**2)))
+    return free

@@ -1,0 +1,74 @@
+"""A bridge in a process of its own, for the time of an experiment."""
+
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+_ADDRESS = re.compile(r"127\.0\.0\.1:(\d+)")
+_END_TIMEOUT_S = 10.0
+
+
+class BridgeStartError(Exception):
+    """The bridge did not start; the text is what it printed."""
+
+
+@dataclass(slots=True)
+class BridgeUse:
+    """The port of a running bridge; after it has ended, the processor time that it took, and its peak memory."""
+
+    port: int
+    cpu_s: float = 0.0
+    memory_mb: float = 0.0
+
+
+@contextmanager
+def running_bridge(arguments: Sequence[str]) -> Iterator[BridgeUse]:
+    """Run `vicode bridge` with arguments on a free port.
+
+    Raises:
+        BridgeStartError: It ended before it listened.
+    """
+    command = [sys.executable, "-P", "-m", "vicode", "bridge", *arguments, "--port", "0"]
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    with tempfile.TemporaryFile() as errors:
+        process = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=errors, stdin=subprocess.DEVNULL, start_new_session=True
+        )
+        try:
+            use = BridgeUse(_read_port(process))
+            yield use
+        except BridgeStartError as error:
+            process.wait(_END_TIMEOUT_S)
+            errors.seek(0)
+            raise BridgeStartError(f"{error}\n{errors.read().decode(errors='replace')}".strip()) from None
+        finally:
+            _end(process)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    use.cpu_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    use.memory_mb = after.ru_maxrss / 1024
+
+
+def _read_port(process: subprocess.Popen[bytes]) -> int:
+    assert process.stdout is not None
+    printed = ""
+    for line in process.stdout:
+        printed += line.decode(errors="replace")
+        if match := _ADDRESS.search(printed):
+            return int(match.group(1))
+    raise BridgeStartError(f"the bridge did not start: {printed}")
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    process.terminate()
+    try:
+        process.wait(_END_TIMEOUT_S)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+    if process.stdout is not None:
+        process.stdout.close()

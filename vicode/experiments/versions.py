@@ -1,0 +1,110 @@
+"""Both versions of a behavior, the design and the XABSL that is generated from it, and their runs."""
+
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from vicode.experiments.bridge_process import running_bridge
+from vicode.experiments.definitions import Experiment
+from vicode.experiments.page import VersionResult
+from vicode.experiments.runs import run_real_time, run_seeds
+from vicode.generators import UnsoundDesignError, generate
+from vicode.model.design import Design
+from vicode.output import apply_diffs, compare_files
+from vicode.samples import copy_sample
+from vicode.simulated_robot.session import RobotTrack
+from vicode.store import open_project
+
+ProgressCallback = Callable[[str, int, int], None]
+"""Is told what runs, and how many of how many runs are done."""
+
+_REAL_TIME_S = 60.0
+
+
+class ExperimentError(Exception):
+    """The project does not have the behavior, or it has errors; the text says which."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PreparedBehavior:
+    """The design that runs, and the arguments of `vicode bridge` for each version, by title."""
+
+    design: Design
+    bridges: tuple[tuple[str, tuple[str, ...]], ...]
+
+
+@contextmanager
+def prepare_behavior(experiment: Experiment, project_folder: Path | None) -> Iterator[PreparedBehavior]:
+    """Provide both versions until the block ends.
+
+    Args:
+        experiment: The experiment.
+        project_folder: The project to take the behavior from; None for the sample.
+
+    Raises:
+        ExperimentError: The project does not have the behavior, or it has errors.
+        OSError: A file cannot be read or written.
+    """
+    with tempfile.TemporaryDirectory(prefix="vicode-experiment-") as temporary:
+        folder = project_folder
+        if folder is None:
+            folder = Path(temporary, experiment.sample)
+            copy_sample(experiment.sample, folder)
+        project = open_project(folder).project
+        design = next((each for each in project.designs if each.component == experiment.behavior), None)
+        if design is None:
+            raise ExperimentError(f"{folder} has no design '{experiment.behavior}'")
+        try:
+            files = generate(project, components=[experiment.behavior], languages=["xabsl"])
+        except UnsoundDesignError as error:
+            raise ExperimentError(f"{error}; 'vicode check {folder}' says more") from None
+        apply_diffs(compare_files(files, Path(temporary)), Path(temporary))
+        agents = Path(temporary, next(file.path for file in files if file.path.endswith("agents.xabsl")))
+        yield PreparedBehavior(
+            design=design,
+            bridges=(
+                ("design", (str(folder), "--world", experiment.world)),
+                ("XABSL", (str(agents), "--world", experiment.world, "--path", str(folder))),
+            ),
+        )
+
+
+async def run_versions(
+    experiment: Experiment,
+    prepared: PreparedBehavior,
+    *,
+    seeds: int,
+    has_real_time: bool,
+    on_progress: ProgressCallback = lambda _name, _done, _all: None,
+) -> tuple[VersionResult, ...]:
+    """Run both versions with seeds 1 to `seeds`, each with a bridge of its own.
+
+    Raises:
+        BridgeStartError: A bridge did not start.
+        BridgeError: A bridge refused a robot or closed a connection.
+    """
+    maps = experiment.load_maps()
+    versions, done = [], 0
+    total = len(prepared.bridges) * len(maps) * seeds
+
+    def count_run() -> None:
+        nonlocal done
+        done += 1
+        on_progress(title, done, total)
+
+    for title, arguments in prepared.bridges:
+        on_progress(title, done, total)
+        real_time: tuple[RobotTrack, ...] = ()
+        with running_bridge(arguments) as bridge:
+            result = await run_seeds(experiment, maps, range(1, seeds + 1), port=bridge.port, on_run=count_run)
+            if has_real_time:
+                on_progress(f"{title} in real time", done, total)
+                real_time = await run_real_time(experiment, maps[0], port=bridge.port, seconds=_REAL_TIME_S)
+        versions.append(
+            VersionResult(
+                title=title, result=result, real_time=real_time, cpu_s=bridge.cpu_s, memory_mb=bridge.memory_mb
+            )
+        )
+    return tuple(versions)
