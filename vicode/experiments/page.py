@@ -98,6 +98,8 @@ def write_page(experiment: Experiment, design: Design, versions: Sequence[Versio
         passed=sum(not run.problem for run in runs),
         runs=len(runs),
         summary=[_summary(experiment, version, world_map) for world_map in _maps(versions) for version in versions],
+        equal=_count_equal(versions),
+        pairs=len(versions[0].result.runs),
         seeds=[_seed_row(version, run) for version in versions for run in version.result.runs],
         uses=[_use(version) for version in versions],
         states=list(colors.items()),
@@ -109,6 +111,12 @@ def write_page(experiment: Experiment, design: Design, versions: Sequence[Versio
         light=palette_variables(LIGHT),
         dark=palette_variables(DARK),
     )
+
+
+def _count_equal(versions: Sequence[VersionResult]) -> int:
+    """The number of runs in which all versions did the same in every tick."""
+    runs = zip(*(version.result.runs for version in versions), strict=True)
+    return sum(len({tuple(tuple(track.points) for track in run.tracks) for run in pair}) == 1 for pair in runs)
 
 
 def _maps(versions: Sequence[VersionResult]) -> tuple[WorldMap, ...]:

@@ -57,7 +57,7 @@ def prepare_behavior(experiment: Experiment, project_folder: Path | None) -> Ite
         if design is None:
             raise ExperimentError(f"{folder} has no design '{experiment.behavior}'")
         try:
-            files = generate(project, components=[experiment.behavior], languages=["xabsl"])
+            files = generate(project, languages=["xabsl"])
         except UnsoundDesignError as error:
             raise ExperimentError(f"{error}; 'vicode check {folder}' says more") from None
         apply_diffs(compare_files(files, Path(temporary)), Path(temporary))

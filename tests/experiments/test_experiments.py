@@ -1,0 +1,50 @@
+"""The experiments succeed behind a real bridge, as designs and as XABSL, and their pages show it."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from vicode.cli import main
+from vicode.experiments.definitions import EXPERIMENTS
+
+NAMES = sorted(EXPERIMENTS)
+
+
+def run_experiment(name: str, folder: Path, *arguments: str) -> str:
+    assert main(["experiment", name, "--out", str(folder), *arguments]) == 0
+    return (folder / f"{name}.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_design_and_xabsl_succeed_and_do_the_same(name: str, tmp_path: Path) -> None:
+    page = run_experiment(name, tmp_path, "--seeds", "1", "--no-real-time")
+    runs = 2 * len(EXPERIMENTS[name].maps)
+    assert f"{runs} of {runs} runs have succeeded." in page
+    assert f"in {runs // 2} of {runs // 2} runs" in page
+    assert page.count('class="path ') > runs
+    assert ("Who waits for whom" in page) is (name == "meeting")
+
+
+def test_a_page_is_one_file(tmp_path: Path) -> None:
+    page = run_experiment("circle", tmp_path, "--seeds", "2", "--no-real-time")
+    assert not re.search(r'(?:src|href)="|url\(|@import', page)
+    overshoots = re.findall(r'<td class="number">([+-]\d+\.\d\d)</td>', page)
+    assert len(overshoots) == 4
+    assert all(abs(float(overshoot)) <= 5 for overshoot in overshoots)
+    assert [path.name for path in tmp_path.iterdir()] == ["circle.html"]
+
+
+def test_a_project_without_the_behavior_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "blink.yaml").write_text("vicode: 1\ninitial: a\nstates: {a: {}}\n")
+    assert main(["experiment", "circle", "--out", str(tmp_path / "out"), "--project", str(tmp_path)]) == 2
+    assert capsys.readouterr().err == f"vicode: {tmp_path} has no design 'drive_circle'\n"
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("name", NAMES)
+def test_twenty_seeds_succeed(name: str, tmp_path: Path) -> None:
+    page = run_experiment(name, tmp_path, "--seeds", "20")
+    runs = 40 * len(EXPERIMENTS[name].maps)
+    assert f"{runs} of {runs} runs have succeeded." in page
+    assert "the thesis: 30 s after one minute" in page
