@@ -7,7 +7,7 @@ from random import Random
 
 import pymunk
 
-from vicode.simulated_robot.laser import scan, wrap_degrees
+from vicode.simulated_robot.laser import RAYS, scan, wrap_degrees
 from vicode.simulated_robot.world_map import Point, StartPose, Wall, WorldMap
 
 RADIUS_M = 0.25
@@ -18,6 +18,7 @@ _WALL, _ROBOT = 1, 2
 _ROBOT_CATEGORY = 2
 _FASTEST_M_S, _FASTEST_TURN_DEG_S = 1.0, 180.0
 _HEADING_SPREAD_DEG = 15.0
+_NOISE_VALUES = 2000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,6 +130,8 @@ class Arena:
             wall.friction, wall.collision_type = self.physics.wall_friction, _WALL
             self._space.add(wall)
         random = Random(seed)
+        # Drawing 181 numbers for each scan would take longer than the scan.
+        self._laser_noise = [random.gauss(0.0, self.physics.laser_noise) for _ray in range(_NOISE_VALUES + RAYS)]
         poses = world_map.starts or (StartPose(at=(0.0, 0.0), towards=(1.0, 0.0)),)
         self.robots = tuple(self._add_robot(number, poses, random) for number in range(robots))
         self._robot_of = {robot.body: robot for robot in self.robots}
@@ -158,8 +161,9 @@ class Arena:
         """What the laser of a robot measures, in whole mm."""
         discs = [(other.at, RADIUS_M) for other in self.robots if other is not robot]
         exact = scan(robot.at, robot.body.angle, self._walls, discs)
-        noise, gauss = self.physics.laser_noise, robot.random.gauss
-        return [round(max(0.0, each + gauss(0.0, noise)), 3) for each in exact] if noise else exact
+        first = robot.random.randrange(_NOISE_VALUES)
+        noise = self._laser_noise[first : first + RAYS]
+        return [round(each + off, 3) for each, off in zip(exact, noise, strict=True)]
 
     def is_blocked(self, start: Point, end: Point) -> bool:
         """Whether a wall is between two points."""
