@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from vicode.bridge.behaviors import ActiveState, BehaviorError
+from vicode.bridge.behaviors import BehaviorError
 from vicode.bridge.dialects import Dialect, JsonDialect, JxiDialect, Pace, RefusedError, RobotHello
 from vicode.bridge.frames import GREETING, FrameError, LineDecoder, is_json, shorten, show_bytes
 from vicode.bridge.parameters import Raw
@@ -50,7 +50,7 @@ class Connection(asyncio.BufferedProtocol):
         self._error_credit, self._error_s, self._hidden_errors = float(_ERROR_BURST), self.connected_s, 0
         self._clock_offset = _ClockOffset()
         self._tick_ns = 0
-        self._sent_states: list[ActiveState] | None = None
+        self._sent_ticks = 0
         self._is_working = False
         self._transport: asyncio.Transport
 
@@ -193,9 +193,9 @@ class Connection(asyncio.BufferedProtocol):
         robot = self.robot
         if robot is None or self.pace == "client" or not self._may_send():
             return
-        states = robot.behavior.active_states() if self._sends_state and robot.behavior is not None else None
-        if robot.data.commands.has_waiting or (states is not None and states != self._sent_states):
-            self._sent_states = states
+        ticks = robot.data.counts.ticks
+        if robot.data.commands.has_waiting or (self._sends_state and ticks != self._sent_ticks):
+            self._sent_ticks = ticks
             self._has_heard, self._sent_s = False, time.monotonic()
             self._write_commands(robot, self._describe(robot))
 

@@ -164,6 +164,7 @@ def find_bad_implementations(project: Project) -> Iterator[Finding]:
 
 def find_unimplemented_components(project: Project) -> Iterator[Finding]:
     """P209 to P211: components whose outputs nothing provides when the generated Python runs."""
+    has_world = bool(project.world or project.bridge.world)
     for interface in project.components:
         path: DesignPath = ("components", interface.component)
         if interface.implementation == MISSING:
@@ -172,7 +173,7 @@ def find_unimplemented_components(project: Project) -> Iterator[Finding]:
                 message += ": its outputs keep their initial values unless the robot program sets them"
             fix = "add implementation: module:Class when the class exists"
             yield _make_finding("P209", path, message, fix, is_key=True)
-        elif interface.implementation == WORLD and not project.world and "python" in project.languages:
+        elif interface.implementation == WORLD and not has_world and "python" in project.languages:
             message = f"the world provides '{interface.component}', but the project has no world"
             fix = "set world: module:Class, or delete the implementation to set the outputs by hand"
             yield _make_finding("P210", (*path, "implementation"), message, fix)

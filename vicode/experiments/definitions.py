@@ -21,7 +21,6 @@ class Experiment:
         title: Its heading.
         doc: What happens, and when a run has succeeded.
         sample: The sample project with the behavior.
-        world: The class of its world behind the bridge, as module:Class.
         behavior: The design, which is also the option in XABSL.
         maps: Names of the worlds.
         robots: Robots in each world.
@@ -36,7 +35,6 @@ class Experiment:
     title: str
     doc: str
     sample: str
-    world: str
     behavior: str
     maps: tuple[str, ...]
     robots: int = 1
@@ -97,7 +95,6 @@ _EXPERIMENTS = (
         doc="The robot turns around once and stops. "
         "A run has succeeded if it has turned 360° ± 5° and touched nothing.",
         sample="rescue",
-        world="arena.bridge:RescueWorld",
         behavior="drive_circle",
         maps=("arena",),
         seconds=60.0,
@@ -112,7 +109,6 @@ _EXPERIMENTS = (
         doc="The robot finds its way by the least distance in each of seven regions of its laser. "
         "A run has succeeded if the robot reaches the end and has touched nothing.",
         sample="rescue",
-        world="arena.bridge:RescueWorld",
         behavior="walk_corridor",
         maps=("straight", "bent", "t"),
         seconds=240.0,
@@ -125,7 +121,6 @@ _EXPERIMENTS = (
         doc="Four robots cross a room, pass a door one after another (a state with capacity 1), and meet behind it "
         "(a state that all four enter together). A run has succeeded if all have met and none has touched anything.",
         sample="meeting",
-        world="rooms.bridge:MeetingWorld",
         behavior="meet",
         maps=("two_rooms",),
         robots=4,

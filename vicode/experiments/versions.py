@@ -56,6 +56,10 @@ def prepare_behavior(experiment: Experiment, project_folder: Path | None) -> Ite
         design = next((each for each in project.designs if each.component == experiment.behavior), None)
         if design is None:
             raise ExperimentError(f"{folder} has no design '{experiment.behavior}'")
+        if not project.bridge.world:
+            raise ExperimentError(
+                f"the project in {folder} has no world for robots; set bridge: {{world: module:Class}}"
+            )
         try:
             files = generate(project, languages=["xabsl"])
         except UnsoundDesignError as error:
@@ -65,8 +69,8 @@ def prepare_behavior(experiment: Experiment, project_folder: Path | None) -> Ite
         yield PreparedBehavior(
             design=design,
             bridges=(
-                ("design", (str(folder), "--world", experiment.world)),
-                ("XABSL", (str(agents), "--world", experiment.world, "--path", str(folder))),
+                ("design", (str(folder),)),
+                ("XABSL", (str(agents), "--world", project.bridge.world, "--path", str(folder))),
             ),
         )
 
