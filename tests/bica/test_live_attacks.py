@@ -1,0 +1,138 @@
+"""Whatever is sent to the live server, the robot goes on, others are served, and nothing piles up."""
+
+import contextlib
+import gc
+import json
+import random
+import socket
+import threading
+import tracemalloc
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from tests.bica.live_robot import Background, Eyes, Viewer, close_connections, is_iteration, root
+from vicode.bica import Root, live_feed
+from vicode.bica.live_server import LiveServer
+
+__all__ = ["close_connections", "root"]
+
+FRAMES_PER_CONNECTION = 50
+MAX_GROWTH_BYTES = 50_000
+# What may be on its way to a viewer that does not read.
+MAX_BUFFERED_BYTES = 2_000_000
+REQUESTS = ("pause", "resume", "step", "break", "set", "unset", "enter", "raise", "frequency", "tune", "release", "?")
+FIELDS: dict[str, tuple[Any, ...]] = {
+    "robot": ("Lamp", "Lamp", "Lamp", "Nobody", None, []),
+    "component": ("Lamp", "Eyes", "Arms", "", 3, {}),
+    "name": ("distance", "side", "count", "_secret", "__class__", "root", None),
+    "value": (0, 1.5, "Side.left", "nan", True, None, [], {"a": {}}, 10**300, float("nan")),
+    "state": ("Dark", "Lit", "Broken", 1),
+    "count": (1, 10**6, 10**30, -1, True, "1"),
+    "hz": (50, 1e-9, 1e300, float("inf"), "fast"),
+    "places": ([], [["Lamp", "Lit"]], [["Lamp", "", "Lit", None]], [["", "error"]], [[]], [["Lamp", []]], "all", {}),
+    "hold": (True, False, "yes"),
+    "message": ("x", "x" * 5000, 7),
+    "focus": ("Lamp", "Nobody", None, []),
+    "id": (1, None, "a", {"deep": [[[]]]}, 10**40),
+}
+
+
+@pytest.fixture(autouse=True)
+def quiet(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without the lines of the log, which the test would keep."""
+    monkeypatch.setattr(live_feed, "print_error", lambda *_words, **_kind: None)
+
+
+@pytest.fixture
+def measured() -> Iterator[Callable[[], int]]:
+    """Returns the memory in use."""
+    tracemalloc.start()
+
+    def read() -> int:
+        gc.collect()
+        return tracemalloc.get_traced_memory()[0]
+
+    yield read
+    tracemalloc.stop()
+
+
+def make_frame(chance: random.Random) -> bytes:
+    """A request with random fields, a damaged one, or no request at all."""
+    names = chance.sample(sorted(FIELDS), chance.randrange(len(FIELDS)))
+    request = {"robot": "Lamp", "do": chance.choice(REQUESTS), **{name: chance.choice(FIELDS[name]) for name in names}}
+    frame = bytearray(json.dumps(request).encode())
+    match chance.randrange(6):
+        case 0:
+            return chance.randbytes(chance.randrange(200)) + b"\n"
+        case 1:
+            frame[chance.randrange(len(frame))] = chance.randrange(256)
+        case 2:
+            del frame[chance.randrange(len(frame)) :]
+        case 3 if not chance.randrange(20):
+            frame = bytearray(b"[" * chance.randrange(70_000))
+        case _:
+            pass
+    return bytes(frame) + b"\n"
+
+
+def attack(server: LiveServer, chance: random.Random) -> None:
+    """One connection: it sends frames, reads now and then, and ends within a frame."""
+    host, _colon, port = server.address.rpartition(":")
+    with contextlib.suppress(OSError), socket.create_connection((host, int(port)), timeout=10) as connection:
+        if chance.randrange(10):
+            connection.sendall(json.dumps({"token": server.token, "rate_hz": 200}).encode() + b"\n")
+        for _frame in range(FRAMES_PER_CONNECTION):
+            frame = make_frame(chance)
+            parts = (frame[:3], frame[3:]) if chance.randrange(2) else (frame,)
+            for part in parts:
+                connection.sendall(part)
+        connection.settimeout(0.001)
+        with contextlib.suppress(TimeoutError):
+            connection.recv(65_536)
+        connection.sendall(b'{"robot":"La')
+
+
+def expect_newer(viewer: Viewer, iteration: int) -> None:
+    assert viewer.get(lambda line: is_iteration(line) and line["iteration"] > iteration)
+
+
+@pytest.mark.parametrize("frames", [1_000, pytest.param(100_000, marks=pytest.mark.nightly)])
+def test_random_frames_harm_nobody(root: Root, frames: int, measured: Callable[[], int]) -> None:
+    server = root.watch(control=True)
+    good = Viewer(server)
+    threads = threading.active_count()
+    chance = random.Random(frames)
+    root.component(Eyes)
+    memory = 0
+    with Background(root):
+        good.get(is_iteration)
+        connections = frames // FRAMES_PER_CONNECTION
+        for number in range(connections):
+            attack(server, chance)
+            expect_newer(good, root.iteration)
+            if number == connections // 2:
+                memory = measured()
+        assert measured() - memory < MAX_GROWTH_BYTES
+        assert threading.active_count() == threads + 1
+    assert not server.is_closed
+
+
+def test_a_flood_and_a_viewer_that_never_reads_do_not_stop_the_robot(root: Root, measured: Callable[[], int]) -> None:
+    root.component(Eyes).note = "x" * 50_000  # type: ignore[attr-defined]
+    server = root.watch(control=True)
+    slow, good = Viewer(server), Viewer(server)
+    line = json.dumps({"id": 1, "robot": "Lamp", "do": "unset"}).encode() + b"\n"
+    with Background(root):
+        good.get(is_iteration)
+        before = measured()
+        for _round in range(20):
+            with contextlib.suppress(OSError):
+                flooding = Viewer(server)
+                flooding.socket.settimeout(0.05)
+                flooding.socket.sendall(line * 20_000)
+            expect_newer(good, root.iteration)
+            flooding.socket.close()
+        assert measured() - before < MAX_BUFFERED_BYTES
+    slow.socket.close()
