@@ -1,5 +1,7 @@
 """Code is exchanged while it runs: states, times and values stay; on an error, all stays as it was."""
 
+import json
+import socket
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -200,3 +202,18 @@ def test_called_components_go_on_between_two_periods(run: Run) -> None:
 def test_nothing_is_reloaded_without_a_change(run: Run) -> None:
     assert run.reloader.reload() == []
     assert run.reloader.reload_if_asked() == []
+
+
+def test_viewers_get_the_description_of_the_new_code(run: Run) -> None:
+    server = run.root.watch()
+    host, _colon, port = server.address.rpartition(":")
+    with socket.create_connection((host, int(port)), timeout=20) as connection, connection.makefile("rb") as lines:
+        connection.sendall(json.dumps({"token": server.token}).encode() + b"\n")
+        hellos = (hello["robots"][0] for line in lines if "vicode-live" in (hello := json.loads(line)))
+        old = next(hellos)
+        run.change("lamp.yaml", "count: count + 10", "count: count + 20")
+        new = next(hellos)
+        assert new["components"]["Lamp"]["code"] != old["components"]["Lamp"]["code"]
+        run.change("project.yaml", "limit: 3", "limit: 4")
+        assert next(hellos)["shared"] != new["shared"]
+    run.root.close()

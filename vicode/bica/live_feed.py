@@ -56,6 +56,8 @@ class LiveFeed:
         self.answers: deque[tuple[object, dict[str, Any]]] = deque()
         """Viewers and the answers to their requests. Read by the thread of the server."""
         self.is_watched = False
+        self.version = 0
+        """Changes when code was exchanged, after which the robot is described again."""
         self._notify = notify
         self._change_count = 0
         self._requests: deque[tuple[object, dict[str, Any]]] = deque()
@@ -107,6 +109,10 @@ class LiveFeed:
 
     def _set_plain_step(self, step: Callable[[], None]) -> None:
         self._plain_step = step
+        # Code may have been exchanged.
+        _hash_file.cache_clear()
+        self.version += 1
+        self._notify()
 
     def _stop_observing(self) -> None:
         if self._is_observing:
@@ -235,16 +241,21 @@ def _describe_component(component: Component) -> dict[str, Any]:
 
 def _hash_shared_modules(components: Iterable[Component]) -> dict[str, str]:
     """The hashes of the generated modules that the designs share."""
-    files = {inspect.getfile(type(each)) for each in components if each.design_file}
-    paths = (Path(file).with_name(name) for file in files for name in _SHARED_MODULES)
+    files = {_find_source(type(each)) for each in components if each._states}
+    paths = (Path(file).with_name(name) for file in files if file for name in _SHARED_MODULES)
     return {path.name: _hash_file(str(path)) for path in paths if path.is_file()}
 
 
 def hash_source(component_class: type[Component]) -> str:
     """SHA-256 of the file that defines a component, by which a viewer finds its design; "" if there is no file."""
+    file = _find_source(component_class)
+    return _hash_file(file) if file else ""
+
+
+def _find_source(component_class: type[Component]) -> str:
     try:
-        return _hash_file(inspect.getfile(component_class))
-    except TypeError:
+        return inspect.getfile(component_class)
+    except (TypeError, OSError):
         return ""
 
 

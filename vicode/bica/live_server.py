@@ -216,8 +216,14 @@ class LiveServer:
         viewer.is_admitted = True
         self._greet(viewer)
 
+    @property
+    def _versions(self) -> list[tuple[LiveFeed, int]]:
+        """The feeds, which are described again when their code was exchanged."""
+        return [(feed, feed.version) for feed in self._feeds]
+
     def _greet(self, viewer: _Viewer) -> None:
-        viewer.greeted = feeds = self._feeds
+        viewer.greeted = self._versions
+        feeds = [feed for feed, _version in viewer.greeted]
         viewer.seen = {feed: seen for feed, seen in viewer.seen.items() if feed in feeds}
         robots = [feed.describe() for feed in feeds]
         self._send(viewer, {"vicode-live": PROTOCOL_VERSION, "control": self.control, "robots": robots})
@@ -225,13 +231,14 @@ class LiveServer:
     def _deliver(self) -> None:
         """Send answers, and the newest iterations to viewers that can take them."""
         now_s = time.monotonic()
+        versions = self._versions
         for viewer in [*self._viewers]:
             try:
                 if not viewer.is_admitted:
                     if now_s - viewer.connected_s > _HANDSHAKE_LIMIT_S:
                         self._drop(viewer)
                     continue
-                if viewer.greeted is not self._feeds:
+                if viewer.greeted != versions:
                     self._greet(viewer)
                 if not viewer.unsent and now_s >= viewer.due_s:
                     self._send_newest(viewer, now_s)
@@ -343,7 +350,7 @@ class _Viewer:
         self.period_s = 1 / DEFAULT_RATE_HZ
         self.due_s = self.rest_due_s = 0.0
         self.focus = ""
-        self.greeted: list[LiveFeed] | None = None
+        self.greeted: list[tuple[LiveFeed, int]] = []
         self.seen: dict[LiveFeed, tuple[int, int]] = {}
 
     def looks_at(self, feed: LiveFeed) -> bool:

@@ -234,6 +234,7 @@ class RobotLink:
     def follow(self, robot: str) -> None:
         if robot in self.robots and robot != self.followed:
             self.followed = robot
+            self.robots[robot].missed = 0
             self._send_focus()
             self.changes.notify()
 
