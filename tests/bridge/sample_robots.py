@@ -3,7 +3,7 @@
 import asyncio
 import json
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import Any
 
 from vicode.bica import Component, Root, State
 from vicode.bridge import Command, Event, Sensor, World
@@ -89,10 +89,11 @@ def make_server(options: BridgeOptions | None = None, default: str = "follow") -
     return BridgeServer(make_catalog(default), SampleWorld, options or BridgeOptions(port=0, tick_ns=TICK_NS))
 
 
-class RecordingTransport:
+class RecordingTransport(asyncio.Transport):
     """A transport that keeps what is written; `unsent` says how much of it waits."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.written = b""
         self.unsent = 0
         self.is_closed = self.is_paused = False
@@ -101,8 +102,8 @@ class RecordingTransport:
         assert not self.is_closed
         self.written += data
 
-    def get_extra_info(self, name: str) -> Any:
-        return ("192.0.2.1", 4711) if name == "peername" else None
+    def get_extra_info(self, name: str, default: Any = None) -> Any:
+        return ("192.0.2.1", 4711) if name == "peername" else default
 
     def get_write_buffer_size(self) -> int:
         return self.unsent
@@ -113,7 +114,8 @@ class RecordingTransport:
     def close(self) -> None:
         self.is_closed = True
 
-    abort = close
+    def abort(self) -> None:
+        self.is_closed = True
 
     def pause_reading(self) -> None:
         self.is_paused = True
@@ -128,7 +130,7 @@ class Client:
     def __init__(self, server: BridgeServer) -> None:
         self.transport = RecordingTransport()
         self.connection = Connection(server)
-        self.connection.connection_made(cast("asyncio.Transport", self.transport))
+        self.connection.connection_made(self.transport)
 
     def send(self, data: bytes | dict[str, Any]) -> None:
         """Send bytes, or a JSON line, in pieces that fit the buffer."""

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from vicode.bridge.behaviors import BehaviorError
-from vicode.bridge.dialects import Dialect, JsonDialect, JxiDialect, Pace, RefusedError, RobotHello
+from vicode.bridge.dialects import Dialect, JoinRequest, JsonDialect, JxiDialect, Pace, RefusedError
 from vicode.bridge.frames import GREETING, FrameError, LineDecoder, is_json, shorten, show_bytes
 from vicode.bridge.parameters import Raw
 from vicode.bridge.robot import Robot
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _READ_BYTES = 32_768
 _SLICE_S = 0.002
 """So long a connection handles lines before others get their turn."""
-_QUIET_SEND_S = 0.25
+QUIET_SEND_S = 0.25
 """A robot that sends nothing gets commands so often: whether it reads them is not known."""
 _MAX_UNSENT_BYTES = 65_536
 _ERROR_BURST, _ERRORS_PER_S = 5, 1.0
@@ -129,7 +129,7 @@ class Connection(asyncio.BufferedProtocol):
             raise RefusedError("wrong token" if token else "this server needs a token")
         self.is_admitted = True
 
-    def join(self, hello: RobotHello) -> str:
+    def join(self, hello: JoinRequest) -> str:
         if self.robot is not None:
             raise FrameError("the robot has its name already; name it before the first sensor")
         self.pace, self._sends_state = hello.pace, hello.sends_state
@@ -172,7 +172,7 @@ class Connection(asyncio.BufferedProtocol):
 
     def _require_robot(self) -> Robot:
         if self.robot is None:
-            self.join(RobotHello())
+            self.join(JoinRequest())
         assert self.robot is not None
         return self.robot
 
@@ -232,7 +232,7 @@ class Connection(asyncio.BufferedProtocol):
         asyncio.get_running_loop().call_later(_CLOSE_S, self._transport.abort)
 
     def _may_send(self) -> bool:
-        is_free = self._has_heard or time.monotonic() - self._sent_s >= _QUIET_SEND_S
+        is_free = self._has_heard or time.monotonic() - self._sent_s >= QUIET_SEND_S
         return is_free and not self._transport.get_write_buffer_size() and not self._transport.is_closing()
 
     def _describe(self, robot: Robot) -> dict[str, Any]:

@@ -24,7 +24,7 @@ _GREATEST_PRIORITY = 1_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RobotHello:
+class JoinRequest:
     """How a client becomes a robot.
 
     Attributes:
@@ -59,7 +59,7 @@ class Client(Protocol):
             RefusedError: It is wrong.
         """
 
-    def join(self, hello: RobotHello) -> str:
+    def join(self, hello: JoinRequest) -> str:
         """Become a robot, a new one or one that was here before; return its name.
 
         Raises:
@@ -114,7 +114,7 @@ class JxiDialect:
         elif not client.is_admitted:
             raise RefusedError("this server needs a token; send TOKEN:… first")
         elif target == "ROBOT":
-            client.join(RobotHello(name=_text(raw)))
+            client.join(JoinRequest(name=_text(raw)))
         elif target == "BEHAVIOR":
             client.select(_text(raw))
         else:
@@ -176,13 +176,13 @@ def _get(hello: dict[str, Any], key: str) -> str:
     return value
 
 
-def _read_hello(hello: dict[str, Any]) -> RobotHello:
+def _read_hello(hello: dict[str, Any]) -> JoinRequest:
     pace, priority = _get(hello, "pace") or "clock", hello.get("priority")
     if pace not in ("clock", "client"):
         raise RefusedError(f"hello: pace is {show_bytes(pace.encode())}, expected clock or client")
     if priority is not None and (type(priority) is not int or abs(priority) > _GREATEST_PRIORITY):
         raise RefusedError(f"hello: priority is {show_bytes(repr(priority).encode())}, expected an integer")
-    return RobotHello(
+    return JoinRequest(
         name=_get(hello, "robot"),
         pace="client" if pace == "client" else "clock",
         sends_state=hello.get("state") is True,

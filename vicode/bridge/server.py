@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from vicode.bica.loader import describe_user_error
 from vicode.bridge.behaviors import BehaviorCatalog
 from vicode.bridge.connection import Connection
-from vicode.bridge.dialects import RefusedError, RobotHello
+from vicode.bridge.dialects import JoinRequest, RefusedError
 from vicode.bridge.robot import Robot
 from vicode.bridge.world import Counts, World
 
@@ -171,7 +171,7 @@ class BridgeServer:
         else:
             self.on_event(seat.robot.name, f"disconnected; its state is kept for {self.options.grace_s:g} s")
 
-    def join(self, hello: RobotHello, connection: Connection) -> Robot:
+    def join(self, hello: JoinRequest, connection: Connection) -> Robot:
         """Return the robot of this name: that which was here before, or a new one.
 
         Raises:
@@ -194,7 +194,7 @@ class BridgeServer:
                 return seat.robot
         return self._join_new(hello, connection)
 
-    def _join_new(self, hello: RobotHello, connection: Connection) -> Robot:
+    def _join_new(self, hello: JoinRequest, connection: Connection) -> Robot:
         if len(self._seats) >= MAX_CONNECTIONS:
             oldest = min((each for each in self._seats.values() if each.connection is None), key=_left, default=None)
             if oldest is None:
@@ -237,10 +237,11 @@ class BridgeServer:
             self.ticks.skipped += max(0, late)
             number += 1 + max(0, late)
             await asyncio.sleep(max(0.0, start_s + number * tick_s - time.monotonic()))
-            await self._tick_all(round((start_s + number * tick_s) * 1e9))
+            await self.tick_all(round((start_s + number * tick_s) * 1e9))
             self._end_grace_times()
 
-    async def _tick_all(self, at_ns: int) -> None:
+    async def tick_all(self, at_ns: int) -> None:
+        """Run one tick of the robots whose clock is that of the server."""
         self.ticks.run += 1
         speakers, turn_s = self._speakers(), time.monotonic() + _TURN_S
         for seat in [*self._seats.values()]:
