@@ -134,6 +134,20 @@ def test_a_trace_gives_the_same_states_and_a_changed_design_the_first_difference
     ]
 
 
+def test_a_difference_is_explained_with_inputs_of_the_world_and_constants(
+    cars: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    change(cars / "project.yaml", "world: hands:World", "world: hands:World\nconstants: {steep: 2.9}")
+    change(cars / "car.yaml", "road.slope > 2.9", "road.slope > steep")
+    record()
+    change(cars / "project.yaml", "steep: 2.9", "steep: 2.95")
+    capsys.readouterr()
+    assert vicode("replay", "run.jsonl", "--design", "cars") == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "5.900 s, iteration 296: Car: expected Wait, got Drive"
+    assert lines[-2:] == ["    road.slope = 2.9", "    steep = 2.95"]
+
+
 def test_a_tolerance_permits_states_that_change_a_little_later(cars: Path) -> None:
     record(4.8)
     change(cars / "turn.yaml", "0.4", "0.42")

@@ -255,6 +255,7 @@ class _Replay:
 
     def _remember(self, recorded: IterationResult, replayed: IterationResult) -> None:
         for known, iteration in zip(self._values, (recorded, replayed), strict=True):
+            known.update(recorded.inputs)
             known.update((name, each) for name, each in iteration.values() if each)
 
 

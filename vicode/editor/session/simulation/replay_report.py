@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from vicode.editor.session.simulation.replay import Difference
+from vicode.model.constant_folding import evaluate_constants
 from vicode.model.design import COMMON, Design, Guard, Transition
 from vicode.model.project import Project
 from vicode.model.traversal import iter_transitions
@@ -23,7 +24,7 @@ def describe_difference(project: Project, difference: Difference) -> list[str]:
         lines.append(f"  before: {difference.before}")
     design = project.design(difference.component)
     if design is not None and difference.before is not None:
-        lines += _describe_guards(design, difference)
+        lines += _describe_guards(design, difference, evaluate_constants(project))
     return lines
 
 
@@ -31,7 +32,7 @@ def _state(state: str | None) -> str:
     return "no step" if state is None else state
 
 
-def _describe_guards(design: Design, difference: Difference) -> Iterator[str]:
+def _describe_guards(design: Design, difference: Difference, constants: Mapping[str, Any]) -> Iterator[str]:
     """The transitions to either state, from the state before."""
     targets = {difference.expected, difference.got} - {difference.before}
     names: list[str] = []
@@ -52,6 +53,8 @@ def _describe_guards(design: Design, difference: Difference) -> Iterator[str]:
         recorded, replayed = (_find(values, component, output) for values in (difference.recorded, difference.replayed))
         if recorded is not None or replayed is not None:
             yield f"    {name} = {_value(recorded)}" + (f", now {_value(replayed)}" if recorded != replayed else "")
+        elif name in constants:
+            yield f"    {name} = {_value(constants[name])}"
 
 
 def _words(guard: Guard) -> str:
