@@ -107,7 +107,7 @@ def add_header(text: str, source: str, comment: str = "#") -> str:
 
 
 def get_comment_prefix(path: str) -> str:
-    return "#" if path.endswith(".py") else "//"
+    return "#" if path.endswith((".py", ".txt", ".clang-format")) else "//"
 
 
 def has_header(text: str) -> bool:

@@ -25,6 +25,15 @@
 #include <exception>
 #endif
 
+#if defined(ARDUINO)  // macros of Arduino.h
+#undef abs
+#undef degrees
+#undef max
+#undef min
+#undef radians
+#undef round
+#endif
+
 namespace bica {
 
 using Nanoseconds = std::int64_t;
@@ -36,6 +45,7 @@ inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Converts an integer, exact to 2^53.
 constexpr double to_float(std::int64_t x) { return static_cast<double>(x); }
+constexpr double to_float(int x) { return x; }
 constexpr double to_float(double x) { return x; }
 
 /// IEEE division: a division by 0 gives an infinity or nan.
@@ -138,7 +148,7 @@ constexpr Number max(Number a, Number b, More... more) {
 
 template <class Number>
 constexpr Number clamp(Number x, Number low, Number high) {
-    return x < low ? low : high < x ? high : x;
+    return x < low ? low : (high < x ? high : x);
 }
 
 template <class Number>
@@ -444,14 +454,14 @@ protected:
     }
 
     /// Notes that a state was left, for observers, and starts the time of the new one.
-    void change_state(const char* left, const char* transition) {
-        left_ = left;
+    void change_state(const char* transition) {
+        left_ = state_name();
         transition_ = transition;
         entered_ns_ = root.now_ns_;
     }
 
     // What a generated component without these parts uses.
-    void require(std::uint32_t) {}
+    void require(std::uint64_t) {}
     void forget_calls() {}
     void repeat_calls() {}
 
@@ -565,6 +575,10 @@ private:
     std::array<Call, Count> calls_{};
     std::size_t size_ = 0;
 };
+
+/// The calls of up to `Count` components.
+template <std::size_t Count, class... Targets>
+using CallsOf = Calls<Count, max(std::size_t{1}, sizeof(typename Targets::Parameters)...)>;
 
 /// A component with the semantics of the XABSL engine (`arithmetic: xabsl`).
 class XabslComponent : public Component {
@@ -786,7 +800,8 @@ public:
         std::string& text = steps_[size_];
         text.assign("{\"component\": ").append(quoted(component.name()));
         text.append(", \"by\": ").append(active_.empty() ? "null" : quoted(active_.back().component->name()));
-        text.append(active_.empty() ? ", \"link\": \"root\"" : is_modulated ? ", \"link\": \"modulates\"" : ", \"link\": \"requires\"");
+        const char* link = is_modulated ? "modulates" : "requires";
+        text.append(", \"link\": ").append(quoted(active_.empty() ? "root" : link));
         text.append(", \"worked\": ").append(works ? "true" : "false").append(", \"parameters\": {");
         if (is_modulated) {
             Values values(text);
@@ -828,7 +843,8 @@ private:
         void visit(const char* name, std::int64_t value) override { add(name).append(std::to_string(value)); }
         void visit(const char* name, double value) override {
             if (!std::isfinite(value)) {
-                add(name).append(std::isnan(value) ? "\"nan\"" : value > 0 ? "\"inf\"" : "\"-inf\"");
+                const char* infinity = value > 0 ? "\"inf\"" : "\"-inf\"";
+                add(name).append(std::isnan(value) ? "\"nan\"" : infinity);
                 return;
             }
             std::array<char, 32> digits{};

@@ -8,9 +8,12 @@ from functools import lru_cache
 from vicode import regions
 from vicode.check.context import RuleContext
 from vicode.findings import Finding, Span, did_you_mean
-from vicode.languages import GENERATED_LANGUAGES, LANGUAGES
+from vicode.languages import GENERATED_LANGUAGES, LANGUAGES, language_title
+from vicode.model.design import COMMON
+from vicode.model.portable_code import NotPortable, Role, parse_portable
 from vicode.model.python_parser import check_compiles, parse_module
 from vicode.model.snippets import PythonSnippet
+from vicode.model.traversal import LocatedCode
 
 
 def find_unparsable_code(context: RuleContext) -> Iterator[Finding]:
@@ -24,15 +27,30 @@ def find_unparsable_code(context: RuleContext) -> Iterator[Finding]:
 
 
 def find_missing_languages(context: RuleContext) -> Iterator[Finding]:
-    """D414: an action or predicate without code in a target language."""
+    """D414: an action or predicate without code in a target language into which it cannot be translated."""
+    wanted = [language for language in context.project.languages if language in GENERATED_LANGUAGES]
     for placed in context.code_blocks:
+        if placed.role not in ("action", "predicate"):
+            continue
         written = [language for language, _text in placed.code.texts]
-        wanted = [language for language in context.project.languages if language in GENERATED_LANGUAGES]
         missing = [language for language in wanted if language not in written]
-        if missing and placed.role in ("action", "predicate"):
-            names = " and ".join(missing)
-            message, fix = f"this code is missing in {names}", f"add the code in {names}"
-            yield context.make_finding("D414", placed.path, message, fix, languages=tuple(missing))
+        problem = _find_unportable(context, placed) if "cpp" in missing and "python" in written else None
+        if "python" in written and problem is None:
+            missing = [language for language in missing if language != "cpp"]
+        if not missing:
+            continue
+        names = " and ".join(language_title(language) for language in missing)
+        message, fix = f"this code is missing in {names}", f"add the code in {names}"
+        if problem is not None:
+            where = f"state '{placed.state}', " if placed.state and placed.state != COMMON else ""
+            message += f"; it cannot be translated from Python ({where}line {problem.line}: {problem.reason})"
+        yield context.make_finding("D414", placed.path, message, fix, languages=tuple(missing))
+
+
+def _find_unportable(context: RuleContext, placed: LocatedCode) -> NotPortable | None:
+    role: Role = "predicate" if placed.role == "predicate" else "action"
+    portable = parse_portable(placed.code.in_language("python") or "", role, context.scope)
+    return portable if isinstance(portable, NotPortable) else None
 
 
 def find_unknown_languages(context: RuleContext) -> Iterator[Finding]:

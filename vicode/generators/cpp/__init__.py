@@ -26,7 +26,10 @@ def generate_cpp(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ..
         shared["declarations.hpp"] = build_declarations(plan, names)
     if list_interfaces(plan):
         shared["interfaces.hpp"] = build_interfaces(plan, names)
-    files = [OutputFile(path=f"{LANGUAGE}/bica.hpp", text=add_header(read_asset("cpp/bica.hpp"), "bica.hpp", "//"))]
+    files = [
+        OutputFile(path=f"{LANGUAGE}/bica.hpp", text=add_header(read_asset("cpp/bica.hpp"), "bica.hpp", "//")),
+        OutputFile(path=f"{LANGUAGE}/.clang-format", text=add_header(read_asset("cpp/clang-format"), "vicode", "#")),
+    ]
     for name, view in shared.items():
         text = render(f"cpp/{name}.jinja", view=view)
         comment = "#" if name == "CMakeLists.txt" else "//"
@@ -54,7 +57,8 @@ def find_origins(component: ComponentPlan, text: str) -> tuple[Origin, ...]:  # 
 
 def list_regions(component: ComponentPlan) -> Iterator[CodePlan]:
     """Yield the code that is generated as regions."""
-    yield from (code for code in (component.module_code, component.members) if code is not None)
+    sections = (component.module_code, component.members)
+    yield from (code for code in sections if code is not None and code.code.in_language(LANGUAGE) is not None)
     yield from guard_code(component)
     yield from action_code(component)
 
@@ -65,7 +69,8 @@ def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:  #
     shared = ["components.hpp", "CMakeLists.txt", "interfaces.hpp"]
     shared += ["declarations.hpp"] if package.has_declarations else []
     modules = [f"{module}.{suffix}" for module in package.modules.values() for suffix in ("hpp", "cpp")]
-    return (f"{LANGUAGE}/bica.hpp", *(f"{folder}/{name}" for name in (*shared, *modules)))
+    runtime = (f"{LANGUAGE}/bica.hpp", f"{LANGUAGE}/.clang-format")
+    return (*runtime, *(f"{folder}/{name}" for name in (*shared, *modules)))
 
 
 def _component_files(plan: ProjectPlan, component: ComponentPlan, names: GlobalNames) -> tuple[OutputFile, OutputFile]:

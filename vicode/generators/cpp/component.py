@@ -1,13 +1,13 @@
 """Writes the header and the source of one component."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from vicode.generators.cpp.expressions import ExpressionPrinter, format_number
-from vicode.generators.cpp.functions import FunctionWriter, cpp_code
-from vicode.generators.cpp.names import GlobalNames, member_name, state_names
-from vicode.generators.cpp.text import describe, doc_comment, quoted
+from vicode.generators.cpp.functions import FunctionWriter, region, requirements_differ
+from vicode.generators.cpp.names import GlobalNames, argument_name, member_name, state_names
+from vicode.generators.cpp.text import LINE_WIDTH, describe, doc_comment, quoted
 from vicode.generators.cpp.views import ComponentView, FunctionView
 from vicode.generators.plan import (
     INTERFACES_MODULE,
@@ -16,10 +16,12 @@ from vicode.generators.plan import (
     ComponentPlan,
     ProjectPlan,
     StatePlan,
+    UnsoundDesignError,
     ValuePlan,
 )
 from vicode.model.expressions import BOOL, FLOAT, INT
-from vicode.regions import wrap_region
+
+_BITS, _MOST_REQUIRED = "std::uint64_t", 64
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,14 +55,18 @@ class CppComponentWriter:
             name=self.class_name,
             base="bica::XabslComponent" if plan.arithmetic == "xabsl" else "bica::Component",
             doc=tuple(doc_comment(plan.doc or f"The component {plan.component}.")),
-            header=f"{self.global_names.namespace}/{plan.module}.hpp",
+            header=f"{self.project.package.name}/{plan.module}.hpp",
             includes=tuple(self._list_includes()),
             module_code=_region_lines(plan.module_code, 0),
+            state_type="std::uint8_t" if len(plan.states) <= 256 else "std::uint16_t",
             states=tuple(_listed(list(state_names(plan).values()))),
             parameters=tuple(
                 line for value in plan.parameters for line in declare_value(value, self.printer, self.names, 8)
             ),
-            constructor=self._constructor(),
+            declaration=tuple(break_list("    ", f"{self.class_name}(", self._constructor(), ");")),
+            constructor=tuple(
+                break_list("", f"{self.class_name}::{self.class_name}(", self._constructor(), ")", is_explicit=False)
+            ),
             initializers=self._initializers(),
             members=tuple(self._members()),
             initial_state=state_names(plan)[plan.states[0].name],
@@ -72,7 +78,7 @@ class CppComponentWriter:
         )
 
     def _list_includes(self) -> Iterator[str]:
-        package = self.global_names.namespace
+        package = self.project.package.name
         if self.project.package.has_declarations:
             yield f"{package}/declarations.hpp"
         if any(use.module in {"", INTERFACES_MODULE} for use in self.component.uses):
@@ -81,16 +87,16 @@ class CppComponentWriter:
             if use.module not in {"", INTERFACES_MODULE}:
                 yield f"{package}/{use.module}.hpp"
 
-    def _constructor(self) -> str:
-        uses = [f"{self.names.class_name(use.component)}& {member_name(use.alias)}_" for use in self.component.uses]
-        return f"{', '.join(['bica::Root& root_', *uses])}"
+    def _constructor(self) -> tuple[str, ...]:
+        uses = [f"{self.names.class_name(use.component)}& {argument_name(use.alias)}" for use in self.component.uses]
+        return ("bica::Root& root_", *uses)
 
     def _initializers(self) -> tuple[str, ...]:
         plan = self.component
         frequency = [format_number(float(plan.frequency_hz))] if plan.frequency_hz else []
         base = "XabslComponent" if plan.arithmetic == "xabsl" else "Component"
-        first = f"{base}({', '.join(['root_', quoted(plan.component), *frequency])})"
-        return (first, *(f"{member_name(use.alias)}({member_name(use.alias)}_)" for use in plan.uses))
+        first = f"bica::{base}({', '.join(['root_', quoted(plan.component), *frequency])})"
+        return (first, *(f"{member_name(use.alias)}({argument_name(use.alias)})" for use in plan.uses))
 
     def _members(self) -> Iterator[tuple[str, tuple[str, ...]]]:
         plan = self.component
@@ -135,9 +141,7 @@ class CppComponentWriter:
         components = dict.fromkeys(
             next(use.component for use in plan.uses if use.alias == call.alias) for call in calls
         )
-        sizes = [f"sizeof({self.names.class_name(component)}::Parameters)" for component in components]
-        size = sizes[0] if len(sizes) == 1 else f"bica::max({', '.join(sizes)})"
-        return f"bica::Calls<{most}, {size}>"
+        return f"bica::CallsOf<{most}, {', '.join(map(self.names.class_name, components))}>"
 
     def _public_functions(self) -> Iterator[FunctionView]:
         plan = self.component
@@ -181,8 +185,10 @@ class CppComponentWriter:
         body += ["    enter();"] if any(state.enter for state in plan.states) else []
         yield self._define("void", "start", "", body, "")
         if any(state.final for state in plan.states):
-            finals = [f"state_ == State::{names[state.name]}" for state in plan.states if state.final]
-            yield self._define("bool", "in_final_state", "", [f"    return {' || '.join(finals)};"], "const override")
+            body = _grouped_switch(
+                plan.states, names, lambda state: ["            return true;"] if state.final else [], "state_"
+            )
+            yield self._define("bool", "in_final_state", "", _with_return(body, "false"), "const override")
         if any(state.requires for state in plan.states):
             yield from self._require()
         if self._calls():
@@ -196,15 +202,21 @@ class CppComponentWriter:
     def _require(self) -> Iterator[FunctionView]:
         plan, names = self.component, state_names(self.component)
         aliases = list(dict.fromkeys(alias for state in plan.states for alias in state.requires))
+        if len(aliases) > _MOST_REQUIRED:
+            raise UnsoundDesignError(f"{plan.component} requires more than {_MOST_REQUIRED} components")
+        if not requirements_differ(plan):
+            steps = [f"    {member_name(alias)}.step();" for alias in aliases]
+            yield self._define("void", "require", _BITS, steps, "")
+            return
         bits = {alias: 1 << index for index, alias in enumerate(aliases)}
         masks = {state.name: sum(bits[alias] for alias in set(state.requires)) for state in plan.states}
         body = _grouped_switch(
             plan.states,
             names,
-            lambda state: [f"            return {masks[state.name]};"] if masks[state.name] else [],
+            lambda state: [f"            return {masks[state.name]}ULL;"] if masks[state.name] else [],
             "state",
         )
-        yield self._define("std::uint32_t", "required_by", "State state", [*body, "    return 0;"], "", is_static=True)
+        yield self._define(f"{_BITS}", "required_by", "State state", _with_return(body, "0"), "", is_static=True)
         steps = _grouped_switch(
             plan.states,
             names,
@@ -212,18 +224,18 @@ class CppComponentWriter:
                 line
                 for alias in state.requires
                 for line in (
-                    f"            if ((already & {bits[alias]}U) == 0) {{",
+                    f"            if ((already & {bits[alias]}ULL) == 0) {{",
                     f"                {member_name(alias)}.step();",
                     "            }",
                 )
             ],
             "state_",
         )
-        yield self._define("void", "require", "std::uint32_t already", steps, "")
+        yield self._define("void", "require", f"{_BITS} already", steps, "")
 
     def _action_done(self) -> Iterator[str]:
         plan, names = self.component, state_names(self.component)
-        yield from _grouped_switch(
+        body = _grouped_switch(
             plan.states,
             names,
             lambda state: (
@@ -233,7 +245,7 @@ class CppComponentWriter:
             ),
             "state_",
         )
-        yield "    return false;"
+        yield from _with_return(body, "false")
 
     def _team_functions(self) -> Iterator[FunctionView]:
         plan, names = self.component, state_names(self.component)
@@ -245,7 +257,7 @@ class CppComponentWriter:
                 lambda state: [f"            return in_{state.stem}_.may_enter();"] if state in cooperative else [],
                 "next",
             )
-            yield self._define("bool", "may_enter", "State next", [*cases, "    return true;"], "")
+            yield self._define("bool", "may_enter", "State next", _with_return(cases, "true"), "")
             yield self._define("void", "stay", "", ["    may_enter(state_);"], "")
             cases = _grouped_switch(
                 plan.states,
@@ -253,7 +265,7 @@ class CppComponentWriter:
                 lambda state: [f"            return in_{state.stem}_.is_full();"] if state in cooperative else [],
                 "state_",
             )
-            yield self._define("bool", "conflict", "", [*cases, "    return false;"], "const")
+            yield self._define("bool", "conflict", "", _with_return(cases, "false"), "const")
 
     def _define(
         self, type_: str, name: str, parameters: str, body: Iterable[str], suffix: str, *, is_static: bool = False
@@ -276,10 +288,22 @@ def declare_value(value: ValuePlan, printer: ExpressionPrinter, names: GlobalNam
     ]
 
 
-def visits(values: Iterable[ValuePlan]) -> Iterator[str]:
+def break_list(
+    margin: str, before: str, items: Sequence[str], after: str, *, is_explicit: bool | None = None
+) -> list[str]:
+    """The declaration of a constructor; one parameter per line if they do not fit into a line."""
+    explicit = "explicit " if len(items) == 1 and is_explicit is not False else ""
+    line = f"{margin}{explicit}{before}{', '.join(items)}{after}"
+    if len(line) <= LINE_WIDTH:
+        return [line]
+    *first, last = (f"{margin}    {item}" for item in items)
+    return [f"{margin}{explicit}{before}", *(f"{item}," for item in first), f"{last}{after}"]
+
+
+def visits(values: Iterable[ValuePlan], owner: str = "") -> Iterator[str]:
     """The statements that pass values to a visitor."""
     for value in values:
-        name = member_name(value.name)
+        name = f"{owner}{member_name(value.name)}"
         if value.type in (BOOL, INT, FLOAT):
             yield f"visitor.visit({quoted(value.name)}, {name});"
         else:
@@ -294,6 +318,8 @@ def _grouped_switch(
         blocks.setdefault(tuple(write(state)), []).append(state)
     if set(blocks) == {()}:
         return []
+    if len(blocks) == 1 and variable == "state_":
+        return [line[8:] for block in blocks for line in block]
     lines = [f"    switch ({variable}) {{"]
     for block, group in blocks.items():
         if block:
@@ -302,6 +328,11 @@ def _grouped_switch(
     if () in blocks:
         lines += ["        default:", "            break;"]
     return [*lines, "    }"]
+
+
+def _with_return(body: list[str], value: str) -> list[str]:
+    """The body with a final return of a value, unless it ends with a return."""
+    return body if body and body[-1].startswith("    return ") else [*body, f"    return {value};"]
 
 
 def _count_calls(steps: Iterable[object]) -> int:
@@ -313,8 +344,5 @@ def _listed(names: list[str]) -> Iterator[str]:
 
 
 def _region_lines(code: CodePlan | None, indent: int) -> tuple[str, ...]:
-    if code is None:
-        return ()
-    return tuple(
-        wrap_region(code.region_id, cpp_code(code), comment="//", indent=" " * indent).rstrip("\n").split("\n")
-    )
+    text = code.code.in_language("cpp") if code else None
+    return tuple(region(code, text, indent)) if code and text is not None else ()

@@ -1,9 +1,10 @@
 """Prints typed expression trees as C++ with the fewest brackets."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
-from vicode.generators.cpp.names import GlobalNames, member_name
+from vicode.generators.cpp.names import GlobalNames, element_name, member_name
+from vicode.generators.cpp.text import LINE_WIDTH
 from vicode.generators.plan import (
     ComponentPlan,
     Condition,
@@ -43,14 +44,44 @@ _TEMPLATES = frozenset({"abs", "min", "max", "clamp", "sign"})
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A printed expression and the level of its outermost operator."""
+    """A printed expression and the level of its outermost operator; `operands` are those of `&&` or `||`."""
 
     text: str
     level: int = ATOM
+    operator: str = ""
+    operands: "tuple[Text, ...]" = ()
+    is_bracketed: bool = False
 
     def at(self, level: int) -> str:
         """The text, in brackets if an operator of this level needs them."""
         return self.text if self.level >= level else f"({self.text})"
+
+    def bracketed_at(self, level: int) -> "Text":
+        """The same as a text that can be broken into lines."""
+        return self if self.level >= level else replace(self, text=f"({self.text})", level=ATOM, is_bracketed=True)
+
+    def lines(self, before: str, after: str, indent: int) -> list[str]:
+        """The text in one line, or one line per operand if it is too long."""
+        line = f"{before}{self.text}{after}"
+        if len(line) <= LINE_WIDTH or not self.operands:
+            return [line]
+        opening, closing = ("(", ")") if self.is_bracketed else ("", "")
+        inner = indent + (4 if self.is_bracketed else 0)
+        lines: list[str] = []
+        for index, operand in enumerate(self.operands):
+            first = f"{before}{opening}" if index == 0 else " " * (inner + 4)
+            is_last = index == len(self.operands) - 1
+            last = f"{closing}{after}" if is_last else f" {self.operator}"
+            lines += operand.lines(first, last, inner)
+        return lines
+
+
+def chain(operator: str, operands: Sequence[Text]) -> Text:
+    """Operands joined with `&&` or `||`."""
+    # Compilers warn about `a && b || c` without brackets.
+    parts = tuple(operand.bracketed_at(COMPARISON) for operand in operands)
+    level = AND if operator == "&&" else OR
+    return Text(f" {operator} ".join(part.text for part in parts), level, operator, parts)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,7 +126,7 @@ class ExpressionPrinter:
             case Boolean(value=value):
                 return Text(str(value).lower())
             case EnumElement(element=element, type=enumeration):
-                return Text(f"{self.names.declared(enumeration)}::{member_name(element)}")
+                return Text(f"{self.names.declared(enumeration)}::{element_name(element)}")
             case Variable(name=name, kind=kind):
                 is_constant = kind == ScopeSymbolKind.CONSTANT
                 return Text(self.names.declared(name) if is_constant else member_name(name))
@@ -123,9 +154,8 @@ class ExpressionPrinter:
                 return self._comparison(node)
             case Logic(operator=operator, operands=operands):
                 return self._logic(operator, operands)
-            case Ternary(test=test, then=then, otherwise=otherwise):
-                sides = [self._operand(side, node.type) for side in (then, otherwise)]
-                return Text(f"{self.print(test).at(OR)} ? {sides[0].at(OR)} : {sides[1].at(TERNARY)}", TERNARY)
+            case Ternary():
+                return self._ternary(node, node.type)
             case FunctionCall(function=function, arguments=arguments):
                 return self._call(function, arguments)
             case _:
@@ -143,29 +173,27 @@ class ExpressionPrinter:
             case _:
                 return Text(f"when_{condition.code.stem}()")
 
-    def terms(self, conditions: tuple[Condition, ...]) -> list[str]:
-        """The terms of a guard, which `&&` joins."""
-        if len(conditions) == 1:
-            return self._conjuncts(conditions[0]) or [self.condition(conditions[0]).text]
-        terms = [self._conjuncts(each) or [self.condition(each).at(COMPARISON)] for each in conditions]
-        return [term for group in terms for term in group]
-
-    def _conjuncts(self, condition: Condition) -> list[str]:
-        """The operands if the condition is a conjunction."""
-        match condition:
-            case ExpressionCondition(expression=Logic(operator="and", operands=operands)):
-                return [self.print(operand).at(COMPARISON) for operand in operands]
-            case _:
-                return []
+    def guard(self, conditions: tuple[Condition, ...]) -> Text:
+        """All conditions, joined with `&&`."""
+        texts = [self.condition(each) for each in conditions]
+        if len(texts) == 1:
+            return texts[0]
+        return chain("&&", [part for text in texts for part in (text.operands if text.level == AND else (text,))])
 
     def _float(self, node: Expr) -> Text:
         """An operand of a calculation with doubles."""
         value = literal_value(node)
         if node.type == FLOAT:
             return self.print(node)
+        if isinstance(node, Ternary):
+            return self._ternary(node, FLOAT)
         if value is not None:
             return Text(format_number(float(value)), UNARY if value < 0 else ATOM)
         return Text(f"bica::to_float({self.print(node).text})")
+
+    def _ternary(self, node: Ternary, type_: str) -> Text:
+        then, otherwise = (self._operand(side, type_).at(OR) for side in (node.then, node.otherwise))
+        return Text(f"{self.print(node.test).at(OR)} ? {then} : {otherwise}", TERNARY)
 
     def _operand(self, node: Expr, type_: str) -> Text:
         return self._float(node) if type_ == FLOAT else self.print(node)
@@ -177,9 +205,10 @@ class ExpressionPrinter:
             return Text(f"bica::{functions[operator]}({self._float(left).text}, {self._float(right).text})")
         level = SUM if operator in "+-" else PRODUCT
         type_ = FLOAT if operator == "/" else node.type
-        return Text(
-            f"{self._operand(left, type_).at(level)} {operator} {self._operand(right, type_).at(level + 1)}", level
-        )
+        first = self._operand(left, type_)
+        if type_ == INT and _is_c_int(left) and _is_c_int(right):
+            first = Text(f"std::int64_t{{{first.text}}}")
+        return Text(f"{first.at(level)} {operator} {self._operand(right, type_).at(level + 1)}", level)
 
     def _is_nonzero(self, node: Expr) -> bool:
         if isinstance(node, Variable) and node.kind == ScopeSymbolKind.CONSTANT:
@@ -192,17 +221,20 @@ class ExpressionPrinter:
         if len(pairs) == 1:
             return self._compare(*pairs[0])
         if all(_is_simple(operand) for operand in operands[1:-1]):
-            return Text(" && ".join(self._compare(*pair).text for pair in pairs), AND)
-        # Each operand is evaluated at most once, and only if the comparisons before it hold.
-        lines = [f"const auto value_0 = {self.print(operands[0]).text};"]
-        for index, (left, operator, right) in enumerate(pairs):
-            lines.append(f"const auto value_{index + 1} = {self.print(right).text};")
-            sides = [f"value_{index}", f"value_{index + 1}"]
-            if FLOAT in (left.type, right.type) and INT in (left.type, right.type):
-                sides = [f"bica::to_float({side})" for side in sides]
-            test = f"{sides[0]} {operator} {sides[1]}"
-            lines.append(f"return {test};" if index == len(pairs) - 1 else f"if (!({test})) {{ return false; }}")
-        return Text(f"[&] {{ {' '.join(lines)} }}()")
+            return chain("&&", [self._compare(*pair) for pair in pairs])
+        return Text(f"[&] {{ const auto value_0 = {self.print(operands[0]).text}; {self._compared_once(pairs, 0)} }}()")
+
+    def _compared_once(self, pairs: Sequence[tuple[Expr, str, Expr]], index: int) -> str:
+        """The rest of a chain: each operand is evaluated at most once, and only if the comparisons before it hold."""
+        left, operator, right = pairs[index]
+        sides = [f"value_{index}", f"value_{index + 1}"]
+        if FLOAT in (left.type, right.type) and INT in (left.type, right.type):
+            sides = [f"bica::to_float({side})" for side in sides]
+        value = f"const auto value_{index + 1} = {self.print(right).text};"
+        test = f"{sides[0]} {operator} {sides[1]}"
+        if index == len(pairs) - 1:
+            return f"{value} return {test};"
+        return f"{value} return {test} && [&] {{ {self._compared_once(pairs, index + 1)} }}();"
 
     def _compare(self, left: Expr, operator: str, right: Expr) -> Text:
         type_ = FLOAT if FLOAT in (left.type, right.type) else left.type
@@ -210,9 +242,7 @@ class ExpressionPrinter:
         return Text(f"{sides[0]} {operator} {sides[1]}", COMPARISON)
 
     def _logic(self, operator: str, operands: tuple[Expr, ...]) -> Text:
-        # Compilers warn about `a && b || c` without brackets.
-        symbol, level = ("&&", AND) if operator == "and" else ("||", OR)
-        return Text(f" {symbol} ".join(self.print(operand).at(COMPARISON) for operand in operands), level)
+        return chain("&&" if operator == "and" else "||", [self.print(operand) for operand in operands])
 
     def _call(self, function: str, arguments: tuple[Expr, ...]) -> Text:
         if function == "float":
@@ -247,6 +277,19 @@ def format_number(value: float) -> str:
 
 def _digit_groups(value: int) -> str:
     return f"{value:,}".replace(",", "'")
+
+
+def _is_c_int(node: Expr) -> bool:
+    """Whether the type of the printed expression is `int`, in which calculations overflow early."""
+    match node:
+        case Number(type=type_):
+            return type_ == INT
+        case Minus(operand=operand):
+            return _is_c_int(operand)
+        case Ternary(then=then, otherwise=otherwise):
+            return _is_c_int(then) and _is_c_int(otherwise)
+        case _:
+            return False
 
 
 def _is_simple(node: Expr) -> bool:

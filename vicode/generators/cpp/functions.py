@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from vicode.generators.cpp.expressions import ExpressionPrinter, Text
+from vicode.generators.cpp.expressions import ExpressionPrinter
 from vicode.generators.cpp.names import member_name, state_names
 from vicode.generators.cpp.text import LINE_WIDTH, comment, doc_comment, quoted
 from vicode.generators.cpp.views import FunctionView
@@ -22,8 +22,30 @@ from vicode.generators.plan import (
     StateChange,
     StatePlan,
     UnsoundDesignError,
+    UsedComponent,
+    typed_tree,
 )
-from vicode.model.expressions import Binary, OutputRef, ScopeSymbolKind, Variable
+from vicode.model.expressions import (
+    BOOL,
+    UNKNOWN,
+    Binary,
+    OutputRef,
+    Scope,
+    ScopeSymbolKind,
+    Variable,
+    build_scope,
+    walk,
+)
+from vicode.model.portable_code import (
+    PortableAssign,
+    PortableCall,
+    PortableIf,
+    PortableReturn,
+    PortableStatement,
+    Role,
+    always_returns,
+    parse_portable,
+)
 from vicode.regions import wrap_region
 
 INDENT = 4
@@ -82,10 +104,10 @@ class FunctionWriter:
         body += ["    if (next == state_) {", "        return;", "    }"]
         if any(state.leave for state in plan.states):
             body.append("    leave();")
-        requires = any(state.requires for state in plan.states)
+        requires = requirements_differ(plan)
         if requires:
-            body.append("    const std::uint32_t required = required_by(state_);")
-        body += ["    change_state(state_name(), transition);", "    state_ = next;"]
+            body.append("    const std::uint64_t required = required_by(state_);")
+        body += ["    change_state(transition);", "    state_ = next;"]
         if any(state.enter for state in plan.states):
             body.append("    enter();")
         if requires:
@@ -100,6 +122,8 @@ class FunctionWriter:
             blocks.setdefault(tuple(write(state)), []).append(state)
         if set(blocks) == {()}:
             return []
+        if len(blocks) == 1:
+            return [line[2 * INDENT :] for block in blocks for line in block]
         margin = " " * (2 * INDENT)
         lines = ["    switch (state_) {"]
         for block, states in blocks.items():
@@ -127,7 +151,7 @@ class FunctionWriter:
     def _alternative(self, decision: DecisionPlan, indent: int, ended: str) -> list[str]:
         margin = " " * indent
         lines = [
-            *_broken(f"{margin}if (", " &&", self.printer.terms(decision.conditions), ") {"),
+            *self.printer.guard(decision.conditions).lines(f"{margin}if (", ") {", indent),
             *self._outcome(decision, indent + INDENT, ended),
         ]
         match decision.outcome:
@@ -175,19 +199,42 @@ class FunctionWriter:
 
     def _call(self, step: CallStep, indent: int) -> list[str]:
         margin, target = " " * indent, member_name(step.alias)
-        component = next(use.component for use in self.component.uses if use.alias == step.alias)
-        type_ = f"{self.printer.names.class_name(component)}::Parameters"
-        pairs = (*step.arguments, *step.defaults)
+        use = next(use for use in self.component.uses if use.alias == step.alias)
         stored = ", calls_" if self.component.frequency_hz else ""
-        if not pairs:
-            return [f"{margin}call({target}, {type_}{{}}{stored});"]
+        given = dict((*step.arguments, *step.defaults))
+        if not _is_in_order(step, use):
+            return self._call_in_written_order(step, use, stored, indent)
+        count = max((index + 1 for index, value in enumerate(use.parameters) if value.name in given), default=0)
         values = [
-            line
-            for name, value in pairs
-            for line in _statement(f"{margin}    parameters.{member_name(name)} = ", self.printer.print(value))
+            f"/*{value.name}=*/{self.printer.print(given.get(value.name, value.initial)).text}"
+            for value in use.parameters[:count]
         ]
-        head = [f"{margin}{{", f"{margin}    {type_} parameters;"]
-        return [*head, *values, f"{margin}    call({target}, parameters{stored});", f"{margin}}}"]
+        line = f"{margin}call({target}, {{{', '.join(values)}}}{stored});"
+        if len(line) <= LINE_WIDTH or not values:
+            return [line]
+        lines = [f"{margin}        {value}," for value in values]
+        end = [f"{margin}    }},", f"{margin}    calls_);"] if stored else [f"{margin}    }});"]
+        return [f"{margin}call({target},", f"{margin}    {{", *lines, *end]
+
+    def _call_in_written_order(self, step: CallStep, use: UsedComponent, stored: str, indent: int) -> list[str]:
+        """A call whose arguments may change inputs of the world: they are evaluated in the order of the design."""
+        margin = " " * indent
+        type_ = f"{self.printer.names.class_name(use.component)}::Parameters"
+        body = [
+            f"{type_} parameters;",
+            *(
+                f"parameters.{member_name(name)} = {self.printer.print(value).text};"
+                for name, value in (*step.arguments, *step.defaults)
+            ),
+            "return parameters;",
+        ]
+        target = member_name(step.alias)
+        if not stored:
+            lines = [f"{margin}    {line}" for line in body]
+            return [f"{margin}call({target}, [&] {{", *lines, f"{margin}}}());"]
+        lines = [f"{margin}        {line}" for line in body]
+        head = [f"{margin}call(", f"{margin}    {target}, [&] {{"]
+        return [*head, *lines, f"{margin}    }}(),", f"{margin}    calls_);"]
 
     def _assign(self, step: AssignStep, indent: int) -> list[str]:
         margin, value = " " * indent, step.value
@@ -195,24 +242,76 @@ class FunctionWriter:
         if step.alias:
             owner = member_name(step.alias)
             if (step.alias, step.name) in self.printer.inputs:
-                return _statement(f"{margin}{owner}.set_{target}(", self.printer.print(value), ");")
+                return self.printer.print(value).lines(f"{margin}{owner}.set_{target}(", ");", indent)
             target = f"{owner}.{target}"
         match value:
             case Binary(operator="+" | "-" | "*" as operator, left=left, right=right) if left.type == value.type and (
                 _is_target(left, step)
             ):
                 operand = self.printer.print(right) if right.type == value.type else self.printer._float(right)
-                return _statement(f"{margin}{target} {operator}= ", operand)
+                return [f"{margin}{target} {operator}= {operand.text};"]
             case _:
-                return _statement(f"{margin}{target} = ", self.printer.print(value))
+                return self.printer.print(value).lines(f"{margin}{target} = ", ";", indent)
 
     # Hand-written code
 
     def _code_functions(self) -> Iterator[FunctionView]:
         for code in guard_code(self.component):
-            yield self._function("bool", f"when_{code.stem}", "", _region(code), code.doc)
+            body = region(code, self._code(code, "predicate"), INDENT)
+            yield self._function("bool", f"when_{code.stem}", "", body, code.doc)
         for code in action_code(self.component):
-            yield self._function("void", f"do_{code.stem}", "", _region(code), code.doc)
+            body = region(code, self._code(code, "action"), INDENT)
+            yield self._function("void", f"do_{code.stem}", "", body, code.doc)
+
+    def _code(self, code: CodePlan, role: Role) -> str:
+        """The C++ text of hand-written code, translated from Python if it is not written in C++."""
+        written = code.code.in_language("cpp")
+        if written is not None:
+            return written
+        python = code.code.in_language("python")
+        scope = build_scope(self.component.project, self.component.design)
+        statements = parse_portable(python, role, scope) if python is not None else None
+        if not isinstance(statements, tuple):
+            reason = f": {statements.reason}" if statements else ""
+            raise UnsoundDesignError(f"the code of '{code.region_id}' is not written in C++{reason}")
+        lines = self._statements(statements, 0, scope)
+        if role == "predicate" and not always_returns(statements):
+            lines.append("return false;")
+        return "\n".join(lines)
+
+    def _statements(self, statements: Iterable[PortableStatement], indent: int, scope: Scope) -> list[str]:
+        return [line for statement in statements for line in self._statement(statement, indent, scope)]
+
+    def _statement(self, statement: PortableStatement, indent: int, scope: Scope) -> list[str]:
+        margin = " " * indent
+        match statement:
+            case PortableAssign(target=target, value=value):
+                declaration = scope.find_assignable(target)
+                expected = scope.type_of(declaration) if declaration else UNKNOWN
+                alias, _dot, name = target.rpartition(".")
+                step = AssignStep(name=name, value=typed_tree(value, scope, expected), alias=alias)
+                return self._assign(step, indent)
+            case PortableCall(call=call):
+                return self.printer.print(typed_tree(call, scope, None)).lines(margin, ";", indent)
+            case PortableReturn(value=""):
+                return [f"{margin}return;"]
+            case PortableReturn(value=value):
+                return self.printer.print(typed_tree(value, scope, BOOL)).lines(f"{margin}return ", ";", indent)
+            case PortableIf(test=test, then=then, otherwise=otherwise):
+                printed = self.printer.print(typed_tree(test, scope, BOOL))
+                lines = [
+                    *printed.lines(f"{margin}if (", ") {", indent),
+                    *self._statements(then, indent + INDENT, scope),
+                ]
+                match otherwise:
+                    case ():
+                        return [*lines, f"{margin}}}"]
+                    case (PortableIf() as only,):
+                        first, *rest = self._statement(only, indent, scope)
+                        return [*lines, f"{margin}}} else {first.lstrip()}", *rest]
+                    case _:
+                        rest = self._statements(otherwise, indent + INDENT, scope)
+                        return [*lines, f"{margin}}} else {{", *rest, f"{margin}}}"]
 
     def _function(self, type_: str, name: str, parameters: str, body: Sequence[str], doc: str) -> FunctionView:
         defaulted = parameters.replace("const char* transition", "const char* transition = nullptr")
@@ -222,6 +321,11 @@ class FunctionWriter:
             body=tuple(body),
             doc=tuple(doc_comment(doc)),
         )
+
+
+def requirements_differ(component: ComponentPlan) -> bool:
+    """Whether a change of the state may require components that the old state did not."""
+    return len({state.requires for state in component.states}) > 1
 
 
 def action_code(component: ComponentPlan) -> Iterator[CodePlan]:
@@ -242,20 +346,9 @@ def _guard_code(decisions: Iterable[DecisionPlan]) -> Iterator[CodePlan]:
             yield from _guard_code((*decision.outcome.then, *decision.outcome.otherwise))
 
 
-def cpp_code(code: CodePlan) -> str:
-    """The C++ text of hand-written code.
-
-    Raises:
-        UnsoundDesignError: The code is not written in C++.
-    """
-    text = code.code.in_language("cpp")
-    if text is None:
-        raise UnsoundDesignError(f"the code of '{code.region_id}' is not written in C++")
-    return text
-
-
-def _region(code: CodePlan) -> list[str]:
-    return wrap_region(code.region_id, cpp_code(code), comment="//", indent=" " * INDENT).rstrip("\n").split("\n")
+def region(code: CodePlan, text: str, indent: int) -> list[str]:
+    """The lines of hand-written code between marks."""
+    return wrap_region(code.region_id, text, comment="//", indent=" " * indent).removesuffix("\n").split("\n")
 
 
 def _is_target(node: object, step: AssignStep) -> bool:
@@ -268,18 +361,12 @@ def _is_target(node: object, step: AssignStep) -> bool:
             return False
 
 
-def _statement(before: str, value: Text, after: str = ";") -> list[str]:
-    return [f"{before}{value.text}{after}"]
-
-
-def _broken(before: str, separator: str, terms: list[str], after: str) -> list[str]:
-    """The joined terms; one per line if they do not fit into a line."""
-    line = f"{before}{f'{separator} '.join(terms)}{after}"
-    if len(line) <= LINE_WIDTH or len(terms) == 1:
-        return [line]
-    margin = " " * (len(before) - len(before.lstrip()) + INDENT)
-    first, *middle, last = terms
-    return [f"{before}{first}{separator}", *(f"{margin}{term}{separator}" for term in middle), f"{margin}{last}{after}"]
+def _is_in_order(step: CallStep, use: UsedComponent) -> bool:
+    """Whether the order in which the arguments are written does not matter, or is that of the declarations."""
+    names = [name for name, _value in step.arguments]
+    declared = [value.name for value in use.parameters if value.name in names]
+    calls = (isinstance(node, OutputRef) for _name, value in step.arguments for node in walk(value))
+    return names == declared or not any(calls)
 
 
 def _ends(block: Sequence[str]) -> bool:

@@ -1,7 +1,8 @@
 """Names in generated C++: those of the design, with a trailing `_` where C++ or the runtime uses the name itself."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 
 from vicode.generators.plan import ComponentPlan, PackagePlan, ProjectPlan, ValuePlan
 from vicode.languages import LANGUAGES
@@ -11,7 +12,7 @@ RESERVED_MODULES = frozenset({*LANGUAGES["cpp"].keywords, "bica", "components", 
 """File names that no design may use."""
 
 _KEYWORDS = LANGUAGES["cpp"].keywords
-_GLOBAL_NAMES = frozenset({"Components", "State", "World", "bica", "std"})
+_GLOBAL_NAMES = frozenset({"Component", "Components", "State", "World", "XabslComponent", "bica", "root", "std"})
 _MEMBERS = frozenset(
     [
         "Parameters",
@@ -19,6 +20,7 @@ _MEMBERS = frozenset(
         "StepGuard",
         "act",
         "act_common",
+        "already",
         "attempt",
         "attempt_in",
         "begin_iteration",
@@ -41,9 +43,12 @@ _MEMBERS = frozenset(
         "may_enter",
         "must_work",
         "name",
+        "next",
+        "parameters",
         "period_ns",
         "repeat_calls",
         "require",
+        "required",
         "required_by",
         "restart_again",
         "restart_times",
@@ -58,31 +63,86 @@ _MEMBERS = frozenset(
         "transition",
         "visit_parameters",
         "visit_values",
+        "visitor",
         "was_stepped",
     ]
 )
+
+
+# With a trailing `_` these are data members of generated classes.
+_STORED = frozenset({"calls", "root", "state", "world"})
 
 
 def namespace(package: PackagePlan) -> str:
     return escape(package.name, _GLOBAL_NAMES)
 
 
+# Macros of the standard headers and of POSIX; Arduino has more, which bica.hpp undefines.
+_MACRO_LIST = """
+BIG_ENDIAN BUFSIZ BYTE_ORDER EOF EXIT_FAILURE EXIT_SUCCESS FILENAME_MAX FOPEN_MAX HUGE_VAL INFINITY LITTLE_ENDIAN NAN
+NULL PDP_ENDIAN RAND_MAX SNAN TIME_UTC TMP_MAX WEOF alloca assert errno linux offsetof stderr stdin stdout unix
+E2BIG EACCES EAGAIN EALREADY EBADE EBADF EBADR EBFONT EBUSY ECANCELED ECHILD ECOMM EDEADLK EDOM EDQUOT EEXIST EFAULT
+EFBIG EIDRM EILSEQ EINTR EINVAL EIO EISCONN EISDIR ELOOP EMFILE EMLINK ENFILE ENODATA ENODEV ENOENT ENOEXEC ENOLCK
+ENOLINK ENOMEM ENOMSG ENONET ENOSPC ENOSR ENOSTR ENOSYS ENOTBLK ENOTDIR ENOTSUP ENOTTY ENXIO EPERM EPIPE EPROTO ERANGE
+EREMOTE EROFS ESPIPE ESRCH ESTALE ETIME ETIMEDOUT EUCLEAN EUNATCH EUSERS EXDEV EXFULL
+"""
+_MACROS = frozenset(_MACRO_LIST.split())
+_MACRO_FAMILY = re.compile(
+    r"(INT|UINT|SIZE|PTRDIFF|SIG_ATOMIC|WINT|WCHAR)\w*_(MAX|MIN|WIDTH|C)|(CLOCK|CPU|FP|LC|M|MOD|SEEK|STA)_[A-Z0-9_]+",
+    re.ASCII,
+)
+# Functions of generated code, such as do_kick() and when_kick_to_wait(), and its local variables.
+_GENERATED_NAME = re.compile(r"(do|when|in)_\w*|value_\d+", re.ASCII)
+
+
 def escape(name: str, taken: Iterable[str] = ()) -> str:
-    """The name, with a trailing `_` if it is a keyword or taken."""
-    while name in _KEYWORDS or name in taken:
-        name += "_"
-    return name
+    """The name, with a trailing `_` (`_2`, `_3`, …) if it is a keyword, a macro or taken."""
+    taken = {*taken}
+    free, number = name, 1
+    while free in _KEYWORDS or free in taken or free in _MACROS or _MACRO_FAMILY.fullmatch(free):
+        # Two `_` in a row are reserved.
+        free = f"{name.rstrip('_')}_" if number == 1 and not name.endswith("_") else f"{name.rstrip('_')}_{number}"
+        number += 1
+    return free
 
 
 def member_name(name: str) -> str:
-    """The name of a value or used component in its class."""
-    return escape(name, _MEMBERS)
+    """The name of a value or used component in its class; different names stay different."""
+    return _distinct(name, _is_reserved_member)
+
+
+def argument_name(alias: str) -> str:
+    """The name of the argument of the constructor that a data member is initialized with."""
+    name = member_name(alias)
+    return f"{name}0" if name.endswith("_") else f"{name}_"
+
+
+def element_name(name: str) -> str:
+    """The name of an element of an enumeration."""
+    return _distinct(name, lambda each: escape(each) != each)
+
+
+def _distinct(name: str, is_reserved: Callable[[str], bool]) -> str:
+    """A reserved name gets a trailing `_`; a name that another one may get, a trailing 0."""
+    base, underscore, zeros = name.rpartition("_")
+    if underscore and not zeros.strip("0") and is_reserved(base):
+        return f"{name}0"
+    return f"{name}_" if is_reserved(name) else name
+
+
+def _is_reserved_member(name: str) -> bool:
+    return name in _MEMBERS or name in _STORED or escape(name) != name or bool(_GENERATED_NAME.fullmatch(name))
 
 
 def state_names(component: ComponentPlan) -> dict[str, str]:
     """The elements of the enumeration of the states; a name that starts with a digit gets a leading `S`."""
-    names = (state.name for state in component.states)
-    return {name: escape(f"S{name}" if name[0].isdigit() or name[0] == "_" else name) for name in names}
+    taken: set[str] = set()
+    names = {}
+    for state in component.states:
+        name = state.name
+        names[name] = escape(f"S{name}" if name[0].isdigit() or name[0] == "_" else name, taken)
+        taken.add(names[name])
+    return names
 
 
 def world_name(value: ValuePlan) -> str:
@@ -96,27 +156,29 @@ class GlobalNames:
 
     namespace: str
     names: dict[str, str]
+    classes: dict[str, str]
     members: frozenset[str] = frozenset()
 
     @classmethod
     def of_project(cls, plan: ProjectPlan) -> "GlobalNames":
-        used = [use.component for design in plan.project.designs for use in design.uses]
-        classes = {escape(name, _GLOBAL_NAMES) for name in (*plan.package.modules, *plan.package.interfaces, *used)}
+        classes = {name: escape(name, _GLOBAL_NAMES | _members(plan, name)) for name in plan.project.interfaces()}
         names = {}
+        taken = _GLOBAL_NAMES | _MEMBERS | set(classes.values())
         for declared in [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]:
-            names[declared] = escape(declared, classes | _GLOBAL_NAMES)
-        return cls(namespace(plan.package), names)
+            names[declared] = escape(declared, taken)
+            taken |= {names[declared]}
+        return cls(namespace(plan.package), names, classes)
 
     def inside(self, members: Iterable[str]) -> "GlobalNames":
         """The names as a class with these members must write them."""
-        return GlobalNames(self.namespace, self.names, frozenset(members))
+        return replace(self, members=frozenset(members))
 
     def declared(self, name: str) -> str:
         """An enumeration or constant."""
         return self._qualified(self.names[name])
 
     def class_name(self, component: str) -> str:
-        return self._qualified(escape(component, _GLOBAL_NAMES))
+        return self._qualified(self.classes[component])
 
     def type_name(self, type_: str) -> str:
         """The C++ type of a value."""
@@ -124,6 +186,15 @@ class GlobalNames:
 
     def _qualified(self, name: str) -> str:
         return f"::{self.namespace}::{name}" if name in self.members else name
+
+
+def _members(plan: ProjectPlan, component: str) -> set[str]:
+    """The members of a class, which cannot have its name."""
+    interface, design = plan.project.interface(component), plan.project.design(component)
+    declared = (*interface.parameters, *interface.readable) if interface else ()
+    own = (*(value for _section, value in design.declarations()), *declared) if design else declared
+    aliases = (use.alias for use in design.uses) if design else ()
+    return {member_name(name) for name in (*(value.name for value in own), *aliases)} | _MEMBERS
 
 
 _TYPES = {"bool": "bool", "int": "std::int64_t", "float": "double"}

@@ -2,12 +2,13 @@
 
 from collections.abc import Iterable, Iterator
 
-from vicode.generators.cpp.component import declare_value, visits
+from vicode.generators.cpp.component import break_list, declare_value, visits
 from vicode.generators.cpp.expressions import ExpressionPrinter, format_number
-from vicode.generators.cpp.names import GlobalNames, escape, member_name, world_name
+from vicode.generators.cpp.names import GlobalNames, element_name, escape, member_name, world_name
 from vicode.generators.cpp.text import describe, doc_comment, quoted
 from vicode.generators.cpp.views import CppEnumerationView, CppInterfaceView, ProjectView
 from vicode.generators.plan import FunctionPlan, InterfacePlan, ProjectPlan, ValuePlan, plan_interface
+from vicode.generators.plan.names import NameAllocator
 from vicode.model.expressions import FunctionCall, walk
 from vicode.model.names import python_attribute_name, snake_case
 from vicode.model.project import WORLD, Enumeration, Interface
@@ -16,6 +17,7 @@ from vicode.model.project import WORLD, Enumeration, Interface
 def build_declarations(plan: ProjectPlan, names: GlobalNames) -> ProjectView:
     printer = ExpressionPrinter(names=names, nonzero_constants=plan.nonzero_constants)
     return ProjectView(
+        package=plan.package.name,
         namespace=names.namespace,
         title=f"Enumerations and constants of the project {plan.name}.",
         doc=(),
@@ -29,6 +31,7 @@ def build_interfaces(plan: ProjectPlan, names: GlobalNames) -> ProjectView:
     interfaces = [plan_interface(plan.project, item) for item in list_interfaces(plan)]
     uses_world = any(item.implementation == WORLD for item in interfaces)
     return ProjectView(
+        package=plan.package.name,
         namespace=names.namespace,
         title=f"Components of the project {plan.name} that have no design.",
         doc=(),
@@ -43,26 +46,29 @@ def build_components(plan: ProjectPlan, names: GlobalNames) -> ProjectView:
     interfaces = {item.component: item for item in list_interfaces(plan)}
     abstract = [item.component for item in interfaces.values() if not item.is_generated]
     needs_world = any(item.implementation == WORLD for item in interfaces.values())
-    parameters = ["bica::Root& root", *(["World& world"] if needs_world else [])]
-    parameters += [f"{names.class_name(component)}& {_member(component)}_" for component in abstract]
     own = [item.component for item in interfaces.values() if item.is_generated]
+    allocator = NameAllocator(frozenset({"root", "world"}))
+    members = {name: escape(allocator.allocate(snake_case(name))) for name in (*abstract, *own, *plan.package.modules)}
     uses = {item.component: [use.component for use in item.uses] for item in plan.components}
     ordered = [*own, *_in_order_of_use(uses)]
+    parameters = ["bica::Root& root", *(["World& world"] if needs_world else [])]
+    parameters += [f"{names.class_name(component)}& {members[component]}_" for component in abstract]
     initializers = []
     for component in ordered:
         arguments = ["root"]
         if component in interfaces:
             arguments += ["world"] if interfaces[component].implementation == WORLD else []
         else:
-            arguments += [f"{_member(use)}_" if use in abstract else _member(use) for use in uses[component]]
-        initializers.append(f"{_member(component)}({', '.join(arguments)})")
+            arguments += [f"{members[use]}_" if use in abstract else members[use] for use in uses[component]]
+        initializers.append(f"{members[component]}({', '.join(arguments)})")
     return ProjectView(
+        package=plan.package.name,
         namespace=names.namespace,
         title=f"The components of the project {plan.name}.",
         doc=tuple(doc_comment(plan.doc)),
-        includes=tuple(f"{names.namespace}/{item.module}.hpp" for item in plan.components),
-        components=tuple(f"    {_qualified(names, component)} {_member(component)};" for component in ordered),
-        constructor=", ".join(parameters),
+        includes=tuple(f"{plan.package.name}/{item.module}.hpp" for item in plan.components),
+        components=tuple(f"    {_qualified(names, each, members[each])} {members[each]};" for each in ordered),
+        constructor=tuple(break_list("    ", "Components(", parameters, ")")),
         initializers=tuple(initializers),
         sources=tuple(f"{item.module}.cpp" for item in plan.components),
     )
@@ -78,13 +84,9 @@ def _frequency(plan: ProjectPlan, component: str) -> float | None:
     return interface.frequency_hz if interface else None
 
 
-def _member(component: str) -> str:
-    return escape(snake_case(component), ("root", "world"))
-
-
-def _qualified(names: GlobalNames, component: str) -> str:
+def _qualified(names: GlobalNames, component: str, member: str) -> str:
     name = names.class_name(component)
-    return f"::{names.namespace}::{name}" if name == _member(component) else name
+    return f"::{names.namespace}::{name}" if name == member else name
 
 
 def _in_order_of_use(uses: dict[str, list[str]]) -> list[str]:
@@ -106,12 +108,12 @@ def _in_order_of_use(uses: dict[str, list[str]]) -> list[str]:
 def _enumeration(item: Enumeration, names: GlobalNames) -> CppEnumerationView:
     name = names.declared(item.name)
     elements = [
-        line for element, doc in item.elements for line in (*doc_comment(doc, 4), f"    {member_name(element)},")
+        line for element, doc in item.elements for line in (*doc_comment(doc, 4), f"    {element_name(element)},")
     ]
     cases = [
         line
         for element in item.element_names
-        for line in (f"        case {name}::{member_name(element)}:", f"            return {quoted(element)};")
+        for line in (f"        case {name}::{element_name(element)}:", f"            return {quoted(element)};")
     ]
     return CppEnumerationView(name=name, doc=tuple(doc_comment(item.doc)), elements=tuple(elements), cases=tuple(cases))
 
@@ -132,7 +134,9 @@ def _interface(item: InterfacePlan, frequency: float | None, names: GlobalNames)
     values = list(item.stored_values)
     inner = names.inside(member_name(value.name) for value in (*values, *item.outputs, *item.variables))
     printer = ExpressionPrinter(names=inner)
-    stored = values if is_world else [*item.parameters, *item.outputs, *item.variables]
+    stored = [] if is_world else [*item.outputs, *item.variables]
+    hidden = {value.name for value in stored}
+    shown = [value for value in item.parameters if value.name not in hidden]
     return CppInterfaceView(
         name=names.class_name(item.component),
         title=item.component,
@@ -141,13 +145,10 @@ def _interface(item: InterfacePlan, frequency: float | None, names: GlobalNames)
         uses_world=is_world,
         frequency=format_number(float(frequency)) if frequency else "",
         parameters=tuple(line for value in item.parameters for line in declare_value(value, printer, inner, 8)),
-        assignments=tuple(
-            f"        {member_name(each.name)} = parameters.{member_name(each.name)};" for each in item.parameters
-        ),
         members=tuple(line for value in stored for line in declare_value(value, printer, inner, 4)),
         functions=tuple(_world_functions(item, inner) if is_world else _functions(item, inner, printer, is_abstract)),
-        visits=tuple(f"        {line}" for line in visits(stored)),
-        parameter_visits=tuple(f"        {line}" for line in visits(item.parameters)),
+        visits=tuple(f"        {line}" for line in (*visits(shown, "parameters."), *visits(stored))),
+        parameter_visits=tuple(f"        {line}" for line in visits(item.parameters, "parameters.")),
     )
 
 
@@ -180,7 +181,7 @@ def _world_functions(item: InterfacePlan, names: GlobalNames) -> Iterator[str]:
         call = f"world_.{world_name(function.result)}({passed})"
         yield f"    {type_} {name}({_arguments(function, names)}) const {{ return {call}; }}"
     if item.is_behavior:
-        passed = ", ".join(member_name(value.name) for value in item.parameters)
+        passed = ", ".join(f"parameters.{member_name(value.name)}" for value in item.parameters)
         yield f"    void work() override {{ world_.{_behavior_name(item)}({passed}); }}"
 
 

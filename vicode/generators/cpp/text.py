@@ -43,10 +43,11 @@ def describe(value: ValuePlan) -> str:
 
 def quoted(text: str) -> str:
     """A string literal in UTF-8."""
-    return '"' + "".join(_ESCAPES.get(char) or _escaped(char) for char in text) + '"'
+    escaped = "".join(_ESCAPES.get(char) or _escaped(char) for char in text)
+    return '"' + escaped.replace("??", "?\\?") + '"'
 
 
-_ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "?": "?"}
+_ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t"}
 
 
 def _escaped(char: str) -> str:
@@ -55,4 +56,6 @@ def _escaped(char: str) -> str:
 
 
 def _printable(text: str) -> str:
-    return "".join(char if char.isprintable() else "?" for char in escape_marks(text))
+    printable = "".join(char if char.isprintable() else "?" for char in escape_marks(text))
+    # Compilers warn about trigraphs in comments.
+    return printable.replace("??", "? ?")

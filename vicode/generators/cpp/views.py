@@ -26,9 +26,11 @@ class ComponentView:
     header: str
     includes: Lines
     module_code: Lines
+    state_type: str
     states: Lines
     parameters: Lines
-    constructor: str
+    declaration: Lines
+    constructor: Lines
     initializers: Lines
     members: tuple[tuple[str, Lines], ...]
     initial_state: str
@@ -50,7 +52,6 @@ class CppInterfaceView:
     uses_world: bool
     frequency: str
     parameters: Lines
-    assignments: Lines
     members: Lines
     functions: Lines
     visits: Lines
@@ -71,6 +72,7 @@ class CppEnumerationView:
 class ProjectView:
     """What the project's shared files contain; `components` are pairs of member and class in the order of creation."""
 
+    package: str
     namespace: str
     title: str
     doc: Lines
@@ -81,6 +83,6 @@ class ProjectView:
     interfaces: tuple[CppInterfaceView, ...] = ()
     includes: Lines = ()
     components: Lines = ()
-    constructor: str = ""
+    constructor: Lines = ()
     initializers: Lines = ()
     sources: Lines = ()

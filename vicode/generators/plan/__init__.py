@@ -1,7 +1,7 @@
 """The language-neutral plan of a project: names, order and typed expression trees."""
 
 from vicode.generators.plan.component import INTERFACES_MODULE, plan_component
-from vicode.generators.plan.expressions import UnsoundDesignError, literal_value
+from vicode.generators.plan.expressions import UnsoundDesignError, literal_value, typed_tree
 from vicode.generators.plan.interfaces import plan_interface
 from vicode.generators.plan.plan_types import (
     ActionStep,
@@ -58,4 +58,5 @@ __all__ = [
     "plan_interface",
     "plan_package",
     "plan_project",
+    "typed_tree",
 ]

@@ -129,14 +129,18 @@ def _plan_use(project: Project, modules: Mapping[str, str], alias: str, componen
         raise UnsoundDesignError(f"the component '{component}' is not declared")
     scope = build_scope(project, None)
     functions = plan_functions(interface.readable, scope)
+    parameters = plan_values(interface.parameters, scope)
     if component in modules:
-        return UsedComponent(alias=alias, component=component, module=modules[component])
+        return UsedComponent(
+            alias=alias, component=component, module=modules[component], parameters=parameters, functions=functions
+        )
     module = INTERFACES_MODULE if interface.is_generated else ""
     return UsedComponent(
         alias=alias,
         component=component,
         module=module,
         implementation="" if module else interface.implementation,
+        parameters=parameters,
         functions=functions,
         inputs=plan_values(interface.outputs, scope) if interface.implementation == WORLD else (),
     )

@@ -36,8 +36,8 @@ class UnsoundDesignError(ValueError):
     """Code was requested for a design that has errors."""
 
 
-def typed_tree(text: str, scope: Scope, expected: str) -> Expr:
-    """Parse an expression and convert it to the expected type.
+def typed_tree(text: str, scope: Scope, expected: str | None) -> Expr:
+    """Parse an expression and convert it to the expected type; None for any.
 
     Raises:
         UnsoundDesignError: The expression has errors.
@@ -50,7 +50,7 @@ def typed_tree(text: str, scope: Scope, expected: str) -> Expr:
     return as_type(_with_conversions(parsed.tree, scope) if has_conversions else parsed.tree, expected)
 
 
-def as_type(node: Expr, expected: str) -> Expr:
+def as_type(node: Expr, expected: str | None) -> Expr:
     """Convert an int node to float where a float is expected."""
     if expected != FLOAT or node.type != INT:
         return node

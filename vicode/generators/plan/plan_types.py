@@ -41,6 +41,7 @@ class UsedComponent:
     component: str
     module: str = ""
     implementation: str = ""
+    parameters: tuple[ValuePlan, ...] = ()
     functions: tuple[FunctionPlan, ...] = ()
     inputs: tuple[ValuePlan, ...] = ()
 

@@ -15,7 +15,14 @@ from vicode.generators.plan import (
 from vicode.generators.python.expression_doc import format_statement
 from vicode.generators.python.expression_printer import PythonExpressionPrinter, format_number
 from vicode.generators.python.imports import RUNTIME, Import, format_imports
-from vicode.generators.python.methods import BODY_INDENT, METHOD_INDENT, MethodWriter, method_code, python_code
+from vicode.generators.python.methods import (
+    BODY_INDENT,
+    METHOD_INDENT,
+    MethodWriter,
+    method_code,
+    python_code,
+    section_code,
+)
 from vicode.generators.python.names import component_class_name, names_in_code
 from vicode.generators.python.parameters import modulate_method
 from vicode.generators.python.pretty_printer import (
@@ -120,9 +127,8 @@ class ComponentWriter:
         return tuple(tuple(format_imports(imports)) for imports in (runtime, hand_written, own) if imports)
 
     def _hand_written_code(self) -> Iterator[str]:
-        for code in (self.component.module_code, self.component.members, *method_code(self.component)):
-            if code is not None:
-                yield python_code(code)
+        for code in (*section_code(self.component), *method_code(self.component)):
+            yield python_code(code)
 
     def _import_declarations(self, written: Set[str]) -> list[Import]:
         shared = [*(item.name for item in self.project.enumerations), *(item.name for item in self.project.constants)]
@@ -166,4 +172,6 @@ def _tuple(items: list[str]) -> Doc:
 
 
 def _region_text(body: CodePlan | None, indent: str) -> str:
-    return wrap_region(body.region_id, python_code(body), indent=indent).removesuffix("\n") if body else ""
+    if body is None or body.code.in_language("python") is None:
+        return ""
+    return wrap_region(body.region_id, python_code(body), indent=indent).removesuffix("\n")

@@ -212,6 +212,13 @@ def _region(body: CodePlan, indent: int) -> str:
     return wrap_region(body.region_id, python_code(body), indent=" " * indent).removesuffix("\n")
 
 
+def section_code(component: ComponentPlan) -> Iterator[CodePlan]:
+    """The code of the module and of the class, where it is written in Python."""
+    for code in (component.module_code, component.members):
+        if code is not None and code.code.in_language("python") is not None:
+            yield code
+
+
 def method_code(component: ComponentPlan) -> Iterator[CodePlan]:
     steps = [component.common_actions, *(part for state in component.states for part in _state_steps(state))]
     yield from (step.code for part in steps for step in part if isinstance(step, CodeStep))
