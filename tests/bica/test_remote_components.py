@@ -244,3 +244,8 @@ def test_a_bad_configuration_names_its_file(
         root.step()
         assert root.network is None
     assert f"error: VICODE_NET_CONFIG={file}: " in capsys.readouterr().err
+
+
+def test_a_program_that_does_not_close_its_root_ends(net_port: str) -> None:
+    program = "from tests.bica.net_robots import *; Root(RemoteEyes).step(); Root(Idle).connect('r1', team='blue')"
+    subprocess.run([sys.executable, "-c", program], cwd=Path(__file__).parents[2], check=True, timeout=60)

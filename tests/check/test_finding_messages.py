@@ -1,12 +1,13 @@
 """Messages, fixes and exact positions of findings."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from vicode.check import check_design, check_project
 from vicode.check.code import validate_python
-from vicode.findings import Finding, FindingSubject
+from vicode.findings import Finding, FindingSubject, Severity
 from vicode.model.design import Code, Declaration, Design, Guard, RunCode, State, Transition, Use
-from vicode.model.project import Enumeration, Interface, Project
+from vicode.model.project import Enumeration, Interface, Profile, Project, RemoteReference, select_profile
 
 
 def _design(**changes: object) -> Design:
@@ -109,3 +110,53 @@ def test_unknown_element_of_an_empty_enumeration() -> None:
     )
     finding = next(finding for finding in check_design(project, design) if finding.rule.code == "E306")
     assert (finding.message, finding.fix) == ("'Foot' has no element 'a'", "add elements to the enumeration")
+
+
+def _project_with_remote(remote: str = "striker/Eyes", component: str = "Eyes", **changes: float) -> Project:
+    outputs = (Declaration(name="seen", type="bool"),)
+    choice = RemoteReference(component=component, remote=remote, **changes)  # type: ignore[arg-type]
+    return Project(
+        name="p",
+        components=(Interface(component="Eyes", implementation="a:Eyes", outputs=outputs),),
+        profiles=(Profile(name="robot", components=(choice,)),),
+        designs=(_design(),),
+    )
+
+
+def _profile_messages(project: Project) -> list[str]:
+    return [finding.message for finding in check_project(project) if finding.rule.code == "P213"]
+
+
+def test_remote_components_have_a_robot_and_values_that_can_be_sent() -> None:
+    assert _profile_messages(_project_with_remote()) == []
+    assert _profile_messages(_project_with_remote(component="Player")) == []
+    assert _profile_messages(_project_with_remote(component="Eye")) == ["unknown component 'Eye'"]
+    for remote in ("striker", "striker/", "/Eyes", "a/b/Eyes", "*/Eyes", "striker/Ey es", "-x/Eyes"):
+        messages = _profile_messages(_project_with_remote(remote))
+        assert messages == [f"'{remote}' is not of the form robot/component"]
+    assert _profile_messages(_project_with_remote(max_age=0)) == ["0 s is not a valid age"]
+    functions = (Declaration(name="nearer", type="bool", arguments=(Declaration(name="limit", type="float"),)),)
+    project = replace(
+        _project_with_remote(),
+        components=(
+            Interface(
+                component="Eyes",
+                implementation="a:Eyes",
+                outputs=functions,
+                variables=(Declaration(name="count", initial="0"),),
+            ),
+        ),
+    )
+    assert _profile_messages(project) == [
+        "'nearer' of 'Eyes' is an output with arguments, which another robot does not share",
+        "'count' of 'Eyes' is a variable, which another robot does not share",
+    ]
+
+
+def test_a_remote_design_becomes_a_component_with_its_interface() -> None:
+    project = select_profile(_project_with_remote(component="Player"), "robot")
+    assert project.designs == ()
+    player = project.interface("Player")
+    assert player is not None
+    assert player.is_generated
+    assert [finding for finding in check_project(project) if finding.severity is Severity.ERROR] == []

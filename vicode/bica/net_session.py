@@ -12,7 +12,6 @@ import re
 import socket
 import time
 from contextlib import suppress
-from functools import partial
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote, unquote
 
@@ -67,6 +66,26 @@ class Receiver:
             self._subscriber.undeclare()  # type: ignore[no-untyped-call]
 
 
+class AliveKeys:
+    """The keys that live processes declare.
+
+    A callback would need a thread, which keeps a program from ending whose root is not closed.
+    """
+
+    def __init__(self, subscriber: zenoh.Subscriber[zenoh.handlers.Handler[zenoh.Sample]], put: object) -> None:
+        self._try_receive, self._put = subscriber.try_recv, put
+        self._subscriber = subscriber
+        self._keys: set[str] = set()
+
+    def read(self) -> set[str]:
+        while (sample := self._try_receive()) is not None:
+            if sample.kind != self._put:
+                self._keys.discard(str(sample.key_expr))
+            elif len(self._keys) < _MAX_ALIVE_KEYS:
+                self._keys.add(str(sample.key_expr))
+        return self._keys
+
+
 class NetSession:
     """A session that the roots of a process share; `close` ends it after as many calls as `open_session`."""
 
@@ -74,7 +93,6 @@ class NetSession:
         self.users = 0
         self._zenoh = _import_zenoh()
         self._session = session
-        self._kept: list[Any] = []
 
     @property
     def id(self) -> str:
@@ -92,12 +110,10 @@ class NetSession:
         """Declare a key that exists as long as the process is connected, or until it is undeclared."""
         return self._session.liveliness().declare_token(key)
 
-    def watch_alive(self, key: str) -> set[str]:
-        """Return a set that another thread keeps equal to the declared keys that match."""
-        alive: set[str] = set()
-        changed = partial(_note_alive, self._zenoh.SampleKind.PUT, alive)
-        self._kept.append(self._session.liveliness().declare_subscriber(key, changed, history=True))
-        return alive
+    def watch_alive(self, key: str) -> AliveKeys:
+        ring = self._zenoh.handlers.RingChannel(_MAX_ALIVE_KEYS)
+        subscriber = self._session.liveliness().declare_subscriber(key, ring, history=True)
+        return AliveKeys(subscriber, self._zenoh.SampleKind.PUT)
 
     def find_alive(self, key: str) -> set[str]:
         replies = self._session.liveliness().get(key, timeout=_FIND_TIMEOUT_S)
@@ -110,6 +126,12 @@ class NetSession:
                 del _sessions[config]
             with suppress(Exception):
                 self._session.close()  # type: ignore[no-untyped-call]
+
+
+def has_receivers(sender: zenoh.Publisher) -> bool:
+    """Whether someone reads what is sent; the status is an object, contrary to its declaration (zenoh 1.10)."""
+    status: Any = sender.matching_status
+    return bool(getattr(status, "matching", status))
 
 
 def open_session() -> NetSession:
@@ -144,13 +166,6 @@ def find_watched(wait_s: float = 1.0) -> list[tuple[str, str, str]]:
 
 def watch_key(robot: str, address: str) -> str:
     return f"vicode/{robot}/watch/{quote(socket.gethostname(), safe='')}/{quote(address, safe='')}"
-
-
-def _note_alive(put: zenoh.SampleKind, alive: set[str], sample: zenoh.Sample) -> None:
-    if sample.kind != put:
-        alive.discard(str(sample.key_expr))
-    elif len(alive) < _MAX_ALIVE_KEYS:
-        alive.add(str(sample.key_expr))
 
 
 def _import_zenoh() -> ModuleType:

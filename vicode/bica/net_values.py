@@ -14,9 +14,12 @@ _MAX_ITEMS = 1024
 _MAX_INT = 2**53
 """Integers of designs are exact up to this (docs/semantics.md)."""
 
+# `dumps` makes an encoder for each call.
+_encode_json = json.JSONEncoder(separators=(",", ":")).encode
+
 
 def encode(message: Mapping[str, Any]) -> bytes:
-    return json.dumps(to_json_value(message), separators=(",", ":")).encode()
+    return _encode_json(to_json_value(message)).encode()
 
 
 def decode(payload: bytes) -> dict[str, Any]:
@@ -40,6 +43,8 @@ def convert(value: object, like: object) -> Any:
     Raises:
         ValueError: It has another type.
     """
+    if type(value) is type(like) and type(like) in (float, bool, str):
+        return value
     for kind, converter in _CONVERTERS.items():
         if isinstance(like, kind):
             return converter(value, like)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from .component import Component
 from .errors import NetworkError, describe_exception, make_error_record, print_error
 from .live import find_address
-from .net_session import MAX_WAITING, check_name, open_session, watch_key
+from .net_session import MAX_WAITING, check_name, has_receivers, open_session, watch_key
 from .net_values import convert_parameters, decode, encode
 from .observer import read_values
 from .remote import CALL_LIFETIME_S, LONGEST_CALL_S, RemoteComponent
@@ -201,7 +201,7 @@ class Network:
             if sender is None:
                 key = f"vicode/{self.name}/output/{type(component).__name__}"
                 sender = self._senders[component] = self._session.sender(key)
-            if sender.matching_status and self._has_outputs(component):
+            if self._has_outputs(component) and has_receivers(sender):
                 sender.put(encode(self._describe(component)))
         if self._link is not None:
             self._link.tell()

@@ -78,7 +78,7 @@ class RemoteComponent(Component):
         if message is not None:
             self._read(message[1], now_s)
         self.data_age = now_s - self._received_s
-        self.is_alive = bool(self._alive) and self.data_age <= self._max_age
+        self.is_alive = bool(self._alive.read()) and self.data_age <= self._max_age
 
     def close(self) -> None:
         self._outputs.close()

@@ -81,7 +81,7 @@ class TeamLink:
             if name != self._name:
                 self._read(name, payload)
         self._root.team.prepare()
-        connected = {key.split("/")[1] for key in self._alive.copy()}
+        connected = {key.split("/")[1] for key in self._alive.read()}
         for robot in self.robots.values():
             robot.is_connected = robot.name in connected
             if robot.is_alive:
