@@ -7,9 +7,10 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import asdict
 from enum import Enum
+from functools import lru_cache
 from inspect import isfunction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NotRequired, TypedDict
+from typing import TYPE_CHECKING, Any, Literal, NotRequired, TypedDict, cast
 
 from .component import RESERVED_NAMES, Component
 from .timing import replace_step, will_work
@@ -23,6 +24,7 @@ TRACE_HEADER = {"vicode-trace": 1, "runtime": "bica"}
 
 _MAX_ERRORS = 20
 _MAX_INT_BITS = 1024
+_PLAIN_TYPES = (bool, int, float, str, Enum)
 _MAX_CALLS = 200
 """So many calls of outputs with arguments are recorded per iteration at most."""
 
@@ -242,6 +244,9 @@ def _find_functions(component_class: type[Component]) -> list[str]:
 
 def to_json_value(value: object) -> Any:
     """Convert a value to JSON data that is the same in each run."""
+    kind = type(value)
+    if kind is str or kind is bool or (kind is float and math.isfinite(cast("float", value))):
+        return value  # most values
     if isinstance(value, dict):
         return {str(key): to_json_value(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
@@ -266,17 +271,22 @@ def _collect_values(component: Component) -> dict[str, object]:
     return {
         name: value
         for name, value in vars(component).copy().items()
-        if not name.startswith("_") and isinstance(value, bool | int | float | str | Enum)
+        if not name.startswith("_") and isinstance(value, _PLAIN_TYPES)
     }
 
 
 def read_values(component: Component) -> dict[str, object]:
     """Return the plain values of a component, including those of its properties."""
     values = _collect_values(component)
-    for name, attribute in vars(type(component)).items():
-        if isinstance(attribute, property) and not name.startswith("_"):
-            with suppress(Exception):
-                value = getattr(component, name)
-                if isinstance(value, bool | int | float | str | Enum):
-                    values[name] = value
+    for name in _property_names(type(component)):
+        with suppress(Exception):
+            value = getattr(component, name)
+            if isinstance(value, _PLAIN_TYPES):
+                values[name] = value
     return values
+
+
+@lru_cache(maxsize=1024)
+def _property_names(component_class: type[Component]) -> tuple[str, ...]:
+    attributes = vars(component_class).items()
+    return tuple(name for name, value in attributes if isinstance(value, property) and not name.startswith("_"))
