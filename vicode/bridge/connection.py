@@ -51,7 +51,7 @@ class Connection(asyncio.BufferedProtocol):
         self._clock_offset = _ClockOffset()
         self._tick_ns = 0
         self._sent_ticks = 0
-        self._is_working = False
+        self.is_working = False
         self._transport: asyncio.Transport
 
     # asyncio
@@ -74,7 +74,7 @@ class Connection(asyncio.BufferedProtocol):
             self._dialect = JsonDialect() if is_json(bytes(self._buffer[:1])) else JxiDialect()
         self.heard_s = time.monotonic()
         self._lines += self._decoder.feed(bytes(self._buffer[:nbytes]))
-        if self._lines and not self._is_working:
+        if self._lines and not self.is_working:
             self._work()
 
     def connection_lost(self, exc: Exception | None) -> None:  # noqa: ARG002 - of asyncio
@@ -87,7 +87,7 @@ class Connection(asyncio.BufferedProtocol):
             self._transport.pause_reading()
 
     def resume_writing(self) -> None:
-        if not self._is_working:
+        if not self.is_working:
             self._transport.resume_reading()
 
     # Lines
@@ -97,12 +97,12 @@ class Connection(asyncio.BufferedProtocol):
         end_s, lines = time.perf_counter() + _SLICE_S, self._lines
         while lines and time.perf_counter() < end_s:
             self._handle(lines.popleft())
+            if self._transport.is_closing():
+                lines.clear()
         self._has_heard = True
         self.flush()
-        was_working, self._is_working = self._is_working, bool(lines)
-        if self._transport.is_closing():
-            lines.clear()
-        elif lines:
+        was_working, self.is_working = self.is_working, bool(lines)
+        if lines:
             self._transport.pause_reading()
             asyncio.get_running_loop().call_soon(self._work)
         elif was_working:
