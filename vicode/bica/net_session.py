@@ -11,6 +11,7 @@ import os
 import re
 import socket
 import time
+from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote, unquote
@@ -53,6 +54,14 @@ class Receiver:
         self._subscriber = subscriber
         self._try_receive = subscriber.try_recv
 
+    def take_all(self) -> Iterator[tuple[str, bytes]]:
+        """Yield the waiting messages, but no more than the queue holds: those that arrive meanwhile are left."""
+        for _ in range(MAX_WAITING):
+            received = self.take()
+            if received is None:
+                return
+            yield received
+
     def take(self) -> tuple[str, bytes] | None:
         """Return the key and the content of the next message; too long ones are empty."""
         sample = self._try_receive()
@@ -78,7 +87,11 @@ class AliveKeys:
         self._keys: set[str] = set()
 
     def read(self) -> set[str]:
-        while (sample := self._try_receive()) is not None:
+        # Changes that arrive meanwhile are read next time.
+        for _ in range(_MAX_ALIVE_KEYS):
+            sample = self._try_receive()
+            if sample is None:
+                break
             if sample.kind != self._put:
                 self._keys.discard(str(sample.key_expr))
             elif len(self._keys) < _MAX_ALIVE_KEYS:

@@ -147,17 +147,14 @@ class Network:
 
     def _receive(self) -> None:
         newest: dict[str, bytes] = {}
-        for _ in range(MAX_WAITING):
-            received = self._calls.take()
-            if received is None:
-                break
-            *_, name, mode = received[0].split("/")
+        for key, payload in self._calls.take_all():
+            *_, name, mode = key.split("/")
             if mode == "each":
                 component = self._find_component(name)
                 if component is not None:
-                    self._callers.setdefault(component, _Caller()).waiting.append(received[1])
+                    self._callers.setdefault(component, _Caller()).waiting.append(payload)
             else:
-                newest[name] = received[1]
+                newest[name] = payload
         for name, payload in newest.items():
             component = self._find_component(name)
             if component is not None:

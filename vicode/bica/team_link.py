@@ -75,8 +75,8 @@ class TeamLink:
     def hear(self) -> None:
         """Read the newest message of each robot; those of robots that have ended no longer count."""
         newest = {}
-        while (received := self._receiver.take()) is not None:
-            newest[received[0].split("/")[1]] = received[1]
+        for key, payload in self._receiver.take_all():
+            newest[key.split("/")[1]] = payload
         for name, payload in newest.items():
             if name != self._name:
                 self._read(name, payload)
