@@ -146,6 +146,13 @@ def test_a_refused_player_does_not_start() -> None:
         refusing.join()
 
 
+def test_a_missing_server_is_reported() -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as silent:
+        silent.bind(("127.0.0.1", 0))
+        with pytest.raises(TimeoutError, match=r"no server answers at 127\.0\.0\.1:"):
+            World(server=silent.getsockname(), timeout_s=0.01)
+
+
 @pytest.mark.parametrize(
     ("said", "situation"),
     [

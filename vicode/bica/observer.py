@@ -278,7 +278,7 @@ def _collect_values(component: Component) -> dict[str, object]:
 def read_values(component: Component) -> dict[str, object]:
     """Return the plain values of a component, including those of its properties."""
     values = _collect_values(component)
-    for name in _property_names(type(component)):
+    for name in _property_names(cast("type", type(component))):
         with suppress(Exception):
             value = getattr(component, name)
             if isinstance(value, _PLAIN_TYPES):
@@ -287,6 +287,6 @@ def read_values(component: Component) -> dict[str, object]:
 
 
 @lru_cache(maxsize=1024)
-def _property_names(component_class: type[Component]) -> tuple[str, ...]:
+def _property_names(component_class: type) -> tuple[str, ...]:
     attributes = vars(component_class).items()
     return tuple(name for name, value in attributes if isinstance(value, property) and not name.startswith("_"))

@@ -141,7 +141,11 @@ class World:
     def _join(self, *, goalkeeper: bool) -> tuple[str, int]:
         self._send(f"(init {self._team} (version 18){' (goalie)' if goalkeeper else ''})")
         # Another port of the server answers, and serves this player from now on.
-        text, self._server = self._socket.recvfrom(8192)
+        try:
+            text, self._server = self._socket.recvfrom(8192)
+        except TimeoutError:
+            self._socket.close()
+            raise TimeoutError(f"no server answers at {self._server[0]}:{self._server[1]}") from None
         match parse(text.decode("utf-8", "replace").strip("\0")):
             case ["init", ("l" | "r") as side, number, _mode]:
                 self._send("(synch_see)")
