@@ -6,6 +6,7 @@ designs, so they have the meaning of docs/semantics.md.
 
 import ast
 from collections.abc import Iterable, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
@@ -132,7 +133,7 @@ class _Reader:
                 raise _NotPortableError(node, f"'{_first_line(node)}' is outside the portable subset")
 
     def _assign(self, node: ast.stmt, target: ast.expr, value: ast.expr) -> PortableAssign:
-        name = _design_text(_Converter(self.scope).visit(target)) if _is_member(target) else ""
+        name = _design_text(_Converter(self.scope).visit(deepcopy(target))) if _is_member(target) else ""
         declaration = self.scope.find_assignable(name) if name else None
         if declaration is None:
             shown = ast.unparse(target)
@@ -142,7 +143,7 @@ class _Reader:
     def _expression(self, node: ast.stmt, syntax: ast.expr, expected: str | None) -> str:
         converter = _Converter(self.scope)
         # A copy: the statement is shown in messages.
-        text = _design_text(converter.visit(ast.parse(ast.unparse(syntax), mode="eval").body))
+        text = _design_text(converter.visit(deepcopy(syntax)))
         if converter.problem:
             raise _NotPortableError(node, converter.problem)
         parsed = parse_expression(text, self.scope, expected)

@@ -1,0 +1,129 @@
+"""Generated C++ compiles without warnings, is formatted, and does not allocate memory."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.cpp_tools import STANDARD, WARNINGS, find_gpp, outputs, start, write_project, write_unit
+from tests.generators.code_tools import write_files
+from vicode.generators import generate
+from vicode.model.design import Assign, Declaration, Design, Guard, State, Transition
+from vicode.model.project import Project
+
+DESIGNS = Path(__file__).parents[2] / "designs"
+CASES = Path(__file__).parent / "cpp_designs"
+FOLDERS = {
+    "rescue": DESIGNS / "rescue",
+    "blink": DESIGNS / "blink",
+    "forward": DESIGNS / "forward",
+    "hostile": CASES / "hostile",
+    "code": CASES / "code",
+}
+
+
+@pytest.fixture(scope="module")
+def gpp() -> str:
+    return find_gpp()
+
+
+@pytest.fixture(scope="module")
+def generated(tmp_path_factory: pytest.TempPathFactory) -> dict[Path, str]:
+    """The folders with the code of all projects, and their packages."""
+    written = {}
+    for name, folder in FOLDERS.items():
+        out = tmp_path_factory.mktemp(name)
+        written[out / "cpp"] = write_project(folder, out)
+    out = tmp_path_factory.mktemp("large")
+    write_files(generate(large_project(500), languages=["cpp"]), out)
+    write_unit(out / "cpp", "large")
+    written[out / "cpp"] = "large"
+    return written
+
+
+def large_project(count: int) -> Project:
+    """A ring of states."""
+    states = tuple(
+        State(
+            name=f"S{index}",
+            actions=(Assign(values=(("n", "n + 1"),)),),
+            transitions=(Transition(to=f"S{(index + 1) % count}", guard=Guard(when=f"n > {index}")),),
+        )
+        for index in range(count)
+    )
+    values = (Declaration(name="n", initial="0"),)
+    return Project(
+        name="large", designs=(Design(component="Ring", outputs=values, initial=states[0].name, states=states),)
+    )
+
+
+def test_no_compiler_warns(gpp: str, generated: dict[Path, str]) -> None:
+    """With and without exceptions and run-time types, for a computer and for a controller."""
+    compilers = [gpp, *filter(None, [shutil.which("clang++")])]
+    variants = [(), ("-fno-exceptions", "-fno-rtti", "-DBICA_NO_HOST")]
+    commands = [
+        (folder, [compiler, *STANDARD, *WARNINGS, *flags, "-I.", "-fsyntax-only", f"{package}_unit.cpp"])
+        for folder, package in generated.items()
+        for compiler in compilers
+        for flags in variants
+    ]
+    for first in range(0, len(commands), 4):
+        assert outputs([start(command, folder) for folder, command in commands[first : first + 4]]) == [""] * len(
+            commands[first : first + 4]
+        )
+
+
+def test_code_for_controllers_includes_no_threads_and_streams(gpp: str, generated: dict[Path, str]) -> None:
+    folder, package = next(iter(generated.items()))
+    command = [gpp, *STANDARD, "-DBICA_NO_HOST", "-I.", "-M", f"{package}_unit.cpp"]
+    (listed,) = outputs([start(command, folder)])
+    headers = {Path(name).name for name in listed.split()}
+    assert not headers & {"thread", "chrono", "cstdio", "iostream", "string", "vector"}
+
+
+@pytest.mark.skipif(
+    shutil.which("clang-format") is None, reason="clang-format is missing: sudo apt install clang-format"
+)
+def test_clang_format_changes_nothing(generated: dict[Path, str]) -> None:
+    for folder, package in generated.items():
+        files = ["bica.hpp", *(f"{package}/{path.name}" for path in (folder / package).glob("*.?pp"))]
+        command = ["clang-format", "--dry-run", "--Werror", *files]
+        assert outputs([start(command, folder)]) == [""]
+
+
+@pytest.mark.nightly
+@pytest.mark.skipif(shutil.which("clang-tidy") is None, reason="clang-tidy is missing: sudo apt install clang-tidy")
+def test_clang_tidy_finds_nothing(generated: dict[Path, str]) -> None:
+    # The order of arguments is the one of the design.
+    checks = "-*,bugprone-*,performance-*,-bugprone-easily-swappable-parameters,-bugprone-suspicious-include"
+    for folder, package in generated.items():
+        command = ["clang-tidy", "--quiet", f"-checks={checks}", "--header-filter=.*", "--warnings-as-errors=*"]
+        command += [f"{package}_unit.cpp", "--", *STANDARD, "-I."]
+        outputs([start(command, folder)])
+
+
+def test_a_missing_method_of_the_world_is_an_error_that_names_it(gpp: str, generated: dict[Path, str]) -> None:
+    folder = next(folder for folder, package in generated.items() if package == "rescue")
+    source = """
+#include "rescue/components.hpp"
+class Robot : public rescue::World {
+    double amount_turned() override { return 0.0; }
+};
+Robot robot;
+"""
+    path = folder / "incomplete.cpp"
+    path.write_text(source, encoding="utf-8")
+    command = [gpp, *STANDARD, "-I.", "-fsyntax-only", path.name]
+    result = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert result.returncode != 0
+    assert "laser_max" in result.stderr
+
+
+@pytest.mark.skipif(shutil.which("cmake") is None, reason="cmake is missing: sudo apt install cmake")
+@pytest.mark.nightly
+def test_cmake_builds_a_static_library(gpp: str, generated: dict[Path, str], tmp_path: Path) -> None:
+    folder = next(folder for folder, package in generated.items() if package == "forward")
+    outputs([start(["cmake", "-S", str(folder / "forward"), "-B", str(tmp_path)], folder)])
+    outputs([start(["cmake", "--build", str(tmp_path)], folder)])
+    assert (tmp_path / "libforward.a").exists()
