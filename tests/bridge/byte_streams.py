@@ -6,7 +6,7 @@ from random import Random
 SESSIONS = (
     b"ROBOT:r1\nBEHAVIOR:follow\nAHEAD: 5.25\nLASER: 1.14,2.55,3.54\nINS:1,2,90\nWHISTLE:\nBUTTON:3\nMODE:fast\n",
     b"TOKEN:secret\r\nAHEAD:0.5\r\nBEHAVIOR:crossing\r\nBEHAVIOR:failing\r\nAHEAD:9\r\n",
-    b'{"hello": {"robot": "r2", "pace": "client", "team": "a", "priority": 3}}\n{"AHEAD": 5, "tick": 0}',
+    b'{"hello": {"robot": "r2", "pace": "client", "team": "a", "priority": 3}}\n{"AHEAD": 5, "tick": 0}\n',
     b'{"hello": {"pace": "client"}, "LASER": [1, 2.5]}\n{"time": 0.04, "INS": [1, 2], "tick": 0.05}\n{"tick": 1}\n',
     b'{"hello": {"robot": "r1"}}\n{"AHEAD": [0.5], "time": 12.5, "WHISTLE": true, "MODE": "slow"}\n{"BUTTON": 1}\n',
 )

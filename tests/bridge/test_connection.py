@@ -96,12 +96,14 @@ def test_errors_in_lock_step_are_answers() -> None:
     client.send({"tick": "soon"})
     client.send(b'{"tick": \n')
     client.send({"NOTHING": 1})
+    client.send(b'{"tick": ' + b"9" * 400 + b"}\n")
     assert client.answers()[1:] == [
         {"tick": 1, "errors": ["AHEAD: parameter 1 is 'far', expected a number"], "commands": {"DRIVE": [0.9, 0]}},
         {"error": "tick 0.5 is before tick 1"},
         {"error": "tick is \"'soon'\", expected seconds"},
         {"error": "expected a JSON object, found '{\"tick\": '"},
         {"error": "no sensor or event 'NOTHING'; the world has AHEAD, INS, LASER, MODE, WHISTLE, BUTTON"},
+        {"error": "tick is not a number of seconds up to 1e+09"},
     ]
 
 
