@@ -55,7 +55,8 @@ class LiveFeed:
         self.changes: deque[StateChangeRecord] = deque(maxlen=_MAX_CHANGES)
         self.answers: deque[tuple[object, dict[str, Any]]] = deque()
         """Viewers and the answers to their requests. Read by the thread of the server."""
-        self.is_watched = False
+        self.is_watched = self.is_focused = False
+        """Whether there are viewers, and viewers that look at this robot, which get values."""
         self.version = 0
         """Changes when code was exchanged, after which the robot is described again."""
         self._notify = notify
@@ -105,6 +106,7 @@ class LiveFeed:
             return
         if self._controller.is_paused:
             self._wait_while_paused()
+        self._observer.has_values = self.is_focused
         self._observed_step()
 
     def _set_plain_step(self, step: Callable[[], None]) -> None:

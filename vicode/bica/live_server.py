@@ -244,9 +244,10 @@ class LiveServer:
                     self._send_newest(viewer, now_s)
             except OSError:
                 self._drop(viewer)
-        is_watched = any(viewer.is_admitted for viewer in self._viewers)
+        focuses = {viewer.focus for viewer in self._viewers if viewer.is_admitted}
         for feed in self._feeds:
-            feed.is_watched = is_watched
+            feed.is_watched = bool(focuses)
+            feed.is_focused = "" in focuses or feed.name in focuses
             while feed.answers:
                 self._send_answer(*feed.answers.popleft())
 

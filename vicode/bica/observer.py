@@ -87,7 +87,7 @@ class Observer:
     def __init__(self, sink: Callable[[IterationRecord], None] | None = None, *, values: bool = False) -> None:
         self.records: list[IterationRecord] = []
         self._sink = sink if sink is not None else self.records.append
-        self._values = self._records_calls = values
+        self.has_values = self._records_calls = values
         self._tree: list[StepRecord] = []
         self._errors: list[dict[str, Any]] = []
         self.active: list[str] = []
@@ -142,7 +142,7 @@ class Observer:
             "still_done": [],
         }
         before, self._stepped = self._stepped, []
-        if self._values:
+        if self.has_values:
             inputs = {type(each).__name__: read_values(each) for each in self._find_passive(root)}
             if any(inputs.values()):
                 record["inputs"] = to_json_value({name: values for name, values in inputs.items() if values})
@@ -203,7 +203,7 @@ class Observer:
             record["action_done"] = component.action_done
         if component._cooperative_states:
             record["conflict"] = component.conflict
-        if self._values:
+        if self.has_values:
             record["component_time_ns"] = component.root.now_ns - component._started_ns
             record["values"] = to_json_value(_collect_values(component))
 
