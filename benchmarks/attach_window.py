@@ -19,7 +19,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from statistics import median, quantiles
 
-from playwright.sync_api import Page, sync_playwright
+from playwright.sync_api import CDPSession, Page, sync_playwright
 
 PORT, EDITOR_PORT, TOKEN = 8498, 8499, "benchmark"
 DESIGN = """\
@@ -139,10 +139,14 @@ def watch(folder: Path, robots: subprocess.Popen[bytes], seconds: float, alone: 
         page.wait_for_function(f"{WHERE}?.includes('iteration')", timeout=60_000)
         page.wait_for_timeout(3000)
         page.evaluate(COUNT_CHANGES)
+        session = page.context.new_cdp_session(page)
+        session.send("Performance.enable")
+        busy = read_busy_s(session)
         ages: list[int] = []
         before = read_newest(folder)
         cpu = measure_cpu([robots.pid, editor], seconds, lambda: ages.append(read_age(page, folder)))
         counted = page.evaluate("counted")
+        busy = {name: each - busy[name] for name, each in read_busy_s(session).items()}
         now = read_newest(folder)
         browser.close()
     print(f"watched in a window: robots {cpu[0]:.0%} ({cpu[0] / alone:.2f} x), editor {cpu[1]:.0%} of a processor")
@@ -150,6 +154,7 @@ def watch(folder: Path, robots: subprocess.Popen[bytes], seconds: float, alone: 
     print(
         f"  browser: {counted['frames'] / seconds:.0f} frames and {counted['changes'] / seconds:.1f} updates per second"
     )
+    print("  of each second:", ", ".join(f"{name} {each / seconds * 1000:.0f} ms" for name, each in busy.items()))
     print(f"  age of what is shown: {median(ages):g} iterations, 95 %: {quantiles(ages, n=20)[-1]:g}, most {max(ages)}")
 
 
@@ -182,6 +187,13 @@ def measure_cpu(processes: list[int], seconds: float, act: Callable[[], object] 
 def read_cpu_s(process: int) -> float:
     fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def read_busy_s(session: CDPSession) -> dict[str, float]:
+    """What the page did so far, in seconds."""
+    metrics = {each["name"]: each["value"] for each in session.send("Performance.getMetrics")["metrics"]}
+    names = {"scripts": "ScriptDuration", "styles": "RecalcStyleDuration", "layout": "LayoutDuration"}
+    return {words: float(metrics[name]) for words, name in names.items()}
 
 
 def read_age(page: Page, folder: Path) -> int:
