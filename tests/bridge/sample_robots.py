@@ -142,6 +142,11 @@ class Client:
             self.connection.buffer_updated(size)
             rest = rest[size:]
 
+    async def settle(self) -> None:
+        """Wait until all lines are handled: many of them are handled in turns."""
+        while self.connection.is_working:
+            await asyncio.sleep(0)
+
     def lines(self) -> list[str]:
         """The lines that were written since the last call."""
         written, self.transport.written = self.transport.written, b""

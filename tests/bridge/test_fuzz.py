@@ -56,9 +56,7 @@ async def send_stream(server: BridgeServer, random: Random) -> None:
     client = Client(server)
     for piece in split_stream(make_stream(random), random):
         client.send(piece)
-    # Long streams are handled in turns.
-    while client.connection.is_working:
-        await asyncio.sleep(0)
+    await client.settle()
     if random.random() < 0.3:
         await server.tick_all(random.randrange(1_000) * TICK_NS)
     client.leave()
