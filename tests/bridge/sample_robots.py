@@ -16,7 +16,7 @@ TICK_NS = 50_000_000
 
 class SampleWorld(World):
     published = ("speed_wish",)
-    range_ahead = Sensor("AHEAD", float, max_age=0.5, initial=9.0)
+    range_ahead = Sensor("AHEAD", float, initial=9.0)
     pose = Sensor("INS", float, fields=("x", "y", "yaw"), range=(-1000, 1000))
     laser = Sensor("LASER", float, length=3)
     mode = Sensor("MODE", str)
@@ -28,6 +28,12 @@ class SampleWorld(World):
     @property
     def speed_wish(self) -> float:
         return float(self.range_ahead) / 10
+
+
+class AgingWorld(SampleWorld):
+    """Values become stale; a test with this world must set the time itself."""
+
+    range_ahead = Sensor("AHEAD", float, max_age=0.5, initial=9.0)
 
 
 class Follow(Component):

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from tests.bridge.sample_robots import SampleWorld
+from tests.bridge.sample_robots import AgingWorld, SampleWorld
 from vicode.bridge import Command, Event, Sensor, World
 from vicode.bridge.frames import FrameError
 from vicode.bridge.parameters import ParameterTypes
@@ -14,8 +14,8 @@ MS = 1_000_000
 
 
 @pytest.fixture
-def world() -> SampleWorld:
-    return SampleWorld()
+def world() -> AgingWorld:
+    return AgingWorld()
 
 
 def receive(world: World, target: str, raw: bytes | list[Any], at_ms: float = 0) -> None:
@@ -31,7 +31,7 @@ def end_tick(world: World) -> dict[str, tuple[Any, ...]]:
     return world.bridge.commands.take()
 
 
-def test_values_have_the_declared_types(world: SampleWorld) -> None:
+def test_values_have_the_declared_types(world: AgingWorld) -> None:
     for target, raw in (("AHEAD", b" 2.5"), ("INS", [1, 2, 90]), ("LASER", b"1,2, 3"), ("MODE", b" fast \r")):
         receive(world, target, raw)
     tick(world)
@@ -39,14 +39,14 @@ def test_values_have_the_declared_types(world: SampleWorld) -> None:
     assert (world.pose.yaw, world.laser, world.mode) == (90.0, (1.0, 2.0, 3.0), "fast")
 
 
-def test_before_the_first_line_sensors_read_as_initial(world: SampleWorld) -> None:
+def test_before_the_first_line_sensors_read_as_initial(world: AgingWorld) -> None:
     tick(world)
     assert (world.range_ahead, world.pose.x, world.laser, world.mode) == (9.0, 0.0, (0.0, 0.0, 0.0), "")
     assert (world.range_ahead_is_stale, world.range_ahead_age) == (True, math.inf)
     assert world.bridge.readings.age_ns is None
 
 
-def test_only_the_newest_value_counts(world: SampleWorld) -> None:
+def test_only_the_newest_value_counts(world: AgingWorld) -> None:
     for number in range(10):
         receive(world, "AHEAD", str(number).encode(), number)
     tick(world, 20)
@@ -55,7 +55,7 @@ def test_only_the_newest_value_counts(world: SampleWorld) -> None:
     assert world.bridge.counts.dropped == 9
 
 
-def test_a_value_older_than_max_age_is_stale(world: SampleWorld) -> None:
+def test_a_value_older_than_max_age_is_stale(world: AgingWorld) -> None:
     receive(world, "AHEAD", b"2")
     tick(world, 500)
     assert (world.range_ahead, world.range_ahead_is_stale) == (2.0, False)
@@ -67,7 +67,7 @@ def test_a_value_older_than_max_age_is_stale(world: SampleWorld) -> None:
     assert (world.range_ahead, world.bridge.counts.late) == (9.0, 1)
 
 
-def test_a_malformed_value_is_reported_and_the_one_before_stays(world: SampleWorld) -> None:
+def test_a_malformed_value_is_reported_and_the_one_before_stays(world: AgingWorld) -> None:
     receive(world, "INS", b"1,2,3", 0)
     tick(world, 10)
     assert world.pose.x == 1
@@ -120,7 +120,7 @@ def test_parameters_in_both_languages(types: ParameterTypes, raw: Any, value: An
     assert type(types.convert(raw)) is type(value)
 
 
-def test_each_event_is_visible_in_one_tick_in_order(world: SampleWorld) -> None:
+def test_each_event_is_visible_in_one_tick_in_order(world: AgingWorld) -> None:
     for target, raw in (("WHISTLE", b""), ("BUTTON", b"1"), ("BUTTON", b"2"), ("WHISTLE", b""), ("BUTTON", b"x")):
         receive(world, target, raw)
     seen = []
@@ -131,14 +131,14 @@ def test_each_event_is_visible_in_one_tick_in_order(world: SampleWorld) -> None:
     assert world.bridge.take_problems() == ["BUTTON: parameter 1 is 'x', expected an integer"]
 
 
-def test_of_too_many_events_the_oldest_are_dropped(world: SampleWorld) -> None:
+def test_of_too_many_events_the_oldest_are_dropped(world: AgingWorld) -> None:
     for number in range(100):
         receive(world, "BUTTON", [number])
     tick(world)
     assert (world.button, world.bridge.counts.events_dropped) == (36, 36)
 
 
-def test_a_command_is_sent_when_it_changes_and_when_it_is_called_again(world: SampleWorld) -> None:
+def test_a_command_is_sent_when_it_changes_and_when_it_is_called_again(world: AgingWorld) -> None:
     sent = []
     for call in ((1.0, 0), (1.0, 0), (2.0, 5.5), None, (2.0, 5.5)):
         if call is not None:
@@ -147,7 +147,7 @@ def test_a_command_is_sent_when_it_changes_and_when_it_is_called_again(world: Sa
     assert sent == [{"DRIVE": (1, 0)}, {}, {"DRIVE": (2, 5.5)}, {}, {"DRIVE": (2, 5.5)}]
 
 
-def test_a_command_with_a_rate_is_repeated(world: SampleWorld) -> None:
+def test_a_command_with_a_rate_is_repeated(world: AgingWorld) -> None:
     sent = 0
     for number in range(20):
         tick(world, number * 50)
@@ -156,7 +156,7 @@ def test_a_command_with_a_rate_is_repeated(world: SampleWorld) -> None:
     assert sent == 10
 
 
-def test_wrong_calls_of_a_command(world: SampleWorld) -> None:
+def test_wrong_calls_of_a_command(world: AgingWorld) -> None:
     with pytest.raises(TypeError, match="drive has no parameter sped; it has speed, turn"):
         world.drive(sped=1)
     with pytest.raises(TypeError, match="drive takes 2 parameters, 3 were given"):
@@ -167,7 +167,7 @@ def test_wrong_calls_of_a_command(world: SampleWorld) -> None:
         Command("X", "a", "b", stop=(1,))
 
 
-def test_commands_that_wait_are_replaced_by_newer_ones(world: SampleWorld) -> None:
+def test_commands_that_wait_are_replaced_by_newer_ones(world: AgingWorld) -> None:
     for speed in (1, 2, 3):
         world.drive(speed=speed)
         world.lamp(speed)
@@ -193,9 +193,9 @@ def test_a_world_inherits_and_replaces_declarations() -> None:
     assert world.bridge.counts.unknown == 1
 
 
-def test_worlds_do_not_share_values(world: SampleWorld) -> None:
+def test_worlds_do_not_share_values(world: AgingWorld) -> None:
     receive(world, "AHEAD", b"2")
-    other = SampleWorld()
+    other = AgingWorld()
     tick(world)
     tick(other)
     assert (world.range_ahead, other.range_ahead) == (2.0, 9.0)
