@@ -109,7 +109,7 @@ def test_clients_that_misbehave_do_not_disturb_a_robot() -> None:
             for number in range(20):
                 flood.write(b"AHEAD:1\n" * 10_000)
                 deaf.write(b'{"tick": %d}\n' % number * 500)
-                writer.write(b"AHEAD:%d\n" % (number + 5))
+                writer.write(b"AHEAD:%d\n" % (number + 6))
                 assert (await reader.readline()).startswith(b"DRIVE:")
             for _reader, other in (silent, half, huge, failing):
                 other.transport.abort()
