@@ -782,18 +782,25 @@ public:
         std::fputs("{\"vicode-trace\": 1, \"runtime\": \"bica\", \"language\": \"cpp\"}\n", file_);
     }
 
+    /// Also writes the values that a component provides without work, such as shared variables, before each iteration.
+    void add_input(const Component& component) { inputs_.push_back(&component); }
+
     /// Writes the iteration that has just ended.
     void end_iteration(const Root& root) {
         std::fprintf(file_, "{\"iteration\": %lld, \"time_ns\": %lld, \"tree\": [", to_long(root.iteration()), to_long(root.now_ns()));
         for (std::size_t index = 0; index < size_; ++index) {
             std::fprintf(file_, "%s%s", index == 0 ? "" : ", ", steps_[index].c_str());
         }
-        std::fprintf(file_, "], \"errors\": [%s]}\n", errors_.c_str());
+        std::fprintf(file_, "], \"errors\": [%s]%s}\n", errors_.c_str(), input_text_.c_str());
+        input_text_.clear();
         size_ = 0;
         errors_.clear();
     }
 
     void begin_step(const Component& component, bool is_modulated, bool works) override {
+        if (active_.empty() && !inputs_.empty()) {
+            read_inputs();
+        }
         if (size_ == steps_.size()) {
             steps_.emplace_back();
         }
@@ -835,6 +842,17 @@ private:
         const Component* component;
         std::size_t step;
     };
+
+    void read_inputs() {
+        input_text_.assign(", \"inputs\": {");
+        for (const Component* component : inputs_) {
+            input_text_.append(input_text_.back() == '{' ? "" : ", ").append(quoted(component->name())).append(": {");
+            Values values(input_text_);
+            component->visit_values(values);
+            input_text_.append("}");
+        }
+        input_text_.append("}");
+    }
 
     class Values final : public ValueVisitor {
     public:
@@ -885,6 +903,8 @@ private:
     std::FILE* file_;
     std::vector<std::string> steps_;
     std::vector<Active> active_;
+    std::vector<const Component*> inputs_;
+    std::string input_text_;
     std::string errors_;
     std::size_t size_ = 0;
 };

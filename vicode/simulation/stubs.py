@@ -74,7 +74,8 @@ class StubComponent(Component):
         if values is not self._shown:
             before, self._shown = self._shown, values
             for output in self.stub.outputs:
-                if values[output.name] != before[output.name]:
+                # Not by `!=`, for which 0.0 and -0.0 are equal.
+                if values[output.name] is not before[output.name]:
                     self._set(output, values[output.name])
 
     def drain_calls(self) -> list[dict[str, Any]]:

@@ -47,8 +47,7 @@ def build_components(plan: ProjectPlan, names: GlobalNames) -> ProjectView:
     abstract = [item.component for item in interfaces.values() if not item.is_generated]
     needs_world = any(item.implementation == WORLD for item in interfaces.values())
     own = [item.component for item in interfaces.values() if item.is_generated]
-    allocator = NameAllocator(frozenset({"root", "world"}))
-    members = {name: escape(allocator.allocate(snake_case(name))) for name in (*abstract, *own, *plan.package.modules)}
+    members = component_members(plan)
     uses = {item.component: [use.component for use in item.uses] for item in plan.components}
     ordered = [*own, *_in_order_of_use(uses)]
     parameters = ["bica::Root& root", *(["World& world"] if needs_world else [])]
@@ -72,6 +71,15 @@ def build_components(plan: ProjectPlan, names: GlobalNames) -> ProjectView:
         initializers=tuple(initializers),
         sources=tuple(f"{item.module}.cpp" for item in plan.components),
     )
+
+
+def component_members(plan: ProjectPlan) -> dict[str, str]:
+    """The members of the struct of all components."""
+    interfaces = list_interfaces(plan)
+    abstract = [item.component for item in interfaces if not item.is_generated]
+    own = [item.component for item in interfaces if item.is_generated]
+    allocator = NameAllocator(frozenset({"root", "world"}))
+    return {name: escape(allocator.allocate(snake_case(name))) for name in (*abstract, *own, *plan.package.modules)}
 
 
 def list_interfaces(plan: ProjectPlan) -> list[Interface]:
@@ -182,14 +190,14 @@ def _world_functions(item: InterfacePlan, names: GlobalNames) -> Iterator[str]:
         yield f"    {type_} {name}({_arguments(function, names)}) const {{ return {call}; }}"
     if item.is_behavior:
         passed = ", ".join(f"parameters.{member_name(value.name)}" for value in item.parameters)
-        yield f"    void work() override {{ world_.{_behavior_name(item)}({passed}); }}"
+        yield f"    void work() override {{ world_.{world_behavior_name(item)}({passed}); }}"
 
 
 def _arguments(function: FunctionPlan, names: GlobalNames) -> str:
     return ", ".join(f"{names.type_name(value.type)} {member_name(value.name)}" for value in function.arguments)
 
 
-def _behavior_name(item: InterfacePlan) -> str:
+def world_behavior_name(item: InterfacePlan) -> str:
     return escape(python_attribute_name(item.xabsl_name or snake_case(item.component)))
 
 
@@ -216,4 +224,4 @@ def _world_methods(item: InterfacePlan, names: GlobalNames) -> Iterator[tuple[st
         yield f"{head}({_arguments(function, names)})", describe(function.result)
     if item.is_behavior:
         parameters = ", ".join(f"{names.type_name(value.type)} {member_name(value.name)}" for value in item.parameters)
-        yield f"void {_behavior_name(item)}({parameters})", item.doc
+        yield f"void {world_behavior_name(item)}({parameters})", item.doc

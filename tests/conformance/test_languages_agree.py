@@ -1,0 +1,154 @@
+"""All languages give the same traces: the cases of this folder, and random designs with random inputs.
+
+All C++ code is compiled together, once.
+"""
+
+import os
+import random
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from tests.conformance.conformance_cases import CASES, LANGUAGES, Case, short_form
+from tests.conformance.random_designs import draw_projects
+from vicode.check import check_project
+from vicode.conformance.cpp import COMPILER_MISSING, CppProgram, find_compiler
+from vicode.conformance.inputs import ConformanceRun
+from vicode.conformance.python import run_python, run_simulator
+from vicode.conformance.random_inputs import random_run
+from vicode.conformance.report import describe
+from vicode.conformance.traces import TraceIteration, first_difference, reduce_for
+from vicode.conformance.xabsl import run_xabsl
+from vicode.findings import Severity
+from vicode.model.project import Project
+
+FILES = sorted(CASES.glob("*.yaml"))
+RANDOM_DESIGNS = 50
+ITERATIONS = 20
+FEATURES = {
+    *("order", "groups", "timers", "common transitions", "requires and modulates", "restart", "resume", "periods"),
+    *("nested components", "parameters", "enumerations", "arithmetic", "final states", "outputs and variables"),
+    *("arithmetic: xabsl", "time_unit: ms", "teams", "disabled", "names", "times"),
+}
+
+Traces = Mapping[str, Mapping[str, list[TraceIteration]]]
+
+
+@dataclass(frozen=True)
+class Session:
+    """The runs by name, and the traces by language and name."""
+
+    runs: Mapping[str, ConformanceRun]
+    traces: Traces
+
+
+def languages_of(run: ConformanceRun) -> dict[str, str]:
+    """The languages that cannot run a design, with the reason."""
+    absent = {}
+    project = Project(
+        **{name: getattr(run.project, name) for name in ("name", "enumerations", "constants", "components", "designs")},
+        languages=("python", "cpp", "xabsl"),
+    )
+    for language in ("python", "cpp", "xabsl"):
+        errors = [
+            each for each in check_project(project) if each.severity is Severity.ERROR and each.applies_to(language)
+        ]
+        absent |= {language: errors[0].message} if errors else {}
+    if "python" in absent:
+        absent["simulator"] = absent["python"]
+    if run.robots > 1:
+        absent["simulator"] = "the simulator runs one robot"
+    return absent
+
+
+def compare_all(runs: Mapping[str, ConformanceRun], absent: Mapping[str, Mapping[str, str]], folder: Path) -> Traces:
+    """Run everything in each language that can."""
+    compiler = find_compiler()
+    if compiler is None:
+        pytest.fail(COMPILER_MISSING, pytrace=False)
+
+    def able(language: str) -> dict[str, ConformanceRun]:
+        return {name: run for name, run in runs.items() if language not in absent[name]}
+
+    return {
+        "python": run_python(able("python"), folder),
+        "cpp": CppProgram(able("cpp"), folder, compiler, programs=2).run(),
+        "xabsl": {name: run_xabsl(run) for name, run in able("xabsl").items()},
+        "simulator": run_simulator(able("simulator"), folder),
+    }
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory: pytest.TempPathFactory) -> Session:
+    runs, absent = {}, {}
+    for file in FILES:
+        case = Case(file, tmp_path_factory.mktemp("case"))
+        runs[case.name], absent[case.name] = case.run, case.not_in
+    for number, project in enumerate(draw_projects(RANDOM_DESIGNS)):
+        name = f"random_{number}"
+        runs[name] = random_run(project, "Player", iterations=ITERATIONS, seed=number)
+        absent[name] = languages_of(runs[name])
+    return Session(runs, compare_all(runs, absent, tmp_path_factory.mktemp("conformance")))
+
+
+def differences(session: Session, name: str, language: str) -> str:
+    expected = reduce_for(language, session.traces["python"][name])
+    got = reduce_for(language, session.traces[language][name])
+    found = first_difference(expected, got)
+    return "" if found is None else describe(found, {"python": expected, language: got})
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_case_gives_the_expected_trace_in_each_language(
+    session: Session, file: Path, tmp_path: Path, accept: bool
+) -> None:
+    case = Case(file, tmp_path)
+    text = short_form(session.traces["python"][case.name], case.run.robots)
+    if accept:
+        case.accept(text)
+    else:
+        assert text == case.expected
+    for language in LANGUAGES[1:]:
+        if language not in case.not_in:
+            assert differences(session, case.name, language) == ""
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_a_language_is_left_out_for_the_reason_that_the_check_reports(file: Path, tmp_path: Path) -> None:
+    case = Case(file, tmp_path)
+    assert case.header["feature"] in FEATURES
+    assert dict(case.not_in) == {**languages_of(case.run), **dict(case.header.get("beyond_check", {}))}
+
+
+def test_each_feature_has_a_case() -> None:
+    features = {Case(file, file.parent).header["feature"] for file in FILES}
+    assert features == FEATURES
+
+
+@pytest.mark.parametrize("number", range(RANDOM_DESIGNS))
+def test_languages_agree_on_random_designs(session: Session, number: int) -> None:
+    name = f"random_{number}"
+    for language in LANGUAGES[1:]:
+        if name in session.traces[language]:
+            assert differences(session, name, language) == ""
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("batch", range(40))
+def test_languages_agree_on_many_random_designs(batch: int, tmp_path: Path) -> None:
+    seed = random.SystemRandom().randrange(10**6) if "VICODE_HYPOTHESIS" in os.environ else batch
+    runs, absent = {}, {}
+    for number, project in enumerate(draw_projects(50, seed=seed)):
+        runs[f"random_{number}"] = random_run(project, "Player", iterations=40, seed=number)
+        absent[f"random_{number}"] = languages_of(runs[f"random_{number}"])
+    found = Session(runs, compare_all(runs, absent, tmp_path))
+    assert [text for text in _all_differences(found) if text] == [], f"seed {seed}"
+
+
+def _all_differences(session: Session) -> Iterator[str]:
+    for language in LANGUAGES[1:]:
+        for name in session.traces[language]:
+            text = differences(session, name, language)
+            yield text and f"{name}: {text}"
