@@ -85,9 +85,7 @@ class _DriverWriter:
             arguments=", ".join(["root", *(["world"] if has_world else []), *(stub.member for stub in stubs)]),
             main=self._members[self._root],
             shared=tuple(
-                self._members[item.component]
-                for item in self._interfaces.values()
-                if item.implementation == INTERNAL
+                self._members[item.component] for item in self._interfaces.values() if item.implementation == INTERNAL
             ),
             setters=tuple(self._setter(*key) for key in inputs),
         )
@@ -151,7 +149,7 @@ class _DriverWriter:
         if not component:
             plan = next(each for each in self._plan.components if each.component == self._root)
             value = next(each for each in plan.parameters if each.name == name)
-            return f"components.{self._members[self._root]}.parameters.{member_name(name)} = {self._read(value)}"
+            return f"components.{self._members[self._root]}.{member_name(name)} = {self._read(value)}"
         item = self._interfaces[component]
         owner = "world" if item.implementation == WORLD else f"stub_{self._members[component]}"
         if any(function.result.name == name for function in item.functions):
