@@ -1,9 +1,10 @@
 """Map lines of generated code to the design elements they were generated from."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from vicode.findings import DesignPath
+from vicode.generators.plan import Branch, DecisionPlan
 from vicode.model.design import Design
 from vicode.model.disabled import disabled_states, is_enabled, strip_disabled
 from vicode.model.traversal import iter_decisions
@@ -25,6 +26,15 @@ class ComponentCode:
 
     file: OutputFile
     origins: tuple[Origin, ...]
+
+
+def leaf_paths(alternatives: Iterable[DecisionPlan]) -> Iterator[DesignPath]:
+    """The paths of the decisions with an outcome, in the order in which they are generated."""
+    for alternative in alternatives:
+        if isinstance(alternative.outcome, Branch):
+            yield from leaf_paths((*alternative.outcome.then, *alternative.outcome.otherwise))
+        else:
+            yield alternative.path
 
 
 def map_to_full_design(design: Design, origins: Iterable[Origin]) -> tuple[Origin, ...]:

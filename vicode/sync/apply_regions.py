@@ -13,6 +13,9 @@ from vicode.model.traversal import find_decision
 from vicode.sync.file_edits import FileEdits
 from vicode.sync.region_merge import RegionEdit
 
+_EMPTY = {"python": "pass", "cpp": ";", "xabsl": ""}
+"""Code without an effect: the design has no empty code."""
+
 Side = Literal["file", "design"]
 """The side that wins a conflict."""
 
@@ -59,7 +62,8 @@ def apply_regions(project: Project, files: Iterable[FileEdits], take: Side | Non
             elif text != region.design_text:
                 path = paths[region.target]
                 design = changed.get(file.component, designs[file.component])
-                changed[file.component] = set_code(design, path, file.language, text.strip("\n") or "pass")
+                code = text.strip("\n") or _EMPTY[file.language]
+                changed[file.component] = set_code(design, path, file.language, code)
                 applied.append(AppliedEdit(file=file, region=region, path=path))
     return AppliedEdits(designs=changed, applied=tuple(applied), conflicts=tuple(conflicts))
 

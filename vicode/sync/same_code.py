@@ -7,7 +7,10 @@ from itertools import groupby
 from vicode.regions import has_header, strip_bodies
 from vicode.sync.code_items import HEADER, IMPORT, CodeItem, imported_names, split_items
 
-_XABSL_TOKEN = re.compile(r'"[^"\n]*"|/\*.*?\*/|//[^\n]*|\w+|[^\w\s]', re.DOTALL)
+# Numbers of C++ may contain single quotes.
+_TOKEN = re.compile(
+    r"""(?P<comment>/\*.*?\*/|//[^\n]*)|"(?:[^"\\\n]|\\.)*"|\d(?:'?\w)*|'(?:[^'\\\n]|\\.)*'|\w+|[^\w\s]""", re.DOTALL
+)
 
 
 def is_same_code(a: str, b: str, comment: str = "#") -> bool:
@@ -18,10 +21,10 @@ def is_same_code(a: str, b: str, comment: str = "#") -> bool:
     Args:
         a: One version of the file.
         b: The other.
-        comment: The start of a comment, "#" (Python) or "//" (XABSL).
+        comment: The start of a comment, "#" (Python) or "//" (C++, XABSL).
     """
     if comment != "#":
-        return _xabsl_tokens(a, comment) == _xabsl_tokens(b, comment)
+        return _tokens(a, comment) == _tokens(b, comment)
     try:
         return list(_python_keys(a)) == list(_python_keys(b))
     except SyntaxError:
@@ -42,8 +45,9 @@ def _import_key(items: list[CodeItem]) -> object:
     return (items[0].scope, items[0].depth, imported_names(items), comments)
 
 
-def _xabsl_tokens(text: str, comment: str) -> list[str]:
-    return [" ".join(token.split()) for token in _XABSL_TOKEN.findall(strip_bodies(_without_header(text), comment))]
+def _tokens(text: str, comment: str) -> list[str]:
+    found = _TOKEN.finditer(strip_bodies(_without_header(text), comment))
+    return [" ".join(token[0].split()) if token["comment"] else token[0] for token in found]
 
 
 def _without_header(text: str) -> str:

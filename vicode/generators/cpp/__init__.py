@@ -5,8 +5,9 @@ from collections.abc import Callable, Iterator
 from vicode.generators.cpp.component import CppComponentWriter
 from vicode.generators.cpp.functions import action_code, guard_code
 from vicode.generators.cpp.names import RESERVED_MODULES, GlobalNames
+from vicode.generators.cpp.origins import find_origins
 from vicode.generators.cpp.project import build_components, build_declarations, build_interfaces, list_interfaces
-from vicode.generators.origins import ComponentCode, Origin
+from vicode.generators.origins import ComponentCode
 from vicode.generators.plan import CodePlan, ComponentPlan, PackagePlan, ProjectPlan
 from vicode.output import OutputFile
 from vicode.regions import add_header
@@ -48,11 +49,6 @@ def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCo
         return ComponentCode(file=source, origins=find_origins(component, source.text))
 
     return write
-
-
-def find_origins(component: ComponentPlan, text: str) -> tuple[Origin, ...]:  # noqa: ARG001
-    """Map the lines of a source file to elements of the design."""
-    return ()
 
 
 def list_regions(component: ComponentPlan) -> Iterator[CodePlan]:

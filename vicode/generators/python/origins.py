@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from vicode import regions
 from vicode.findings import DesignPath
-from vicode.generators.origins import Origin
+from vicode.generators.origins import Origin, leaf_paths
 from vicode.generators.plan import Branch, CodeCondition, ComponentPlan, DecisionPlan
 from vicode.model.python_parser import parse_module
 
@@ -84,18 +84,10 @@ def _predicate_paths(alternatives: Iterable[DecisionPlan]) -> Iterator[DesignPat
             yield from _predicate_paths((*alternative.outcome.then, *alternative.outcome.otherwise))
 
 
-def _leaf_paths(alternatives: Iterable[DecisionPlan]) -> Iterator[DesignPath]:
-    for alternative in alternatives:
-        if isinstance(alternative.outcome, Branch):
-            yield from _leaf_paths((*alternative.outcome.then, *alternative.outcome.otherwise))
-        else:
-            yield alternative.path
-
-
 def _decision_origins(
     method: ast.FunctionDef, alternatives: Iterable[DecisionPlan], lines: Sequence[str]
 ) -> Iterator[Origin]:
-    for (first, last), path in zip(_outcomes(method.body, None), _leaf_paths(alternatives), strict=False):
+    for (first, last), path in zip(_outcomes(method.body, None), leaf_paths(alternatives), strict=False):
         start = first
         # A comment above the test belongs to it.
         while start > 1 and lines[start - 2].strip().startswith("# ") and "vicode>" not in lines[start - 2]:
