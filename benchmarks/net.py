@@ -145,19 +145,19 @@ def measure_zenoh(count: int = 500) -> float:
 
 
 def measure_cost(count: int = 2000) -> dict[str, float]:
-    """Median time of an iteration with a local component, and with a remote one with and without a new message."""
-    with Root(Source) as local:
-        times = {"local component": median_time(count, lambda _number: local.step())}
+    """Median time of an iteration with a local component, and with a remote one with and without a new message.
+
+    The source is in this process: only the iterations of the caller are timed.
+    """
     new, idle = [], []
-    with other_process("--serve", "500"), connected(RemoteSource) as root:
-        remote: Any = root.main
-        for number in range(count):
-            if number % 10 == 0:
-                time.sleep(0.003)
-            before = remote.time_s
-            begin = time.perf_counter()
-            root.step()
-            (idle if remote.time_s == before else new).append(time.perf_counter() - begin)
+    with Root(Source) as source:
+        times = {"local component": median_time(count, lambda _number: source.step())}
+        source.connect("source")
+        with Root(RemoteSource) as caller:
+            for _number in range(count):
+                source.step()
+                new.append(median_time(1, lambda _number: caller.step()))
+                idle.append(median_time(1, lambda _number: caller.step()))
     times["remote, new message"] = statistics.median(new)
     times["remote, no message"] = statistics.median(idle)
     return times

@@ -22,7 +22,7 @@ from tests.bica.net_robots import (
     Watch,
     step_until,
 )
-from vicode.bica import Component, Root
+from vicode.bica import Component, Observer, Root
 from vicode.bica.errors import NetworkError
 from vicode.bica.net_session import open_session
 
@@ -249,3 +249,12 @@ def test_a_bad_configuration_names_its_file(
 def test_a_program_that_does_not_close_its_root_ends(net_port: str) -> None:
     program = "from tests.bica.net_robots import *; Root(RemoteEyes).step(); Root(Idle).connect('r1', team='blue')"
     subprocess.run([sys.executable, "-c", program], cwd=Path(__file__).parents[2], check=True, timeout=60)
+
+
+def test_the_live_view_and_records_show_the_age(make_root: MakeRoot) -> None:
+    make_root(Eyes, "striker").step()
+    records: list[Any] = []
+    with Root(RemoteEyes, observer=Observer(records.append, values=True)) as caller:
+        caller.step()
+    values = records[0]["tree"][0]["values"]
+    assert {"data_age", "is_alive", "distance", "zoom"} <= values.keys()

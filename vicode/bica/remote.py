@@ -58,6 +58,10 @@ class RemoteComponent(Component):
         self._sent_s = self._worked_s = -float("inf")
         self._is_remote_done = False
         self._reported: set[str] = set()
+        self._parameters: tuple[str, ...] = ()
+        self._likes: dict[str, Any] = {}
+        """Values of the types of the outputs, by name."""
+        self._has_names = False
 
     @property
     def is_done(self) -> bool:
@@ -73,6 +77,8 @@ class RemoteComponent(Component):
     def work(self) -> None:
         """Send the parameters, and read a message."""
         now_s = time.monotonic()
+        if not self._has_names:
+            self._find_names()
         self._send(now_s)
         message = self._outputs.take()
         if message is not None:
@@ -86,7 +92,8 @@ class RemoteComponent(Component):
 
     def _send(self, now_s: float) -> None:
         """Send the parameters if they have changed, and else so often that the other side goes on."""
-        parameters = {name: getattr(self, name) for name in self._parameter_names()}
+        values = self.__dict__
+        parameters = {name: values[name] for name in self._parameters}
         interval_s, self._worked_s = now_s - self._worked_s, now_s
         if parameters == self._sent and now_s - self._sent_s < _CALL_PERIOD_S:
             return
@@ -105,7 +112,7 @@ class RemoteComponent(Component):
         except (ValueError, KeyError, TypeError):
             self._report("sends what is no message")
             return
-        for name, like in self._output_values().items():
+        for name, like in self._likes.items():
             try:
                 self.__dict__[name] = convert(values[name], like)
             except KeyError:
@@ -119,15 +126,15 @@ class RemoteComponent(Component):
             self._report("sent messages that were lost")
         self._number = number
 
-    def _parameter_names(self) -> tuple[str, ...]:
-        return tuple(getattr(type(self).modulate, "__kwdefaults__", None) or ())
-
-    def _output_values(self) -> dict[str, Any]:
-        parameters = self._parameter_names()
-        return {
+    def _find_names(self) -> None:
+        """Find parameters and outputs, which the constructors of derived classes set."""
+        self._has_names = True
+        self._parameters = tuple(getattr(type(self).modulate, "__kwdefaults__", None) or ())
+        others = (*_OWN_NAMES, *self._parameters)
+        self._likes = {
             name: value
             for name, value in self.__dict__.items()
-            if not name.startswith("_") and name not in (*_OWN_NAMES, *parameters) and not callable(value)
+            if not name.startswith("_") and name not in others and not callable(value)
         }
 
     def _report(self, message: str) -> None:
