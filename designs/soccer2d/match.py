@@ -77,7 +77,8 @@ def run_server(options: argparse.Namespace) -> Iterator[None]:
         "nr_extra_halfs": 0,
         "penalty_shoot_outs": "false",
         "auto_mode": "true",
-        "connect_wait": 50,
+        # In cycles, which take no time in synchronous mode as long as nobody plays.
+        "connect_wait": 100_000 if (options.teams, options.players) == (2, 11) else 300,
         "kick_off_wait": 10,
         "game_over_wait": 10,
         "synch_mode": str(options.synchronous).lower(),
@@ -88,18 +89,18 @@ def run_server(options: argparse.Namespace) -> Iterator[None]:
     with tempfile.TemporaryDirectory() as folder, Path(folder, "server.log").open("wb") as log:
         server = subprocess.Popen(command, cwd=folder, env={"HOME": folder}, stdout=log, stderr=log)
         try:
-            wait_for_server(server, Path(log.name))
+            wait_for_server(server, options.port, Path(log.name))
             yield
         finally:
             server.send_signal(signal.SIGINT)
             server.wait()
 
 
-def wait_for_server(server: subprocess.Popen[bytes], log: Path) -> None:
-    """Wait until the server takes players; its last line says so."""
-    while "CTRL-C" not in (said := log.read_text(errors="replace")):
+def wait_for_server(server: subprocess.Popen[bytes], port: int, log: Path) -> None:
+    """Wait until the server has opened its port."""
+    while f":{port:04X} " not in Path("/proc/net/udp").read_text():
         if server.poll() is not None:
-            sys.exit(f"the server ended: {said.strip().splitlines()[-1:]}")
+            sys.exit(f"the server ended: {log.read_text(errors='replace').strip().splitlines()[-1:]}")
         time.sleep(0.05)
 
 

@@ -22,10 +22,12 @@ class FakeServer:
     Args:
         cycles: The messages of each cycle.
         port: 0 selects a free one.
+        mode: What a player is told who joins.
     """
 
-    def __init__(self, cycles: Sequence[Sequence[str]], port: int = 0) -> None:
+    def __init__(self, cycles: Sequence[Sequence[str]], port: int = 0, *, mode: str = "before_kick_off") -> None:
         self.cycles = cycles
+        self._mode = mode
         self.commands: list[list[str]] = []
         """By player, in the order of joining."""
         self._entrance = _open(port)
@@ -65,7 +67,7 @@ class FakeServer:
         player = _open(0)
         self._players[player] = address
         params = "(server_param (goal_width 14.02) (synch_mode 1))"
-        self._say(player, [f"(init l {len(self._players)} before_kick_off)", params, *self.cycles[self._current]])
+        self._say(player, [f"(init l {len(self._players)} {self._mode})", params, *self.cycles[self._current]])
         self.commands.append([])
 
     def _say(self, player: socket.socket, messages: Sequence[str]) -> None:
@@ -84,7 +86,4 @@ if __name__ == "__main__":
     script = [cycle(0), cycle(0, ball, "kick_off_l"), *(cycle(n, ball, "play_on") for n in range(1, 30))]
     script += [cycle(30, ball, "goal_l_1"), cycle(31, heard="time_over")]
     given = dict(argument.removeprefix("server::").split("=") for argument in sys.argv[1:])
-    server = FakeServer(script, int(given["port"]))
-    sys.stdout.write("Hit CTRL-C to exit\n")
-    sys.stdout.flush()
-    server.serve()
+    FakeServer(script, int(given["port"])).serve()

@@ -67,7 +67,7 @@ def test_one_landmark_is_not_enough() -> None:
 
 @contextmanager
 def joined(cycles: Sequence[Sequence[str]], **options: Any) -> Iterator[tuple[World, FakeServer]]:
-    server = FakeServer(cycles)
+    server = FakeServer(cycles, mode=options.pop("mode", "before_kick_off"))
     serving = threading.Thread(target=server.serve)
     serving.start()
     world = World(server=server.address, **options)
@@ -144,6 +144,11 @@ def test_a_refused_player_does_not_start() -> None:
         with pytest.raises(ConnectionRefusedError, match="no_more_team_or_player_or_goalie"):
             World(server=server.getsockname())
         refusing.join()
+
+
+def test_a_player_can_join_a_running_match() -> None:
+    with joined([cycle(0)], mode="play_on") as (world, _server):
+        assert world.situation == "play_on"
 
 
 def test_a_missing_server_is_reported() -> None:

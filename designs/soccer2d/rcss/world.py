@@ -64,7 +64,8 @@ class World:
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.settimeout(timeout_s)
         self._server = server
-        self.side, self.number = self._join(goalkeeper=goalkeeper)
+        self.side, self.number = "l", 0
+        self._join(goalkeeper=goalkeeper)
 
     # Commands: those of the last step of a cycle count.
 
@@ -138,7 +139,7 @@ class World:
 
     # The server
 
-    def _join(self, *, goalkeeper: bool) -> tuple[str, int]:
+    def _join(self, *, goalkeeper: bool) -> None:
         self._send(f"(init {self._team} (version 18){' (goalie)' if goalkeeper else ''})")
         # Another port of the server answers, and serves this player from now on.
         try:
@@ -147,10 +148,11 @@ class World:
             self._socket.close()
             raise TimeoutError(f"no server answers at {self._server[0]}:{self._server[1]}") from None
         match parse(text.decode("utf-8", "replace").strip("\0")):
-            case ["init", ("l" | "r") as side, number, _mode]:
+            case ["init", ("l" | "r") as side, number, mode]:
                 self._send("(synch_see)")
                 self._send("(change_view narrow)")
-                return side, int(number)
+                self.side, self.number = side, int(number)
+                self._obey(mode)
             case answer:
                 self._socket.close()
                 raise ConnectionRefusedError(f"the server refuses the player: {' '.join(map(str, answer))}")
