@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -131,11 +132,15 @@ class RecordingTransport(asyncio.Transport):
 
 
 class Client:
-    """A client whose bytes go to the connection directly; use it inside a running event loop."""
+    """A client whose bytes go to the connection directly; use it inside a running event loop.
 
-    def __init__(self, server: BridgeServer) -> None:
+    Its lines are handled at once, or in turns of some seconds.
+    """
+
+    def __init__(self, server: BridgeServer, turn_s: float = math.inf) -> None:
         self.transport = RecordingTransport()
         self.connection = Connection(server)
+        self.connection.turn_s = turn_s
         self.connection.connection_made(self.transport)
 
     def send(self, data: bytes | dict[str, Any]) -> None:

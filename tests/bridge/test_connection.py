@@ -148,10 +148,11 @@ def test_a_malformed_line_is_answered_and_the_tick_goes_on() -> None:
 def test_only_some_errors_are_answered() -> None:
     async def complain() -> None:
         server = make_server()
-        client = Client(server)
+        client = Client(server, 0.0)
         client.send(b"junk\n" * 1000 + b"AHEAD:5\n")
         await client.settle()
         assert len(client.lines()) <= 8
+        assert not client.transport.is_paused
         client.connection._error_s -= 2
         client.send(b"junk\n")
         assert client.lines()[-1].endswith("other errors)")

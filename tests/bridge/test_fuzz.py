@@ -12,6 +12,7 @@ import pytest
 
 from tests.bridge.byte_streams import make_stream, split_stream
 from tests.bridge.sample_robots import TICK_NS, Client, commands, make_server
+from vicode.bridge.connection import TURN_S
 from vicode.bridge.server import BridgeOptions, BridgeServer
 
 _WARM_UP = 2_000
@@ -53,7 +54,7 @@ async def attack(seeds: range) -> None:
 
 
 async def send_stream(server: BridgeServer, random: Random) -> None:
-    client = Client(server)
+    client = Client(server, TURN_S)
     for piece in split_stream(make_stream(random), random):
         client.send(piece)
     await client.settle()

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from vicode.bridge.server import BridgeServer
 
 _READ_BYTES = 32_768
-_SLICE_S = 0.002
+TURN_S = 0.002
 """So long a connection handles lines before others get their turn."""
 QUIET_SEND_S = 0.25
 """A robot that sends nothing gets commands so often: whether it reads them is not known."""
@@ -51,7 +51,9 @@ class Connection(asyncio.BufferedProtocol):
         self._clock_offset = _ClockOffset()
         self._tick_ns = 0
         self._sent_ticks = 0
+        self.turn_s = TURN_S
         self.is_working = False
+        """Whether lines wait for the next turn."""
         self._transport: asyncio.Transport
 
     # asyncio
@@ -94,11 +96,13 @@ class Connection(asyncio.BufferedProtocol):
 
     def _work(self) -> None:
         """Handle lines for a while; the rest waits until other connections and ticks had their turn."""
-        end_s, lines = time.perf_counter() + _SLICE_S, self._lines
-        while lines and time.perf_counter() < end_s:
+        end_s, lines = time.perf_counter() + self.turn_s, self._lines
+        while lines:
             self._handle(lines.popleft())
             if self._transport.is_closing():
                 lines.clear()
+            if time.perf_counter() >= end_s:
+                break
         self._has_heard = True
         self.flush()
         was_working, self.is_working = self.is_working, bool(lines)

@@ -7,10 +7,11 @@ from typing import Any
 
 from vicode.bica.errors import describe_exception
 from vicode.bica.loader import describe_user_error
+from vicode.bridge.ages import AgeFigures
 from vicode.bridge.behaviors import Behavior, BehaviorCatalog, BehaviorError, BehaviorSetup, TickClock
 from vicode.bridge.world import World
 
-_KEPT_AGES = 1024
+_MAX_REPORTED = 1000
 
 
 class Broadcast:
@@ -49,8 +50,8 @@ class Robot:
         self.clock = TickClock()
         self.behavior: Behavior | None = None
         self.behavior_name = ""
-        self.ages_ns: deque[int] = deque(maxlen=_KEPT_AGES)
-        """The age of the data acted on, of the last ticks in which any was read."""
+        self.ages = AgeFigures()
+        """The age of the data acted on, of all ticks in which any was read."""
         self.reports: list[str] = []
         """Lines about exceptions and malformed values since the last `take_reports`."""
         self._reported: set[str] = set()
@@ -101,7 +102,7 @@ class Robot:
         behavior.step()
         data.commands.end_tick(self.clock.ns)
         if (age_ns := data.readings.age_ns) is not None:
-            self.ages_ns.append(age_ns)
+            self.ages.add(age_ns)
         self._tell(at_ns, behavior)
         for problem in data.take_problems():
             self.reports.append(problem)
@@ -171,6 +172,6 @@ class Robot:
     def _report(self, line: str) -> None:
         """Count an exception; report each one once."""
         self.data.counts.errors += 1
-        if line not in self._reported and len(self._reported) < _KEPT_AGES:
+        if line not in self._reported and len(self._reported) < _MAX_REPORTED:
             self._reported.add(line)
             self.reports.append(line)

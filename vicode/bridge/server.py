@@ -5,11 +5,11 @@ import ipaddress
 import re
 import ssl
 import time
-from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from vicode.bica.loader import describe_user_error
+from vicode.bridge.ages import AgeFigures
 from vicode.bridge.behaviors import BehaviorCatalog
 from vicode.bridge.connection import Connection
 from vicode.bridge.dialects import JoinRequest, RefusedError
@@ -19,7 +19,6 @@ from vicode.bridge.world import Counts, World
 DEFAULT_PORT = 7001
 DEFAULT_TICK_MS = 50.0
 MAX_CONNECTIONS = 1000
-_KEPT_AGES = 100_000
 _HANDSHAKE_S = 10.0
 _STOP_S = 2.0
 _TURN_S = 0.005
@@ -92,7 +91,7 @@ class BridgeServer:
     """Runs until `stop`; it ends earlier only with an exception."""
     _seats: dict[str, _Seat] = field(default_factory=dict)
     _connections: set[Connection] = field(default_factory=set)
-    _ages_ns: deque[int] = field(default_factory=lambda: deque(maxlen=_KEPT_AGES))
+    _ages: AgeFigures = field(default_factory=AgeFigures)
     _joined: int = 0
     _listener: asyncio.Server | None = None
 
@@ -129,10 +128,12 @@ class BridgeServer:
         """Counts of all robots since the start."""
         return sum((seat.robot.data.counts for seat in self._seats.values()), self.counts)
 
-    def list_ages_ns(self) -> list[int]:
-        """The age of the data acted on in the last ticks of all robots, in ascending order."""
-        current = (age_ns for seat in self._seats.values() for age_ns in seat.robot.ages_ns)
-        return sorted([*self._ages_ns, *current])
+    def collect_ages(self) -> AgeFigures:
+        """The age of the data acted on, of all robots since the start."""
+        figures = AgeFigures()
+        for each in (self._ages, *(seat.robot.ages for seat in self._seats.values())):
+            figures.merge(each)
+        return figures
 
     async def stop(self) -> None:
         """Stop all robots, close all connections, behaviors and worlds."""
@@ -279,7 +280,7 @@ class BridgeServer:
             del self._seats[seat.robot.name]
         seat.robot.close()
         self.counts += seat.robot.data.counts
-        self._ages_ns.extend(seat.robot.ages_ns)
+        self._ages.merge(seat.robot.ages)
 
 
 def _left(seat: _Seat) -> float:

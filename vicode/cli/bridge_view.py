@@ -123,7 +123,7 @@ def render_bridge(server: "BridgeServer", events: "deque[str]", rate: "Callable[
 
 
 def _describe_robot(robot: "Robot", rate: float) -> tuple[RenderableType, ...]:
-    counts, ages_ms = robot.data.counts, [age_ns / 1e6 for age_ns in robot.ages_ns]
+    counts, ages = robot.data.counts, robot.ages
     states = robot.behavior.active_states() if robot.behavior is not None else []
     active = Text(" > ").join(Text.assemble(name, (f" {state}", "yellow")) for name, state in states)
     errors = counts.errors + counts.malformed
@@ -131,8 +131,8 @@ def _describe_robot(robot: "Robot", rate: float) -> tuple[RenderableType, ...]:
         Text(robot.name, style="bold"),
         active,
         f"{rate:.1f}",
-        f"{ages_ms[-1]:.1f}" if ages_ms else "-",
-        f"{max(ages_ms):.1f}" if ages_ms else "-",
+        f"{ages.newest / 1e6:.1f}" if ages.newest is not None else "-",
+        f"{ages.greatest / 1e6:.1f}" if ages.number else "-",
         str(counts.lines),
         str(counts.dropped),
         Text(str(errors), style="red" if errors else ""),
@@ -146,7 +146,8 @@ def describe_totals(server: "BridgeServer", seconds: float) -> Iterator[str]:
     for name, words in _COUNTS.items():
         if value := getattr(total, name):
             yield f"{value:10} {words}"
-    if ages_ns := server.list_ages_ns():
-        figures = (ages_ns[len(ages_ns) // 2], ages_ns[len(ages_ns) * 99 // 100], ages_ns[-1])
+    ages = server.collect_ages()
+    if ages.number:
+        figures = (ages.quantile(0.5), ages.quantile(0.99), ages.greatest)
         middle, most, greatest = (f"{age_ns / 1e6:.1f} ms" for age_ns in figures)
         yield f"age of the data acted on: median {middle}, 99 % up to {most}, at most {greatest}"
