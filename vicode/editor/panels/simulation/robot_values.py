@@ -48,9 +48,9 @@ class RobotValues:
         rows = []
         for name in names:
             seen = robot.steps.get(name)
-            if name in inputs:
+            if seen is None and name in inputs:
                 rows.append(input_row(name, inputs[name]))
-            if seen is None or name not in known or name in inputs:
+            if seen is None or name not in known:
                 continue
             rows.append(
                 component_row(
