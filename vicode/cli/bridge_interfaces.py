@@ -4,6 +4,8 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from vicode.model.design import Declaration
+from vicode.model.names import python_attribute_name, snake_case
 from vicode.model.project import WORLD, Interface, Project
 
 if TYPE_CHECKING:
@@ -34,18 +36,23 @@ def _list_interface(opened: "OpenProject", interface: Interface) -> "Iterator[Re
     for key, declarations in (("outputs", interface.outputs), ("variables", interface.variables)):
         for each in declarations:
             yield Requirement(
-                name=each.name,
+                name=_attribute(each),
                 description=f"{key[:-1]} {each.name} of {name}",
                 place=_find_place(opened, ("components", name, key, each.name)),
                 parameters=None if each.arguments is None else tuple(argument.name for argument in each.arguments),
             )
     if interface.parameters or not (interface.outputs or interface.variables):
         yield Requirement(
-            name=name,
+            name=python_attribute_name(interface.xabsl_name or snake_case(name)),
             description=f"component {name}",
             place=_find_place(opened, ("components", name)),
             parameters=tuple(each.name for each in interface.parameters),
         )
+
+
+def _attribute(declaration: Declaration) -> str:
+    """The attribute of the world that generated code reads, in each language."""
+    return python_attribute_name(declaration.xabsl_name or declaration.name)
 
 
 def _find_place(opened: "OpenProject", path: "DesignPath") -> str:
@@ -63,7 +70,7 @@ def design_types(project: Project) -> "dict[str, DeclaredType]":
     types = {}
     for output in (each for interface in project.components for each in interface.readable):
         enumeration = project.enumeration(output.type)
-        types[output.name] = DeclaredType(
+        types[_attribute(output)] = DeclaredType(
             value_type=str if enumeration else _TYPES.get(output.type, float),
             elements=enumeration.element_names if enumeration else (),
             unit=output.unit,

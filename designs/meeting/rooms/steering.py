@@ -7,8 +7,9 @@ Drive = tuple[float, float]
 """Speed in m/s, and turning speed in degrees/s to the left."""
 
 ARRIVED_M = 0.1
-_CLEARANCE_M = 0.36
+_CLEARANCE_M = 0.34
 _LOOK_AHEAD_M = 1.2
+_STUCK_M = 0.2
 _SPEED_M_S, _TURN_DEG_S = 0.4, 60.0
 _CANDIDATES = sorted(range(-90, 91, 10), key=abs)
 _ANGLES = tuple(math.radians(ray - 90) for ray in range(181))
@@ -33,6 +34,9 @@ def steer(ranges: Sequence[float], bearing: float, distance: float) -> Drive:
     directions = sorted((bearing, *_CANDIDATES), key=lambda each: abs(each - bearing))
     free = {each: _free_path(obstacles, each, reach) for each in directions}
     best = min(directions, key=lambda each: abs(each - bearing) + 150 * (1 - free[each] / reach))
+    if free[best] < min(_STUCK_M, reach / 2):
+        # Look to the right until there is a way: robots that block each other turn away from each other.
+        return 0.0, -_TURN_DEG_S
     turning_speed = max(-_TURN_DEG_S, min(_TURN_DEG_S, 2.5 * best))
     ahead = _free_path(obstacles, 0.0, reach)
     speed = _SPEED_M_S * max(0.0, math.cos(math.radians(best))) ** 2 * min(1.0, ahead / 0.4, distance / 0.3)

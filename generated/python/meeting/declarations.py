@@ -4,7 +4,7 @@
 from typing import Final
 
 # Where the robots wait for the door (in m)
-waiting_x: Final = 3.2
+waiting_x: Final = 2.8
 # Where they wait for each other (in m)
 meeting_x: Final = 8.3
 # Between two robots that wait (in m)
