@@ -8,8 +8,10 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
 _ADDRESS = re.compile(r"127\.0\.0\.1:(\d+)")
+_PEAK_MEMORY = re.compile(r"VmHWM:\s+(\d+) kB")
 _END_TIMEOUT_S = 10.0
 
 
@@ -42,6 +44,7 @@ def running_bridge(arguments: Sequence[str]) -> Iterator[BridgeUse]:
         try:
             use = BridgeUse(_read_port(process))
             yield use
+            use.memory_mb = _read_peak_memory(process.pid)
         except BridgeStartError as error:
             process.wait(_END_TIMEOUT_S)
             errors.seek(0)
@@ -50,7 +53,6 @@ def running_bridge(arguments: Sequence[str]) -> Iterator[BridgeUse]:
             _end(process)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     use.cpu_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    use.memory_mb = after.ru_maxrss / 1024
 
 
 def _read_port(process: subprocess.Popen[bytes]) -> int:
@@ -61,6 +63,19 @@ def _read_port(process: subprocess.Popen[bytes]) -> int:
         if match := _ADDRESS.search(printed):
             return int(match.group(1))
     raise BridgeStartError(f"the bridge did not start: {printed}")
+
+
+def _read_peak_memory(process_id: int) -> float:
+    """The peak memory of a process in MB, 0 where the system does not tell.
+
+    The resource usage of a child is no alternative: it counts the memory of its parent until the program starts.
+    """
+    try:
+        status = Path(f"/proc/{process_id}/status").read_text(encoding="utf-8")
+    except OSError:
+        return 0.0
+    match = _PEAK_MEMORY.search(status)
+    return int(match.group(1)) / 1024 if match else 0.0
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
