@@ -51,8 +51,9 @@ bench: $(VENV)/.ready-bench  ## measure against a hand-written machine and other
 gen: $(VENV)/.ready  ## write generated/ anew from designs/
 	@$(BIN)/vicode gen designs
 
-pictures: $(VENV)/.ready-test chromium  ## take docs/pictures anew from the editor
+pictures: $(VENV)/.ready-test chromium  ## take docs/pictures anew
 	@$(BIN)/python -m tests.editor.take_pictures
+	@$(BIN)/python -m tests.experiments.take_pictures
 
 clean:  ## remove the environment and all caches
 	rm -rf $(VENV) build dist .hypothesis .import_linter_cache .mypy_cache .nicegui .pytest_cache .ruff_cache test-results

@@ -105,7 +105,7 @@ async def run_versions(
             result = await run_seeds(experiment, maps, range(1, seeds + 1), port=bridge.port, on_run=count_run)
             if has_real_time:
                 on_progress(f"{title} in real time", done, total)
-                real_time = await run_real_time(experiment, maps[0], port=bridge.port, seconds=_REAL_TIME_S)
+                real_time = await run_real_time(experiment, maps[-1], port=bridge.port, seconds=_REAL_TIME_S)
         versions.append(
             VersionResult(
                 title=title, result=result, real_time=real_time, cpu_s=bridge.cpu_s, memory_mb=bridge.memory_mb
