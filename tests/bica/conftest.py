@@ -30,12 +30,12 @@ def make_root(net_port: str) -> Iterator[MakeRoot]:
 
 
 @pytest.fixture
-def start_robot(net_port: str) -> Iterator[Callable[[str], "subprocess.Popen[str]"]]:
+def start_robot(net_port: str) -> Iterator[Callable[..., "subprocess.Popen[str]"]]:
     processes: list[subprocess.Popen[str]] = []
 
-    def start(name: str) -> "subprocess.Popen[str]":
+    def start(name: str, component: str = "Eyes") -> "subprocess.Popen[str]":
         environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
-        command = [sys.executable, net_robots.__file__, name, net_port]
+        command = [sys.executable, net_robots.__file__, name, net_port, component]
         process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
         processes.append(process)
         assert process.stdout is not None

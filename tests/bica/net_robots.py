@@ -1,6 +1,6 @@
 """Robots that are connected, in this process or in another; run as a program, a robot that has eyes.
 
-python net_robots.py NAME PORT connects as NAME; its `Eyes` count their steps.
+python net_robots.py NAME PORT Eyes|Blocker connects as NAME and steps the component; a blocker is ready when it blocks.
 """
 
 import os
@@ -130,10 +130,11 @@ def step_until(condition: Callable[[], object], *roots: Root) -> None:
         time.sleep(0.001)
 
 
-def main(name: str, port: str) -> None:
+def main(name: str, port: str, component: str) -> None:
     os.environ["VICODE_NET_PORT"] = port
-    with Root(Eyes) as root:
-        root.connect(name)
+    with Root({"Eyes": Eyes, "Blocker": Blocker}[component]) as root:
+        root.connect(name, team="blue")
+        step_until(lambda: root.main.state in ("", "Block"), root)
         sys.stdout.write("ready\n")
         sys.stdout.flush()
         while True:

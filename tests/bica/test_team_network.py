@@ -1,6 +1,8 @@
 """Robots of a team: states with a capacity, shared values, and robots that end."""
 
 import json
+import subprocess
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -8,6 +10,7 @@ import pytest
 from tests.bica.net_robots import Blocker, Field, Idle, MakeRoot, step_until
 from vicode.bica import Root
 from vicode.bica.net_session import open_session
+from vicode.bica.team_link import ANSWER_TICKS
 
 
 def blocking(*roots: Root) -> list[bool]:
@@ -26,6 +29,22 @@ def test_one_robot_enters_a_state_with_room_for_one(make_root: MakeRoot) -> None
     others = [root for root in roots if root is not roots[owner]]
     step_until(lambda: any(blocking(*others)), *others)
     assert sum(blocking(*others)) == 1
+
+
+def test_a_robot_that_is_killed_leaves_room(
+    make_root: MakeRoot, start_robot: Callable[..., "subprocess.Popen[str]"]
+) -> None:
+    process = start_robot("r1", "Blocker")
+    root = make_root(Blocker, "r2", team="blue")
+    # It has just connected, and enters nothing before it could hear the others.
+    step_until(lambda: root.team.ticks == ANSWER_TICKS, root)
+    for _ in range(20):
+        root.step()
+    assert root.main.state == "Wait"
+    process.kill()
+    step_until(lambda: root.main.state == "Block", root)
+    assert root.network is not None
+    assert not root.network.robots["r1"].is_connected
 
 
 def test_other_teams_do_not_count(make_root: MakeRoot) -> None:

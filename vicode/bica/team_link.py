@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 ANSWER_TICKS = 4
 """Iterations until the others have answered, if they iterate as often as this robot."""
 MAX_MESSAGE_AGE_S = 1.0
+START_S = 1.0
+"""So long a robot that has just connected enters no cooperative state, because it may not have heard the others yet."""
+_NEVER = 2**62
 _MAX_ROBOTS, _MAX_STATES, _MAX_TEXT = 64, 64, 200
 _MAX_PRIORITY = 2**53
 
@@ -70,7 +73,9 @@ class TeamLink:
         self._reported: set[str] = set()
         # Robots with equal priority yield to each other.
         root.team.priority = root.team.priority or crc32(name.encode()) + 1
-        root.team.ticks = root.team.ticks or ANSWER_TICKS
+        self._ticks = root.team.ticks or ANSWER_TICKS
+        root.team.ticks = _NEVER
+        self._start_s = time.monotonic()
 
     def hear(self) -> None:
         """Read the newest message of each robot; those of robots that have ended no longer count."""
@@ -80,6 +85,8 @@ class TeamLink:
         for name, payload in newest.items():
             if name != self._name:
                 self._read(name, payload)
+        if self._root.team.ticks == _NEVER and time.monotonic() - self._start_s >= START_S:
+            self._root.team.ticks = self._ticks
         self._root.team.prepare()
         connected = {key.split("/")[1] for key in self._alive.read()}
         for robot in self.robots.values():
