@@ -206,3 +206,17 @@ def test_html_in_names_is_shown_as_text_in_completion_and_marks(editor: str, pag
     expect(page.locator(".squiggle-tip")).to_be_visible()
     assert page.locator("img[src=x]").count() == 0
     assert "owned" not in page.title()
+
+
+def test_each_language_of_the_code_has_a_tab(editor: str, page: Page, project: Path) -> None:
+    open_player(page, editor)
+    select_state(page, "WatchBall")
+    tabs = page.get_by_role("tablist", name="Languages of the code").first
+    expect(tabs.get_by_role("tab", name="Python")).to_have_attribute("aria-selected", "true")
+    tabs.get_by_role("tab", name="C++").click()
+    code = page.get_by_label("Inspector").get_by_label("C++", exact=True)
+    expect(code).to_have_text("distances_[distance_count_++ % distances_.size()] = perception.ball_distance;")
+    retype(page, code, "distance_count_ += 2;")
+    text = save(page, project / "forward" / "player.yaml")
+    assert "cpp: distance_count_ += 2;" in text
+    assert "python: self._distances.append(self.perception.ball_distance)" in text

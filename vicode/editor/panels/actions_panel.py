@@ -5,14 +5,14 @@ from dataclasses import replace
 
 from nicegui import ui
 
-from vicode.editor.panels import texts
-from vicode.editor.panels.code_field import code_field, pairs_field
-from vicode.editor.panels.fields import Attribute, FieldBinding, attribute_binding
+from vicode.editor.panels.code_field import pairs_field
+from vicode.editor.panels.code_language_tabs import code_fields, replace_text
+from vicode.editor.panels.fields import Attribute, attribute_binding
 from vicode.editor.panels.form import Form, ItemRows, Rows
 from vicode.editor.panels.widgets import add_button, reorder_buttons
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.item_paths import TrackedItem, item_at
-from vicode.model.design import Action, Assign, Call, Code, Declaration, RunCode
+from vicode.model.design import Action, Assign, Call, Declaration, RunCode
 from vicode.model.expressions import build_scope
 
 # Focus a new action: otherwise typed letters would be commands of the canvas.
@@ -46,7 +46,7 @@ def actions_panel(form: Form, owner: TrackedItem, section: str, *, calls: bool =
     with ui.row().classes("adders"):
         add("Set", "edit_note", lambda: Assign(values=(_first_assignment(context),)))
         Rows(form, list_calls, lambda _row, label: add(label, "call_made", make_call))
-        add("Code", "code", lambda: RunCode(code=python_code("")))
+        add("Code", "code", lambda: RunCode(code=replace_text(None, "python", "")))
 
 
 def _action(form: Form, item: TrackedItem) -> None:
@@ -82,18 +82,6 @@ def _head(form: Form, item: TrackedItem, title: str, index: int, *, is_last: boo
         )
 
 
-def python_code(text: str) -> Code:
-    return replace_python(None, text)
-
-
-def replace_python(code: Code | None, text: str) -> Code:
-    """Replace the Python text of code; texts in other languages stay. Without any text, the Python text is empty."""
-    others = tuple(pair for pair in (code.texts if code else ()) if pair[0] != "python")
-    # A YAML block of several lines ends with a newline; a single line does not.
-    ended = text + "\n" if "\n" in text and not text.endswith("\n") else text
-    return Code(texts=((("python", ended), *others) if text.strip() or not others else others))
-
-
 def parse_assignments(text: str) -> tuple[tuple[str, str], ...]:
     """Parse lines `name = expression` (or `name: expression`)."""
     halves = (line.partition("=" if "=" in line else ":") for line in text.splitlines())
@@ -119,7 +107,7 @@ def _action_field(form: Form, item: TrackedItem) -> None:
     context = form.context
     match item.get():
         case RunCode():
-            code_field(form, replace(code_binding(item, "Python", "code"), hint=texts.CODE_HINT))
+            code_fields(form, item, "code")
         case Assign():
             attribute = Attribute(
                 label="name = expression, one per line",
@@ -141,17 +129,6 @@ def _action_field(form: Form, item: TrackedItem) -> None:
             )
             binding = attribute_binding(item, attribute)
             pairs_field(form, binding, lambda: component_parameters(context, item.get().alias))
-
-
-def code_binding(item: TrackedItem, label: str, name: str) -> FieldBinding:
-    """Bind the Python text of an attribute that is code."""
-    attribute = Attribute(
-        label=label,
-        name=name,
-        format=lambda code: (code.in_language("python") if code else "") or "",
-        parse=lambda text: replace_python(getattr(item.get(), name), text),
-    )
-    return attribute_binding(item, attribute)
 
 
 def settable_declarations(context: WindowContext) -> tuple[Declaration, ...]:

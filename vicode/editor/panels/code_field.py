@@ -1,7 +1,8 @@
-"""Fields for Python code and expressions, with highlighting, completion and marks at errors."""
+"""Fields for code and expressions, with highlighting, completion and marks at errors."""
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Literal
 
 from nicegui import ui
 from nicegui.events import CodeMirrorFocusChangeEventArguments
@@ -23,6 +24,7 @@ from vicode.editor.session.completion import (
     complete_python,
 )
 from vicode.editor.session.fixes import is_fixable
+from vicode.languages import LANGUAGES
 from vicode.model.design import Declaration
 
 _SHOWN_MESSAGES = 6
@@ -36,25 +38,36 @@ class CodeFieldSpec:
     find_marks: Callable[[str], Sequence[CodeMark]]
     css_class: str
     is_expression: bool = True
+    mode: Literal["Python", "C++", "C"] = "Python"
     open_in_editor: Callable[[], None] | None = None
 
 
-def code_field(form: Form, binding: FieldBinding) -> Field:
-    """Build a field for Python code; the path of the binding leads to the texts by language."""
+def code_field(form: Form, binding: FieldBinding, language: str = "python") -> Field:
+    """Build a field for code in a language; the path of the binding leads to the texts by language."""
     context = form.context
+    complete = complete_python if language == "python" else complete_expression
 
     def find_marks(text: str) -> Sequence[CodeMark]:
         path = binding.get_path()
-        text_path = (*path, "python")
-        lints = context.linter.lints_for(text_path, text)
-        return mark_text(text, text_path if path[-1:] == ("code",) else path, context.document.findings, lints)
+        text_path = (*path, language)
+        if language == "python":
+            lints = context.linter.lints_for(text_path, text)
+            return mark_text(text, text_path if path[-1:] == ("code",) else path, context.document.findings, lints)
+        # A missing version is a finding about the code in all languages.
+        missing = [
+            replace(each, subject=replace(each.subject, path=text_path))
+            for each in context.document.findings
+            if each.rule.code == "D414" and language in each.languages and each.subject and each.subject.path == path
+        ]
+        return mark_text(text, text_path, (*context.document.findings, *missing))
 
     spec = CodeFieldSpec(
-        complete=lambda text, at: complete_python(context.workspace.project, context.design, text, at),
+        complete=lambda text, at: complete(context.workspace.project, context.design, text, at),
         find_marks=find_marks,
         css_class="code-field",
         is_expression=False,
-        open_in_editor=lambda: open_in_editor(context, binding.get_path()),
+        mode=LANGUAGES[language].editor_mode,
+        open_in_editor=lambda: open_in_editor(context, binding.get_path(), language),
     )
     return add_field(form, _build(context, binding, spec))
 
@@ -98,7 +111,7 @@ def _build(
                 if spec.open_in_editor is not None:
                     icon_button("open_in_new", f"Open in editor: {binding.label}", spec.open_in_editor)
                 icon_button("open_in_full", f"Enlarge: {binding.label}", lambda: _enlarge(fields[0], spec))
-        editor = context.code_editors.create(on_focus=focus, language=None if spec.is_expression else "Python")
+        editor = context.code_editors.create(on_focus=focus, language=None if spec.is_expression else spec.mode)
         editor.classes(spec.css_class + (" is-large" if is_large else ""))
         code_assist = CodeAssist(
             editor,

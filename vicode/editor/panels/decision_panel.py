@@ -4,8 +4,8 @@ from dataclasses import replace
 
 from nicegui import ui
 
-from vicode.editor.panels.actions_panel import code_binding, python_code
-from vicode.editor.panels.code_field import code_field, expression_field
+from vicode.editor.panels.code_field import expression_field
+from vicode.editor.panels.code_language_tabs import code_fields, replace_text
 from vicode.editor.panels.decisions_list import decision_source, decisions_list
 from vicode.editor.panels.fields import (
     DOC,
@@ -73,12 +73,12 @@ def _code(form: Form, item: TrackedItem, has_code: bool) -> None:
     context, guard = form.context, item.child("guard")
 
     def set_code(design: Design, text: str) -> Design:
-        code = python_code(text) if text else None
+        code = replace_text(None, "python", text) if text else None
         changed: Design = guard.update(design, lambda old: replace(old, code=code))
         return assign_id(changed, item.path or ()) if text else changed
 
     if has_code:
-        code_field(form, _guard_binding(item, code_binding(guard, _PREDICATE, "code")))
+        code_fields(form, guard, "code", _PREDICATE, bind=lambda binding: _guard_binding(item, binding))
         button = ui.button("Remove code", on_click=lambda: context.edit("remove code", lambda old: set_code(old, "")))
     else:
         button = ui.button("Code predicate", icon="add")

@@ -6,8 +6,8 @@ from dataclasses import replace
 from nicegui import ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.actions_panel import actions_panel, code_binding
-from vicode.editor.panels.code_field import code_field
+from vicode.editor.panels.actions_panel import actions_panel
+from vicode.editor.panels.code_language_tabs import code_fields
 from vicode.editor.panels.collapsible import collapsible_section
 from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.declarations import SECTIONS, declarations_form
@@ -91,7 +91,7 @@ def _code(form: Form, design: TrackedItem) -> None:
 
     def build() -> None:
         for name in ("module", "members"):
-            code_field(form, code_binding(design, name.capitalize(), name))
+            code_fields(form, design, name, name.capitalize())
 
     collapsible_section(form, "code", lambda: "Code", caption, build, is_shared=True)
 

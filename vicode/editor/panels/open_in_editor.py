@@ -15,9 +15,9 @@ _KEY = "vicode-open-with-link"
 _ANSWER_TIMEOUT_S = 60.0
 
 
-def open_in_editor(context: WindowContext, path: DesignPath) -> None:
+def open_in_editor(context: WindowContext, path: DesignPath, language: str) -> None:
     """Open the generated code of a part of the design; the file is generated first if it does not exist."""
-    context.run_in_background(_open(context, path), "open in editor")
+    context.run_in_background(_open(context, path, language), "open in editor")
 
 
 def editor_command(context: WindowContext) -> tuple[Command, ...]:
@@ -37,8 +37,9 @@ def editor_command(context: WindowContext) -> tuple[Command, ...]:
     return (Command("code-editor", "Switch the editor for code", handle, MenuGroup.DESIGN, icon="open_in_new"),)
 
 
-async def _open(context: WindowContext, path: DesignPath) -> None:
-    place = find_place(context.workspace, context.document, path) or await _generate(context, path)
+async def _open(context: WindowContext, path: DesignPath, language: str) -> None:
+    place = find_place(context.workspace, context.document, path, language)
+    place = place or await _generate(context, path, language)
     if place is None:
         return
     editor = context.external_editor
@@ -60,14 +61,14 @@ def _start(context: WindowContext, place: CodePlace) -> None:
         context.show_toast(texts.editor_not_started(context.external_editor.name, error.strerror or error), "negative")
 
 
-async def _generate(context: WindowContext, path: DesignPath) -> CodePlace | None:
+async def _generate(context: WindowContext, path: DesignPath, language: str) -> CodePlace | None:
     try:
         context.workspace.save(context.document)
         result = await run.io_bound(context.workspace.generate, context.document)
     except (OSError, ValueError, DiskConflictError) as error:
         context.show_toast(texts.nothing_to_open(error), "negative")
         return None
-    place = find_place(context.workspace, context.document, path)
+    place = find_place(context.workspace, context.document, path, language)
     if place is None and result is not None:
         context.show_toast(result.message, "negative")
     return place

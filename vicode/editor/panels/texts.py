@@ -43,6 +43,7 @@ TIME_UNIT_HELP = "Unit of state_time and component_time in expressions. Empty: s
 USER_NAME_HELP = "Other users see this name next to your selection and in the history."
 
 CODE_HINT = "Python statements, such as self.tries += 1"
+CPP_CODE_HINT = "Translated from Python where possible; or statements in C++, such as tries += 1;"
 CODE_OWNER_CHANGED = "Another user removed, renamed or moved the owner of this code."
 DESIGN_CHANGED_RENAME_AGAIN = "The design changed. Rename again."
 USED_BY_FOLLOWING = "It is used in these places, which will report errors:"
@@ -270,3 +271,8 @@ def editor_not_started(name: str, reason: object) -> str:
 
 def nothing_to_open(reason: object) -> str:
     return f"The code is not generated yet: {reason}"
+
+
+def code_languages(label: str) -> str:
+    """The name of the tabs of code."""
+    return f"Languages of {label}" if label else "Languages of the code"

@@ -43,6 +43,8 @@ class WindowContext:
     selected: tuple[ItemRef, ...] = ()
     open_sections: set[str] = field(default_factory=set)
     """Keys of the open sections of forms."""
+    code_language: str = ""
+    """The language whose tab was chosen last."""
     code_editors: CodeEditorFactory = field(default_factory=CodeEditorFactory)
     linter: CodeLinter = field(init=False)
     changes: Subscribers[[]] = field(default_factory=Subscribers)

@@ -14,7 +14,7 @@ from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.workspace import Workspace
 from vicode.findings import DesignPath
 from vicode.generators import UnsoundDesignError, list_regions
-from vicode.regions import find_regions
+from vicode.regions import find_regions, get_comment_prefix
 
 _VSCODE = ("-g", "{file}:{line}")
 _PLUS = ("+{line}", "{file}")
@@ -100,17 +100,20 @@ def find_command(environment: Mapping[str, str] = os.environ) -> tuple[str, ...]
     return ()
 
 
-def find_place(workspace: Workspace, document: DocumentSession, path: DesignPath) -> CodePlace | None:
-    """The line of code of a design in its generated Python file; None if the file does not exist."""
+def find_place(
+    workspace: Workspace, document: DocumentSession, path: DesignPath, language: str = "python"
+) -> CodePlace | None:
+    """The line of code of a design in its generated files of one language; None if there are none."""
     component = document.design.component
-    paths = (each for each in workspace.generated_paths.find(workspace, component) if each.startswith("python/"))
-    file = next((workspace.output_folder / each for each in paths), None)
-    if file is None or not file.is_file():
-        return None
+    paths = [each for each in workspace.generated_paths.find(workspace, component) if each.startswith(f"{language}/")]
+    files = [workspace.output_folder / each for each in paths if (workspace.output_folder / each).is_file()]
     ids: set[str] = set()
     with contextlib.suppress(UnsoundDesignError):
-        regions = list_regions(workspace.project, component, "python")
+        regions = list_regions(workspace.project, component, language)
         ids = {id_ for id_, at in regions.items() if at == path or (len(at) > 1 and at[:-1] == path[:-1])}
-    text = file.read_text("utf-8", errors="replace")
-    lines = (region.line + 1 for region in find_regions(text).regions if region.id in ids)
-    return CodePlace(file=file, line=next(lines, 1))
+    for file in files:
+        text = file.read_text("utf-8", errors="replace")
+        for region in find_regions(text, get_comment_prefix(file.name)).regions:
+            if region.id in ids:
+                return CodePlace(file=file, line=region.line + 1)
+    return CodePlace(file=files[0], line=1) if files else None

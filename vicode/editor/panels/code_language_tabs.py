@@ -1,0 +1,89 @@
+"""Fields for hand-written code: one, or with several languages a tab for each."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from nicegui import ui
+
+from vicode.editor.panels import texts
+from vicode.editor.panels.code_field import code_field
+from vicode.editor.panels.fields import Attribute, FieldBinding, attribute_binding
+from vicode.editor.panels.form import Form, Rows
+from vicode.editor.session.item_paths import TrackedItem
+from vicode.languages import LANGUAGES, language_title
+from vicode.model.design import Code
+
+
+def code_fields(
+    form: Form,
+    item: TrackedItem,
+    name: str,
+    label: str = "",
+    *,
+    bind: Callable[[FieldBinding], FieldBinding] = lambda binding: binding,
+) -> None:
+    """Build the fields of an attribute that is code.
+
+    Args:
+        form: The form.
+        item: The owner of the code.
+        name: The attribute.
+        label: The label; by default the language. With several languages, the others are named in the labels.
+        bind: Changes the binding of each field.
+    """
+    context = form.context
+
+    def list_languages() -> tuple[str, ...]:
+        code = getattr(item.get(), name, None) if item.path is not None else None
+        written = [language for language, _text in code.texts] if code else []
+        wanted = [language for language in context.workspace.project.languages if language in LANGUAGES]
+        return tuple(dict.fromkeys([*wanted, *written])) or ("python",)
+
+    def build(row: Form, languages: tuple[str, ...]) -> None:
+        if len(languages) == 1:
+            build_field(row, languages[0])
+            return
+        shown = context.code_language if context.code_language in languages else languages[0]
+
+        def show(language: str) -> None:
+            nonlocal shown
+            shown = context.code_language = language
+            fields.refresh()
+
+        with ui.tabs() as tabs:
+            tabs.props("dense no-caps align=left").classes("code-tabs")
+            tabs.props["aria-label"] = texts.code_languages(label)
+            for language in languages:
+                ui.tab(language, language_title(language))
+        tabs.set_value(shown)
+        fields = Rows(row, lambda: [shown], build_field)
+        tabs.on_value_change(lambda event: show(str(event.value)))
+
+    def build_field(row: Form, language: str) -> None:
+        code_field(row, bind(_binding(item, name, label, language)), language)
+
+    Rows(form, lambda: [list_languages()], build)
+
+
+def _binding(item: TrackedItem, name: str, label: str, language: str) -> FieldBinding:
+    title = language_title(language)
+    attribute = Attribute(
+        label=(label if language == "python" else f"{label} in {title}") if label else title,
+        name=name,
+        format=lambda code: (code.in_language(language) if code else "") or "",
+        parse=lambda text: replace_text(getattr(item.get(), name), language, text),
+    )
+    hint = {"python": texts.CODE_HINT, "cpp": texts.CPP_CODE_HINT}.get(language, "")
+    return replace(attribute_binding(item, attribute), hint=hint)
+
+
+def replace_text(code: Code | None, language: str, text: str) -> Code:
+    """Replace the text in one language; texts in other languages stay. Without any text, the Python text is empty."""
+    # A YAML block of several lines ends with a newline; a single line does not.
+    ended = text + "\n" if "\n" in text and not text.endswith("\n") else text
+    texts_ = dict(code.texts if code else ())
+    if text.strip():
+        python = {"python": ended} if language == "python" else {}
+        return Code(texts=tuple({**python, **texts_, language: ended}.items()))
+    texts_.pop(language, None)
+    return Code(texts=tuple((texts_ or {"python": text if language == "python" else ""}).items()))
