@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import contextlib
+import select
 import socket
 import statistics
 import subprocess
@@ -137,24 +138,25 @@ def measure_ages(port: int, seconds: float) -> list[tuple[float, float]]:
     ages: list[tuple[float, float]] = []
     begin_s = time.monotonic()
     with socket.create_connection(("127.0.0.1", port)) as connection:
-        reader = threading.Thread(target=_read_stamps, args=(connection, begin_s, ages))
+        reader = threading.Thread(target=_read_stamps, args=(connection, begin_s, begin_s + seconds, ages))
         reader.start()
         period_s = TICK_S / TIMES_FASTER
         for number in range(round(seconds / period_s)):
             time.sleep(max(0.0, begin_s + number * period_s - time.monotonic()))
             connection.sendall(encode_jxi("LASER", LASER) + encode_jxi("STAMP", [time.monotonic()]))
-        connection.shutdown(socket.SHUT_RDWR)
         reader.join()
     return ages
 
 
-def _read_stamps(connection: socket.socket, begin_s: float, ages: list[tuple[float, float]]) -> None:
-    for line in connection.makefile("rb"):
-        if line.startswith(b"ECHO:"):
-            now_s = time.monotonic()
-            stamp_s = float(line[5:].split(b",")[0])
-            if stamp_s:
-                ages.append((now_s - begin_s, now_s - stamp_s))
+def _read_stamps(connection: socket.socket, begin_s: float, end_s: float, ages: list[tuple[float, float]]) -> None:
+    rest = b""
+    while time.monotonic() < end_s:
+        if not select.select([connection], [], [], 0.1)[0]:
+            continue
+        *lines, rest = (rest + connection.recv(65_536)).split(b"\n")
+        now_s = time.monotonic()
+        stamps = [float(line[5:].split(b",")[0]) for line in lines if line.startswith(b"ECHO:")]
+        ages += [(now_s - begin_s, now_s - stamp_s) for stamp_s in stamps if stamp_s]
 
 
 def print_ages(name: str, ages: list[tuple[float, float]], seconds: float) -> None:

@@ -8,7 +8,7 @@ from functools import wraps
 import pytest
 
 from tests.bridge.sample_robots import TICK_NS, Client, commands, make_server
-from vicode.bridge import connection as connection_module
+from vicode.bridge.connection import QUIET_SEND_S, ClockOffset
 from vicode.bridge.server import BridgeOptions, BridgeServer
 
 HELLO = {"hello": {"robot": "r1", "pace": "client"}}
@@ -191,7 +191,7 @@ def test_a_robot_that_sends_nothing_gets_few_commands() -> None:
     robot.data.receive("AHEAD", b"0.5", time.monotonic_ns())
     tick(server, 2)
     assert client.lines() == []
-    client.connection._sent_s -= connection_module.QUIET_SEND_S
+    client.connection._sent_s -= QUIET_SEND_S
     tick(server, 3)
     assert client.lines() == ["DRIVE:0,30"]
 
@@ -284,10 +284,59 @@ def test_the_newer_connection_of_a_robot_wins() -> None:
 
 
 @in_event_loop
-def test_times_of_the_robot_give_the_age_of_what_came_late() -> None:
+def test_a_client_that_reads_no_answers_is_not_read() -> None:
+    server = make_server()
+    client = Client(server)
+    client.send(HELLO)
+    client.connection.pause_writing()
+    assert client.transport.is_paused
+    client.connection.resume_writing()
+    assert not client.transport.is_paused
+    # By the clock, sensors matter even if the robot does not read.
+    other = Client(server)
+    other.send(b"AHEAD:1\n")
+    other.connection.pause_writing()
+    assert not other.transport.is_paused
+
+
+def test_a_client_that_reads_no_answers_stays_unread_after_its_lines_are_handled() -> None:
+    async def tick_without_reading() -> None:
+        client = Client(make_server(), 0.0)
+        client.send(HELLO)
+        client.send(b'{"tick": 1}\n' * 100)
+        client.connection.pause_writing()
+        await client.settle()
+        assert client.transport.is_paused
+
+    asyncio.run(tick_without_reading())
+
+
+@in_event_loop
+def test_lock_step_begins_anew_with_each_connection() -> None:
+    server = make_server()
+    for _connection in range(2):
+        client = Client(server)
+        client.send(HELLO)
+        client.send({"tick": -3})
+        client.send({"tick": 2})
+        assert [answer.get("tick") for answer in client.answers()] == [None, -3, 2]
+        assert server.robots[0].world.time == 5
+    assert len(server.robots) == 1
+
+
+def test_times_of_the_robot_become_times_of_the_server() -> None:
+    offset = ClockOffset()
+    # The robot's clock is 8 s ahead; the messages take 100, 20, 500 and 20 ms. It restarts before the last one.
+    times_ms = [(9_000, 1_100), (9_050, 1_070), (9_100, 1_600), (9_700, 1_720), (0, 90_000)]
+    ages_ms = [now - offset.convert(sent * 1_000_000, now * 1_000_000) / 1e6 for sent, now in times_ms]
+    assert [round(age) for age in ages_ms] == [0, 0, 480, 0, 0]
+
+
+@in_event_loop
+def test_the_time_of_a_message_gives_the_age_of_its_values() -> None:
     server = make_server()
     client = Client(server)
     client.send({"hello": {"robot": "r1"}, "time": 100.0, "AHEAD": 5})
     client.send({"time": 99.6, "AHEAD": 4})
-    tick(server, 1)
-    assert 0.4 <= server.robots[0].world.range_ahead_age < 0.5
+    tick(server)
+    assert server.robots[0].world.range_ahead_age >= 0.4

@@ -27,6 +27,7 @@ _ERROR_BURST, _ERRORS_PER_S = 5, 1.0
 _CLOSE_S = 1.0
 _KEEP_ALIVE_S = 10
 _DRIFT = 10_000
+_GREATEST_DELAY_NS = 5_000_000_000
 
 
 class Connection(asyncio.BufferedProtocol):
@@ -48,9 +49,10 @@ class Connection(asyncio.BufferedProtocol):
         self._sent_s = 0.0
         self._sends_state = False
         self._error_credit, self._error_s, self._hidden_errors = float(_ERROR_BURST), self.connected_s, 0
-        self._clock_offset = _ClockOffset()
-        self._tick_ns = 0
+        self._clock_offset = ClockOffset()
+        self._tick_ns: int | None = None
         self._sent_ticks = 0
+        self._is_unread = False
         self.turn_s = TURN_S
         self.is_working = False
         """Whether lines wait for the next turn."""
@@ -85,11 +87,17 @@ class Connection(asyncio.BufferedProtocol):
 
     def pause_writing(self) -> None:
         # A client that does not read the answers to its ticks gets no more of them.
-        if self.pace == "client":
-            self._transport.pause_reading()
+        self._is_unread = True
+        self._update_reading()
 
     def resume_writing(self) -> None:
-        if not self.is_working:
+        self._is_unread = False
+        self._update_reading()
+
+    def _update_reading(self) -> None:
+        if self.is_working or (self._is_unread and self.pace == "client"):
+            self._transport.pause_reading()
+        else:
             self._transport.resume_reading()
 
     # Lines
@@ -107,10 +115,9 @@ class Connection(asyncio.BufferedProtocol):
         self.flush()
         was_working, self.is_working = self.is_working, bool(lines)
         if lines:
-            self._transport.pause_reading()
             asyncio.get_running_loop().call_soon(self._work)
-        elif was_working:
-            self._transport.resume_reading()
+        if lines or was_working:
+            self._update_reading()
 
     def _handle(self, line: bytes) -> None:
         assert self._dialect is not None
@@ -164,7 +171,7 @@ class Connection(asyncio.BufferedProtocol):
         robot = self._require_robot()
         if self.pace != "client":
             raise FrameError('a tick needs {"hello": {"pace": "client"}}')
-        if time_ns < self._tick_ns:
+        if self._tick_ns is not None and time_ns < self._tick_ns:
             raise FrameError(f"tick {time_ns / 1e9:g} is before tick {self._tick_ns / 1e9:g}")
         self._tick_ns = time_ns
         self.server.tick(robot, at_ns=time_ns, now_ns=time_ns)
@@ -183,7 +190,7 @@ class Connection(asyncio.BufferedProtocol):
     def _to_server_time(self, time_ns: int | None) -> int:
         """When a value was sent, on the clock of the ticks: that of the server, or of a client that ticks."""
         if self.pace == "client":
-            return self._tick_ns if time_ns is None else time_ns
+            return time_ns if time_ns is not None else self._tick_ns or 0
         now_ns = time.monotonic_ns()
         return now_ns if time_ns is None else self._clock_offset.convert(time_ns, now_ns)
 
@@ -268,20 +275,21 @@ class UnknownTargetError(FrameError):
     """A target that the world does not declare: counted apart, as it is no fault of the line."""
 
 
-class _ClockOffset:
+class ClockOffset:
     """Converts times of a robot to those of the server: the message that was fastest on its way has age 0."""
 
-    __slots__ = ("_last_ns", "_offset_ns")
+    __slots__ = ("_now_ns", "_offset_ns", "_robot_ns")
 
     def __init__(self) -> None:
         self._offset_ns: int | None = None
-        self._last_ns = 0
+        self._now_ns = self._robot_ns = 0
 
     def convert(self, robot_ns: int, now_ns: int) -> int:
         offset_ns = now_ns - robot_ns
-        if self._offset_ns is not None:
+        # A clock that was set back by more than messages are late has nothing to do with the one before.
+        if self._offset_ns is not None and robot_ns > self._robot_ns - _GREATEST_DELAY_NS:
             # The clocks may drift apart by this much.
-            self._offset_ns += (now_ns - self._last_ns) // _DRIFT
-            offset_ns = min(offset_ns, self._offset_ns)
-        self._offset_ns, self._last_ns = offset_ns, now_ns
+            known_ns = self._offset_ns + (now_ns - self._now_ns) // _DRIFT
+            offset_ns = min(offset_ns, known_ns)
+        self._offset_ns, self._now_ns, self._robot_ns = offset_ns, now_ns, robot_ns
         return robot_ns + offset_ns

@@ -58,7 +58,7 @@ class Robot:
         self._catalog = catalog
         advance = getattr(self.world, "advance", None)
         self._advance: Callable[[int], object] | None = advance if callable(advance) else None
-        self._start_ns = 0
+        self._start_ns: int | None = None
         self._broadcasts: deque[Broadcast] = deque(maxlen=2)
 
     def select(self, name: str) -> None:
@@ -76,7 +76,7 @@ class Robot:
             raise
         if self.behavior is not None:
             self.behavior.close()
-        self.behavior, self.behavior_name, self._start_ns = behavior, name, -1
+        self.behavior, self.behavior_name, self._start_ns = behavior, name, None
         self.data.commands.repeat()
 
     def tick(self, at_ns: int, now_ns: int, mates: Iterable["Robot"]) -> None:
@@ -90,7 +90,7 @@ class Robot:
         behavior, data = self.behavior, self.data
         if behavior is None:
             return
-        if self._start_ns < 0:
+        if self._start_ns is None:
             self._start_ns = at_ns
         self.clock.ns = max(self.clock.ns, at_ns - self._start_ns)
         data.begin_tick(self.clock.ns, now_ns)

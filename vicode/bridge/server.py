@@ -182,18 +182,19 @@ class BridgeServer:
         if name and _ROBOT_NAME.fullmatch(name) is None:
             raise RefusedError("the name of a robot has up to 64 letters, digits, dots and dashes")
         seat = self._seats.get(name)
-        if seat is not None:
-            if seat.connection is not None:
-                seat.connection.refuse(f"robot {name} has connected again from {connection.peer}")
-            if connection.pace == "client":
-                self._drop(seat)
-            else:
-                seat.connection = connection
-                self.on_event(name, f"connected again from {connection.peer}")
-                seat.robot.data.commands.repeat()
-                seat.robot.data.counts.connections += 1
-                return seat.robot
-        return self._join_new(hello, connection)
+        if seat is None:
+            return self._join_new(hello, connection)
+        before, seat.connection = seat.connection, connection
+        if before is not None:
+            before.refuse(f"robot {name} has connected again from {connection.peer}")
+        if "client" in (hello.pace, before.pace if before is not None else "clock"):
+            # The times of another run are not those of this one.
+            self._drop(seat)
+            return self._join_new(hello, connection)
+        self.on_event(name, f"connected again from {connection.peer}")
+        seat.robot.data.commands.repeat()
+        seat.robot.data.counts.connections += 1
+        return seat.robot
 
     def _join_new(self, hello: JoinRequest, connection: Connection) -> Robot:
         if len(self._seats) >= MAX_CONNECTIONS:

@@ -3,7 +3,8 @@
 import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from types import SimpleNamespace
+from functools import lru_cache
+from types import CodeType, SimpleNamespace
 from typing import Any
 
 from .arithmetic import divide, remainder
@@ -44,6 +45,12 @@ class OptionView:
 
 def monotonic_ms() -> int:
     return time.monotonic_ns() // 1_000_000
+
+
+@lru_cache(maxsize=8)
+def _compile(source: str) -> CodeType:
+    """Compile the functions of a program once for all robots that run it."""
+    return compile(source, "<behavior>", "exec")
 
 
 class Engine:
@@ -247,7 +254,7 @@ class Engine:
             play=self._trace_behavior,
         )
         # Safe: all names in the source are generated; words of the program occur only as literals written by `repr`.
-        exec(compile(self.source, "<behavior>", "exec"), functions)  # noqa: S102
+        exec(_compile(self.source), functions)  # noqa: S102
         self._states = {
             functions[f"s{number}_{state_number}"]: state.name
             for number, option in enumerate(self.program.options)
