@@ -57,7 +57,14 @@ def make_parser() -> argparse.ArgumentParser:
     add("--half", type=int, default=300, metavar="S", help="length of the half in seconds of the game (default: 300)")
     add("--synchronous", action="store_true", help="play as fast as the machine can, not in real time")
     add("--teams", type=int, choices=(1, 2), default=2, help="one team plays against nobody")
-    add("--players", type=int, default=11, help="players of each team, the goalkeeper included (default: 11)")
+    add(
+        "--players",
+        type=int,
+        choices=range(1, 12),
+        default=11,
+        metavar="N",
+        help="players of each team, the goalkeeper included (default: 11)",
+    )
     add("--watch", metavar="ADDRESS", help="let viewers connect, such as unix:match.sock (vicode attach ADDRESS)")
     add("--control", action="store_true", help="viewers may pause players and change values")
     add("--record", type=Path, metavar="FOLDER", help="record each player")
@@ -118,7 +125,7 @@ def join(team: str, options: argparse.Namespace, match: ExitStack) -> Iterator[R
         if options.watch:
             root.watch(options.watch, control=options.control, name=name)
         if options.record:
-            root.record(options.record / f"{name.replace(' ', '-')}.jsonl", minutes=options.half / 60 + 1)
+            root.record(options.record / f"{name.replace(' ', '-')}.jsonl", minutes=options.half / 30)
         yield root
 
 
