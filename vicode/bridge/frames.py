@@ -17,6 +17,15 @@ _SHOWN_BYTES = 60
 _LARGEST_SHORT_FLOAT = 1e16
 
 
+def _reject_constant(name: str) -> NoReturn:
+    raise ValueError(name)
+
+
+# json.loads and json.dumps would make one for each call.
+_DECODER = json.JSONDecoder(parse_constant=_reject_constant)
+_ENCODER = json.JSONEncoder(separators=(",", ":"), allow_nan=False)
+
+
 class FrameError(ValueError):
     """A line that is no message; the text says why, in one line."""
 
@@ -92,7 +101,7 @@ def decode_json(line: bytes) -> dict[str, Any]:
     """
     _check_length(line)
     try:
-        message = json.loads(line, parse_constant=_reject_constant)
+        message = _DECODER.decode(line.decode())
     except (ValueError, RecursionError):
         raise FrameError(f"expected a JSON object, found {show_bytes(line)}") from None
     if not isinstance(message, dict):
@@ -106,7 +115,7 @@ def encode_json(message: dict[str, Any]) -> bytes:
     Raises:
         ValueError: A number is not finite.
     """
-    return json.dumps(message, separators=(",", ":"), allow_nan=False).encode() + b"\n"
+    return _ENCODER.encode(message).encode() + b"\n"
 
 
 def shorten(number: float) -> float:
@@ -133,7 +142,3 @@ def _format(value: object) -> str:
     if isinstance(value, int | float):
         return repr(shorten(value)) if math.isfinite(value) else str(value)
     return re.sub(r"[,\r\n]", " ", str(value))
-
-
-def _reject_constant(name: str) -> NoReturn:
-    raise ValueError(name)

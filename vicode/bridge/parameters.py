@@ -12,6 +12,7 @@ Raw = bytes | list[Any]
 """Parameters as they were received: the text of a JXI line, or a list of JSON values."""
 
 _WORDS = {"true": True, "1": True, "false": False, "0": False}
+_NUMBER_TYPES = {float, int, bytes}
 _NAMES = {float: "a number", int: "an integer", bool: "true or false", str: "a text"}
 
 
@@ -55,17 +56,22 @@ class ParameterTypes:
         Raises:
             FrameError: They are not what is declared.
         """
-        given: Sequence[Any] = raw.split(b",") if isinstance(raw, bytes) else raw
-        if self.value_type in (None, float) and isinstance(raw, bytes):
-            try:
-                # The usual case, and the fast one: float() reads bytes with spaces around.
-                values: list[Any] = list(map(float, given))
-            except ValueError:
-                values = self._convert_each(split_parameters(raw))
-        else:
+        values = self._convert_floats(raw) if self.value_type in (None, float) else None
+        if values is None:
             values = self._convert_each(split_parameters(raw) if isinstance(raw, bytes) else raw)
         self._check(values)
         return self._shape(values)
+
+    def _convert_floats(self, raw: Raw) -> list[Any] | None:
+        """The usual case, and the fast one; None if something is no number."""
+        given: Sequence[Any] = raw.split(b",") if isinstance(raw, bytes) else raw
+        if not set(map(type, given)) <= _NUMBER_TYPES:
+            return None
+        try:
+            # float() also reads bytes with spaces around.
+            return list(map(float, given))
+        except (ValueError, OverflowError):
+            return None
 
     def _convert_each(self, given: Sequence[Any]) -> list[Any]:
         value_type, values = self.value_type or float, []
@@ -89,7 +95,7 @@ class ParameterTypes:
 
     def _check_numbers(self, values: list[float]) -> None:
         low, high = self.bounds or (-math.inf, math.inf)
-        if all(map(math.isfinite, values)) and (self.bounds is None or all(low <= each <= high for each in values)):
+        if not values or (all(map(math.isfinite, values)) and low <= min(values) and max(values) <= high):
             return
         index = next(index for index, each in enumerate(values) if not (math.isfinite(each) and low <= each <= high))
         expected = f"{low:g} to {high:g}" if self.bounds else "a finite number"
