@@ -13,7 +13,7 @@ import pytest
 
 from tests.conformance.conformance_cases import CASES, LANGUAGES, Case, short_form
 from tests.conformance.random_designs import draw_projects
-from vicode.check import check_project
+from vicode.conformance.comparison import find_absent_languages
 from vicode.conformance.cpp import COMPILER_MISSING, CppProgram, find_compiler
 from vicode.conformance.inputs import ConformanceRun
 from vicode.conformance.python import run_python, run_simulator
@@ -21,8 +21,6 @@ from vicode.conformance.random_inputs import random_run
 from vicode.conformance.report import describe
 from vicode.conformance.traces import TraceIteration, first_difference, reduce_for
 from vicode.conformance.xabsl import run_xabsl
-from vicode.findings import Severity
-from vicode.model.project import Project
 
 FILES = sorted(CASES.glob("*.yaml"))
 RANDOM_DESIGNS = 50
@@ -42,25 +40,6 @@ class Session:
 
     runs: Mapping[str, ConformanceRun]
     traces: Traces
-
-
-def languages_of(run: ConformanceRun) -> dict[str, str]:
-    """The languages that cannot run a design, with the reason."""
-    absent = {}
-    project = Project(
-        **{name: getattr(run.project, name) for name in ("name", "enumerations", "constants", "components", "designs")},
-        languages=("python", "cpp", "xabsl"),
-    )
-    for language in ("python", "cpp", "xabsl"):
-        errors = [
-            each for each in check_project(project) if each.severity is Severity.ERROR and each.applies_to(language)
-        ]
-        absent |= {language: errors[0].message} if errors else {}
-    if "python" in absent:
-        absent["simulator"] = absent["python"]
-    if run.robots > 1:
-        absent["simulator"] = "the simulator runs one robot"
-    return absent
 
 
 def compare_all(runs: Mapping[str, ConformanceRun], absent: Mapping[str, Mapping[str, str]], folder: Path) -> Traces:
@@ -89,7 +68,7 @@ def session(tmp_path_factory: pytest.TempPathFactory) -> Session:
     for number, project in enumerate(draw_projects(RANDOM_DESIGNS)):
         name = f"random_{number}"
         runs[name] = random_run(project, "Player", iterations=ITERATIONS, seed=number)
-        absent[name] = languages_of(runs[name])
+        absent[name] = find_absent_languages(runs[name])
     return Session(runs, compare_all(runs, absent, tmp_path_factory.mktemp("conformance")))
 
 
@@ -119,7 +98,7 @@ def test_case_gives_the_expected_trace_in_each_language(
 def test_a_language_is_left_out_for_the_reason_that_the_check_reports(file: Path, tmp_path: Path) -> None:
     case = Case(file, tmp_path)
     assert case.header["feature"] in FEATURES
-    assert dict(case.not_in) == {**languages_of(case.run), **dict(case.header.get("beyond_check", {}))}
+    assert dict(case.not_in) == {**find_absent_languages(case.run), **dict(case.header.get("beyond_check", {}))}
 
 
 def test_each_feature_has_a_case() -> None:
@@ -142,7 +121,7 @@ def test_languages_agree_on_many_random_designs(batch: int, tmp_path: Path) -> N
     runs, absent = {}, {}
     for number, project in enumerate(draw_projects(50, seed=seed)):
         runs[f"random_{number}"] = random_run(project, "Player", iterations=40, seed=number)
-        absent[f"random_{number}"] = languages_of(runs[f"random_{number}"])
+        absent[f"random_{number}"] = find_absent_languages(runs[f"random_{number}"])
     found = Session(runs, compare_all(runs, absent, tmp_path))
     assert [text for text in _all_differences(found) if text] == [], f"seed {seed}"
 

@@ -18,6 +18,7 @@ COMMANDS = (
     "gen",
     "sync",
     "check",
+    "conform",
     "docs",
     "run",
     "bridge",

@@ -25,24 +25,33 @@ class CodeRunError(Exception):
     """The code of a design cannot be run; the message says why."""
 
 
-def run_python(runs: Mapping[str, ConformanceRun], folder: Path) -> dict[str, list[TraceIteration]]:
-    """Run generated Python; names of the runs are valid and differ.
+def run_python(
+    runs: Mapping[str, ConformanceRun], folder: Path, modules: Path | None = None
+) -> dict[str, list[TraceIteration]]:
+    """Run generated Python.
+
+    Args:
+        runs: Runs by name; the names are valid names of packages.
+        folder: An empty folder for code.
+        modules: The folder of modules that code of the designs imports.
 
     Raises:
         UnsoundDesignError: A design cannot be generated.
         CodeRunError: The code cannot be loaded.
     """
-    return _run({name: _python_job(name, run, folder) for name, run in runs.items()}, runs, folder)
+    return _run({name: _python_job(name, run, folder, modules) for name, run in runs.items()}, runs, folder)
 
 
-def run_simulator(runs: Mapping[str, ConformanceRun], folder: Path) -> dict[str, list[TraceIteration]]:
-    """Run designs as the editor simulates them.
+def run_simulator(
+    runs: Mapping[str, ConformanceRun], folder: Path, modules: Path | None = None
+) -> dict[str, list[TraceIteration]]:
+    """Run designs as the editor simulates them; arguments as for `run_python`.
 
     Raises:
         NotReadyError: A design has errors.
         CodeRunError: The code cannot be loaded.
     """
-    return _run({name: _simulator_job(name, run, folder) for name, run in runs.items()}, runs, folder)
+    return _run({name: _simulator_job(name, run, folder, modules) for name, run in runs.items()}, runs, folder)
 
 
 def _run(jobs: Mapping[str, Any], runs: Mapping[str, ConformanceRun], folder: Path) -> dict[str, list[TraceIteration]]:
@@ -70,7 +79,7 @@ def _run(jobs: Mapping[str, Any], runs: Mapping[str, ConformanceRun], folder: Pa
     return traces
 
 
-def _python_job(name: str, run: ConformanceRun, folder: Path) -> dict[str, Any]:
+def _python_job(name: str, run: ConformanceRun, folder: Path, modules: Path | None) -> dict[str, Any]:
     project = _with_stubs(replace(run.project, name=name), run)
     files = generate(project, languages=("python",), components=(run.root,))
     place = folder / f"python_{name}"
@@ -80,13 +89,13 @@ def _python_job(name: str, run: ConformanceRun, folder: Path) -> dict[str, Any]:
     return {
         "kind": "python",
         "component": python_class_path(project, run.root),
-        "path": [str(place / "python")],
+        "path": _path(place, modules),
         "stubs": [asdict(_stub(run, component)) for component in sorted(stubs)],
         **_common(run),
     }
 
 
-def _simulator_job(name: str, run: ConformanceRun, folder: Path) -> dict[str, Any]:
+def _simulator_job(name: str, run: ConformanceRun, folder: Path, modules: Path | None) -> dict[str, Any]:
     project = replace(run.project, name=name, designs=tuple(run.project.designs))
     design = project.design(run.root)
     assert design is not None
@@ -94,8 +103,12 @@ def _simulator_job(name: str, run: ConformanceRun, folder: Path) -> dict[str, An
     place = folder / f"simulator_{name}"
     apply_diffs(compare_files(prepared.files, place), place)
     stubs = tuple(_stub(run, each.component) for each in prepared.setup.stubs)
-    setup = replace(prepared.setup, stubs=stubs, path=(str(place / "python"),))
+    setup = replace(prepared.setup, stubs=stubs, path=tuple(_path(place, modules)))
     return {"kind": "simulator", "setup": encode_setup(setup).decode(), "path": list(setup.path), **_common(run)}
+
+
+def _path(place: Path, modules: Path | None) -> list[str]:
+    return [str(place / "python"), *([str(modules)] if modules else [])]
 
 
 def _common(run: ConformanceRun) -> dict[str, Any]:

@@ -35,6 +35,7 @@ def _lines(trace: Sequence[TraceIteration], index: int) -> list[str]:
     for iteration in trace[max(0, index - _CONTEXT) : index + 1]:
         lines.append(f"iteration {iteration.number}, {iteration.time_ns / 1e9:.3f} s")
         lines += [f"  {name}={value}" for name, value in sorted(iteration.shared.items())]
+        lines += [f"  error in {component}" for component in iteration.errors]
         for step in iteration.steps:
             lines += _step_lines(step)
     return lines

@@ -1,8 +1,9 @@
 """Traces of all languages in one form, and their first difference."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import zip_longest
 from typing import Any
 
 from vicode.generators.python.names import component_class_name
@@ -22,12 +23,18 @@ class TraceStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TraceIteration:
-    """One iteration of a robot; `shared` are the shared variables before it, by "component.name"."""
+    """One iteration of a robot.
+
+    Attributes:
+        shared: The shared variables before the iteration, by "component.name".
+        errors: The components that raised an exception.
+    """
 
     number: int
     time_ns: int
     steps: tuple[TraceStep, ...]
     shared: Fields
+    errors: tuple[str, ...] = ()
     robot: int = 0
 
 
@@ -54,6 +61,7 @@ EXPECTED_DIFFERENCES = (
     LanguageLimit(
         language="xabsl", part="requires", reason="symbols are read when they are needed; components are only called"
     ),
+    LanguageLimit(language="xabsl", part="errors", reason="no expression of XABSL raises an error"),
     LanguageLimit(language="xabsl", part="worked", reason="options have no frequency and always work"),
     LanguageLimit(language="xabsl", part="transition", reason="decisions of XABSL have no ids"),
     LanguageLimit(
@@ -107,6 +115,7 @@ class TraceNormalizer:
                 if name in self._shared
                 for key, value in values.items()
             },
+            errors=tuple(self._names.get(each["component"], each["component"]) for each in record.get("errors") or ()),
             robot=robot,
         )
 
@@ -163,7 +172,7 @@ def _reduced(iteration: TraceIteration, parts: set[str]) -> TraceIteration:
             and not ("values" in parts and name.startswith("values.") and last[step.component] != index)
         }
         kept.append(replace(step, fields=fields))
-    return replace(iteration, steps=tuple(kept))
+    return replace(iteration, steps=tuple(kept), errors=() if "errors" in parts else iteration.errors)
 
 
 def first_difference(expected: Sequence[TraceIteration], got: Sequence[TraceIteration]) -> TraceDifference | None:
@@ -179,26 +188,24 @@ def first_difference(expected: Sequence[TraceIteration], got: Sequence[TraceIter
 
 
 def _compare(index: int, left: TraceIteration, right: TraceIteration) -> TraceDifference | None:
-    def differ(component: str, field: str, *values: str) -> TraceDifference:
-        return TraceDifference(index=index, component=component, field=field, values=(values[0], values[1]))
-
-    if left.time_ns != right.time_ns:
-        return differ("", "time", str(left.time_ns), str(right.time_ns))
-    for name in sorted({*left.shared, *right.shared}):
-        if left.shared.get(name) != right.shared.get(name):
-            return differ("", name, left.shared.get(name, ""), right.shared.get(name, ""))
-    for one, other in zip(left.steps, right.steps, strict=False):
-        if one.component != other.component:
-            return differ(one.component, "component", one.component, other.component)
-        for field in dict.fromkeys((*one.fields, *other.fields)):
-            values = one.fields.get(field, ""), other.fields.get(field, "")
-            if values[0] != values[1]:
-                return differ(one.component, field, *values)
-    if len(left.steps) != len(right.steps):
-        more = max(left.steps, right.steps, key=len)[min(len(left.steps), len(right.steps))].component
-        sides = [more if len(each.steps) == max(len(left.steps), len(right.steps)) else "" for each in (left, right)]
-        return differ(more, "component", *sides)
+    for component, field, one, other in _facts(left, right):
+        if one != other:
+            return TraceDifference(index=index, component=component, field=field, values=(one, other))
     return None
+
+
+def _facts(left: TraceIteration, right: TraceIteration) -> Iterator[tuple[str, str, str, str]]:
+    """Component, field and both values of everything that is compared, in order."""
+    yield "", "time", str(left.time_ns), str(right.time_ns)
+    yield "", "errors", ", ".join(left.errors), ", ".join(right.errors)
+    for name in sorted({*left.shared, *right.shared}):
+        yield "", name, left.shared.get(name, ""), right.shared.get(name, "")
+    for one, other in zip_longest(left.steps, right.steps):
+        names = one.component if one else "", other.component if other else ""
+        yield names[0] or names[1], "component", *names
+        if one and other:
+            for field in dict.fromkeys((*one.fields, *other.fields)):
+                yield one.component, field, one.fields.get(field, ""), other.fields.get(field, "")
 
 
 def _bool_text(value: object) -> str:

@@ -66,7 +66,9 @@ class _PythonRobot:
             setattr(self._world, name, lambda **_arguments: None)
         self._observer = Observer(values=True)
         main = load_component(job["component"])
-        self.root = Root(main, clock=self._clock, world=self._world, on_error="stop", observer=self._observer)
+        self.root = Root(
+            main, clock=self._clock, world=self._world, on_error=lambda _error: None, observer=self._observer
+        )
         self.root.team.priority, self.root.team.ticks = number, job["team_ticks"]
         self._components: dict[str, Component] = {type(each).__name__: each for each in self.root.components}
         self._enumerations = _load_enumerations(job["component"])
@@ -124,7 +126,7 @@ def _run_simulator(job: Mapping[str, Any]) -> list[tuple[int, Any]]:
     for time_ns, (values,) in _read_steps(job):
         set_inputs(values)
         result = host.step(time_ns)
-        record = {name: getattr(result, name) for name in ("iteration", "time_ns", "tree", "inputs")}
+        record = {name: getattr(result, name) for name in ("iteration", "time_ns", "tree", "inputs", "errors")}
         iterations.append((0, record))
     return iterations
 

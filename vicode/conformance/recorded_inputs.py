@@ -1,0 +1,29 @@
+"""The inputs of a trace that was recorded with values."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from vicode.conformance.inputs import PARAMETERS, ConformanceRun, InputKey, RunStep, list_inputs
+from vicode.model.project import Project
+from vicode.simulation import IterationResult
+
+
+def recorded_run(project: Project, root: str, iterations: Iterable[IterationResult]) -> ConformanceRun:
+    """A run with the times and inputs of a trace; an output with arguments has the first value of each iteration."""
+    inputs, known, steps = tuple(list_inputs(project, root)), dict[InputKey, Any](), []
+    for iteration in iterations:
+        values: dict[str, dict[str, Any]] = {**iteration.inputs, PARAMETERS: iteration.tree[0].get("values") or {}}
+        values |= {step["component"]: step["values"] for step in iteration.tree if step.get("values")}
+        for call in reversed(iteration.calls):
+            values[call["component"]] = {**values.get(call["component"], {}), call["output"]: call["value"]}
+        changed: dict[InputKey, Any] = {}
+        for each in inputs:
+            value = values.get(each.component, {}).get(each.name)
+            if value is not None and known.get(each.key) != value:
+                known[each.key] = changed[each.key] = _number(value) if not each.elements else value
+        steps.append(RunStep(time_ns=iteration.time_ns, inputs=(changed,)))
+    return ConformanceRun(project=project, root=root, steps=tuple(steps))
+
+
+def _number(value: Any) -> Any:
+    return float(value) if isinstance(value, str) else value
