@@ -46,7 +46,7 @@ def compare_all(runs: Mapping[str, ConformanceRun], absent: Mapping[str, Mapping
     """Run everything in each language that can."""
     compiler = find_compiler()
     if compiler is None:
-        pytest.fail(COMPILER_MISSING, pytrace=False)
+        pytest.fail(f"C++ cannot be tested: {COMPILER_MISSING}", pytrace=False)
 
     def able(language: str) -> dict[str, ConformanceRun]:
         return {name: run for name, run in runs.items() if language not in absent[name]}

@@ -15,7 +15,7 @@ from vicode.generators import GENERATORS, generate
 from vicode.generators.cpp.driver import driver_support, write_driver, write_main
 from vicode.output import apply_diffs, compare_files
 
-COMPILER_MISSING = "C++ is not compared: there is no g++ or clang++ (Debian: sudo apt install g++)"
+COMPILER_MISSING = "there is no g++ or clang++ (Debian: sudo apt install g++)"
 _FLAGS = ("-std=c++17", "-O0", "-ffp-contract=off", "-w")
 
 
