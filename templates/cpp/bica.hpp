@@ -389,12 +389,12 @@ protected:
     /// Tells the observer of a step, and that the component is not being modulated any more.
     class StepGuard {
     public:
-        explicit StepGuard(Component& component) : component_(component) {
+        explicit StepGuard(Component& component, bool resume = false) : component_(component) {
             if (component.root.observer != nullptr) {
                 const bool is_modulated = component.root.modulated_ == &component;
                 component.root.modulated_ = nullptr;
                 component.left_ = component.transition_ = nullptr;
-                component.root.observer->begin_step(component, is_modulated, component.will_work());
+                component.root.observer->begin_step(component, is_modulated, component.will_work(resume));
             }
         }
         ~StepGuard() {
@@ -412,7 +412,7 @@ protected:
     /// Runs one step of a generated component.
     template <class Machine>
     static void step_machine(Machine& machine, bool resume) {
-        StepGuard observed(machine);
+        StepGuard observed(machine, resume);
         attempt_in(machine, [&machine, resume] {
             machine.begin_iteration([&machine, resume](bool is_first) {
                 if (is_first || !resume) {
@@ -489,8 +489,9 @@ private:
 
     static Nanoseconds period(double hertz) { return hertz == 0.0 ? 0 : bica::round(1e9 / hertz); }
 
-    bool will_work() const {
-        const bool restarts = root.iteration_ - stepped_in_ > 1;
+    bool will_work(bool resume) const {
+        const std::int64_t missed = root.iteration_ - stepped_in_;
+        const bool restarts = missed > 1 && (missed > root.iteration_ || !resume);
         return period_ns_ == 0 || restarts || root.now_ns_ - worked_ns_ >= period_ns_;
     }
 

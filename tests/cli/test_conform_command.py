@@ -13,11 +13,26 @@ components:
   Eye: {implementation: hands:Eye, outputs: {distance: float, bearing: {type: float, arguments: {x: float}}}}
   Wheels: {implementation: hands:Wheels, parameters: {speed: float}}
 """
-HANDS = "from vicode.bica import Component\nclass Eye(Component):\n    def __init__(self, root):\n" + (
-    "        super().__init__(root)\n        self.distance = 1.0\n    def work(self):\n        self.distance += 3.0\n"
-    "    def bearing(self, x):\n        return 2.0 * x\n"
-    "class Wheels(Component):\n    def modulate(self, *, speed):\n        pass\n"
-)
+HANDS = """
+from vicode.bica import Component
+
+
+class Eye(Component):
+    def __init__(self, root):
+        super().__init__(root)
+        self.distance = 1.0
+
+    def work(self):
+        self.distance += 3.0
+
+    def bearing(self, x):
+        return 2.0 * x
+
+
+class Wheels(Component):
+    def modulate(self, *, speed):
+        pass
+"""
 COUNTER = """
 vicode: 1
 component: Counter

@@ -10,7 +10,7 @@ from vicode.bica import options
 from vicode.cli.root_selection import select_root
 
 if TYPE_CHECKING:
-    from vicode.conformance.comparison import Comparison
+    from vicode.conformance.comparison import LanguageComparison
     from vicode.conformance.inputs import ConformanceRun
     from vicode.model.project import Project
 
@@ -68,7 +68,7 @@ def _make_run(args: argparse.Namespace, project: "Project", component: str) -> "
         raise OSError(f"{args.inputs}: {error}") from error
 
 
-def _report(args: argparse.Namespace, component: str, comparison: "Comparison") -> int:
+def _report(args: argparse.Namespace, component: str, comparison: "LanguageComparison") -> int:
     from vicode.conformance.comparison import verdict
     from vicode.conformance.report import TITLES
 

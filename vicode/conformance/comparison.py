@@ -20,7 +20,7 @@ _MS = 1_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Comparison:
+class LanguageComparison:
     """The result: the languages that were compared, and the descriptions of differences from Python.
 
     Attributes:
@@ -51,7 +51,7 @@ def find_absent_languages(run: ConformanceRun) -> dict[str, str]:
     return absent
 
 
-def compare_languages(run: ConformanceRun, folder: Path, modules: Path | None = None) -> Comparison:
+def compare_languages(run: ConformanceRun, folder: Path, modules: Path | None = None) -> LanguageComparison:
     """Run a design in each language that can express it, and compare the traces with that of Python.
 
     Args:
@@ -85,7 +85,7 @@ def compare_languages(run: ConformanceRun, folder: Path, modules: Path | None = 
         for language, trace in traces.items()
         if language != "python" and "python" in traces
     ]
-    return Comparison(
+    return LanguageComparison(
         languages=tuple(traces),
         absent=absent,
         differences=tuple(filter(None, differences)),
@@ -99,7 +99,7 @@ def _difference(expected: list[TraceIteration], language: str, got: list[TraceIt
     return "" if found is None else describe(found, sides)
 
 
-def verdict(comparison: Comparison) -> str:
+def verdict(comparison: LanguageComparison) -> str:
     """One sentence: which languages agree."""
     titles = [TITLES[language] for language in comparison.languages]
     names = f"{', '.join(titles[:-1])} and {titles[-1]}" if len(titles) > 1 else titles[0] if titles else "No language"
