@@ -5,11 +5,15 @@ from collections.abc import Awaitable, Callable
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 
 from tests.editor.simulation.robot_program import RobotProgram, running_robot, write_robot
 from vicode.bica import Component, Root, SimulatedClock
+from vicode.editor.panels.simulation.robot_view import RobotView
+from vicode.editor.panels.simulation.status_message import robot_message
 from vicode.editor.session.robot_version import find_other_versions
 from vicode.editor.session.robots import LinkStatus, RobotLink, RobotRequestError
 from vicode.editor.session.simulation import Breakpoints, Recording, Simulation, prepare_view
@@ -197,6 +201,18 @@ def test_each_robot_of_a_program_can_be_followed(folder: Path) -> None:
 
     with running_robot(folder) as program, Root(Idle, clock=SimulatedClock()) as other:
         other._closing.callback(program.server.remove, program.server.add(other, "spare"))
+        attach(program, act)
+
+
+def test_a_design_that_the_robot_does_not_use_is_told(folder: Path) -> None:
+    async def act(link: RobotLink) -> None:
+        await first_iteration(link)
+        design = replace(project_and_lamp(folder)[1], component="Radio")
+        view = cast("RobotView", SimpleNamespace(link=link, robot=link.robot, design=design, other_versions=()))
+        words = "Lamp does not use Radio. Choose another robot, or open Lamp."
+        assert robot_message(view, None) == ("info", words)
+
+    with running_robot(folder) as program:
         attach(program, act)
 
 

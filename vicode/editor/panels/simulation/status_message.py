@@ -57,6 +57,9 @@ def robot_message(view: RobotView, simulation: Simulation | None) -> tuple[str, 
 def _describe_robot(view: RobotView) -> str:
     robot, link = view.robot, view.link
     assert robot is not None
+    component, description = view.design.component, robot.description
+    if component not in description.components:
+        return f"{robot.name} does not use {component}. Choose another robot, or open {description.root}."
     words = f"{'Paused' if robot.is_paused else 'Live'}: {robot.name} at {link.address}"
     if robot.missed:
         words += f", {robot.missed} iteration{'s' * (robot.missed != 1)} not shown"
