@@ -13,7 +13,17 @@ SESSIONS = (
 FRAGMENTS = (
     *(b"\n", b"\r\n", b":", b",", b"{", b"}", b"[", b'"', b"\\", b"\0", b"\xff", b"\xc3\xa9", b" ", b"-", b"."),
     *(b"nan", b"inf", b"1e999", b"-0", b"9" * 400, b"true", b"null", b"[" * 500, b'{"a":' * 300, b"NaN", b"Infinity"),
-    *(b"AHEAD:", b"AHEAD:1\n", b"ERROR:x\n", b'"tick": ', b'"hello": ', b"\n" * 50, b"A" * 2000, b"A:1\n" * 200),
+    *(
+        b"AHEAD:",
+        b"AHEAD:1\n",
+        b"\\ud800",
+        b"ERROR:x\n",
+        b'"tick": ',
+        b'"hello": ',
+        b"\n" * 50,
+        b"A" * 2000,
+        b"A:1\n" * 200,
+    ),
 )
 LARGE = (b"A" * 70_000, b"AHEAD:1\n" * 5_000, b'{"tick": 1}\n' * 400, b"AHEAD:" + b"1," * 40_000 + b"\n")
 

@@ -100,7 +100,7 @@ def test_errors_in_lock_step_are_answers() -> None:
     assert client.answers()[1:] == [
         {"tick": 1, "errors": ["AHEAD: parameter 1 is 'far', expected a number"], "commands": {"DRIVE": [0.9, 0]}},
         {"error": "tick 0.5 is before tick 1"},
-        {"error": "tick is \"'soon'\", expected seconds"},
+        {"error": "tick is 'soon', expected seconds"},
         {"error": "expected a JSON object, found '{\"tick\": '"},
         {"error": "no sensor or event 'NOTHING'; the world has AHEAD, INS, LASER, MODE, WHISTLE, BUTTON"},
         {"error": "tick is not a number of seconds up to 1e+09"},
@@ -115,7 +115,10 @@ def test_errors_in_lock_step_are_answers() -> None:
         ({"hello": {"robot": "a b"}}, "the name of a robot has up to 64 letters"),
         ({"hello": {"pace": "fast"}}, "hello: pace is 'fast', expected clock or client"),
         ({"hello": {"behavior": "fly"}}, "there is no behavior 'fly'"),
-        ({"hello": {"priority": "high"}}, "hello: priority is"),
+        ({"hello": {"priority": "high"}}, "hello: priority is 'high', expected an integer"),
+        ({"hello": {"robot": "\ud800"}}, "the name of a robot has up to 64 letters"),
+        ({"hello": {"pace": "\ud800"}}, "hello: pace is '?', expected clock or client"),
+        ({"hello": {"behavior": "\ud800"}}, "there is no behavior '\\ud800'"),
     ],
 )
 def test_a_hello_that_is_refused(hello: dict[str, object], error: str) -> None:

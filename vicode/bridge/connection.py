@@ -40,7 +40,7 @@ class Connection(asyncio.BufferedProtocol):
         self.is_admitted = not server.options.token
         self.tick_ms = shorten(server.options.tick_ns / 1e6)
         self.peer = "?"
-        self.connected_s = self.heard_s = time.monotonic()
+        self.connected_s = time.monotonic()
         self._buffer = memoryview(bytearray(_READ_BYTES))
         self._decoder = LineDecoder()
         self._lines: deque[bytes] = deque()
@@ -76,7 +76,6 @@ class Connection(asyncio.BufferedProtocol):
     def buffer_updated(self, nbytes: int) -> None:
         if self._dialect is None:
             self._dialect = JsonDialect() if is_json(bytes(self._buffer[:1])) else JxiDialect()
-        self.heard_s = time.monotonic()
         self._lines += self._decoder.feed(bytes(self._buffer[:nbytes]))
         if self._lines and not self.is_working:
             self._work()
@@ -136,7 +135,8 @@ class Connection(asyncio.BufferedProtocol):
 
     def admit(self, token: str) -> None:
         expected = self.server.options.token
-        if expected and not hmac.compare_digest(token.encode(), expected.encode()):
+        # JSON can contain surrogates, which UTF-8 cannot.
+        if expected and not hmac.compare_digest(token.encode(errors="replace"), expected.encode()):
             raise RefusedError("wrong token" if token else "this server needs a token")
         self.is_admitted = True
 

@@ -123,7 +123,7 @@ class JxiDialect:
         return b"".join(encode_jxi(target, parameters) for target, parameters in commands.items())
 
     def encode_error(self, text: str) -> bytes:
-        return f"ERROR: {text}\n".encode()
+        return f"ERROR: {' '.join(text.split())}\n".encode(errors="replace")
 
 
 class JsonDialect:
@@ -171,16 +171,16 @@ def _text(raw: bytes) -> str:
 def _get(hello: dict[str, Any], key: str) -> str:
     value = hello.get(key, "")
     if not isinstance(value, str):
-        raise RefusedError(f"hello: {key} is {show_bytes(repr(value).encode())}, expected a text")
+        raise RefusedError(f"hello: {key} is {_show(value)}, expected a text")
     return value
 
 
 def _read_hello(hello: dict[str, Any]) -> JoinRequest:
     pace, priority = _get(hello, "pace") or "clock", hello.get("priority")
     if pace not in ("clock", "client"):
-        raise RefusedError(f"hello: pace is {show_bytes(pace.encode())}, expected clock or client")
+        raise RefusedError(f"hello: pace is {_show(pace)}, expected clock or client")
     if priority is not None and (type(priority) is not int or abs(priority) > _GREATEST_PRIORITY):
-        raise RefusedError(f"hello: priority is {show_bytes(repr(priority).encode())}, expected an integer")
+        raise RefusedError(f"hello: priority is {_show(priority)}, expected an integer")
     return JoinRequest(
         name=_get(hello, "robot"),
         pace="client" if pace == "client" else "clock",
@@ -190,13 +190,19 @@ def _read_hello(hello: dict[str, Any]) -> JoinRequest:
     )
 
 
+def _show(value: object) -> str:
+    return show_bytes(
+        value.encode(errors="replace") if isinstance(value, str) else repr(value).encode(errors="replace")
+    )
+
+
 def _take_time(message: dict[str, Any], key: str) -> int | None:
     """Remove a time in seconds from a message; return it in nanoseconds."""
     if key not in message:
         return None
     seconds = message.pop(key)
     if isinstance(seconds, bool) or not isinstance(seconds, int | float):
-        raise FrameError(f"{key} is {show_bytes(repr(seconds).encode())}, expected seconds")
+        raise FrameError(f"{key} is {_show(seconds)}, expected seconds")
     # Also false if it is not a number; an int may have more digits than a float.
     if not abs(seconds) <= _LATEST_S:
         raise FrameError(f"{key} is not a number of seconds up to {_LATEST_S:g}")
