@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from tests.bridge.sample_robots import AgingWorld, SampleWorld
-from vicode.bridge import Command, Event, Sensor, World
+from vicode.bridge import Command, Event, Sensor, World, cached_per_tick
 from vicode.bridge.frames import FrameError
 from vicode.bridge.parameters import ParameterTypes
 
@@ -199,3 +199,21 @@ def test_worlds_do_not_share_values(world: AgingWorld) -> None:
     tick(world)
     tick(other)
     assert (world.range_ahead, other.range_ahead) == (2.0, 9.0)
+
+
+def test_a_derived_value_is_computed_once_per_tick() -> None:
+    class Deriving(SampleWorld):
+        computed = 0
+
+        @cached_per_tick
+        def nearest(self) -> float:
+            """The least distance."""
+            self.computed += 1
+            return min(self.laser)
+
+    world = Deriving()
+    for number in range(2):
+        receive(world, "LASER", [5, 4 + number, 6])
+        tick(world)
+        assert (world.nearest, world.nearest, world.computed) == (4 + number, 4 + number, number + 1)
+    assert Deriving.nearest.__doc__ == "The least distance."

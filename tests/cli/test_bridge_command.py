@@ -143,7 +143,7 @@ def test_events_in_lines_and_totals(capsys: pytest.CaptureFixture[str]) -> None:
         server = make_server()
         view = PlainBridgeView(server)
         client = Client(server)
-        client.send(b"ROBOT:nao\nBEHAVIOR:failing\nAHEAD:5\nAHEAD:1\n")
+        client.send(b"ROBOT:nao\nBEHAVIOR:failing\njunk\nAHEAD:5\nAHEAD:1\n")
         await server.tick_all(50_000_000)
         client.leave()
         view.close()
@@ -154,8 +154,9 @@ def test_events_in_lines_and_totals(capsys: pytest.CaptureFixture[str]) -> None:
     lines = [re.sub(r"^ +[\d.]+ s  ", "", line) for line in capsys.readouterr().out.splitlines()]
     assert lines[0] == "nao: connected from 192.0.2.1:4711"
     assert lines[1] == "nao: runs failing"
-    assert lines[2].startswith("nao: Failing, work, line 3: RuntimeError: no idea")
-    assert lines[3] == "nao: disconnected; its state is kept for 10 s"
+    assert lines[2] == "nao: expected TARGET:p1,p2, found 'junk'"
+    assert lines[3].startswith("nao: Failing, work, line 3: RuntimeError: no idea")
+    assert lines[4] == "nao: disconnected; its state is kept for 10 s"
     assert totals[:2] == ["served for 2.0 s; 0 of 1 ticks skipped", "         1 connections"]
     assert "         1 values replaced before they were read" in totals
     assert totals[-1].startswith("age of the data acted on: median 0.0 ms")

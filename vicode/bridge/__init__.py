@@ -3,7 +3,7 @@
 User code imports the declarations of a world from here; they use the standard library only.
 """
 
-from vicode.bridge.declarations import Command, Event, Sensor
+from vicode.bridge.declarations import Command, Event, Sensor, cached_per_tick
 from vicode.bridge.world import World
 
-__all__ = ["Command", "Event", "Sensor", "World"]
+__all__ = ["Command", "Event", "Sensor", "World", "cached_per_tick"]

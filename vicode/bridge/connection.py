@@ -122,12 +122,11 @@ class Connection(asyncio.BufferedProtocol):
         assert self._dialect is not None
         try:
             self._dialect.handle(line, self)
-        except UnknownTargetError as error:
-            self.complain(str(error))
         except FrameError as error:
             counts = self.robot.data.counts if self.robot is not None else self.server.counts
-            counts.malformed += 1
-            self.complain(str(error))
+            counts.malformed += not isinstance(error, UnknownTargetError)
+            if self.complain(str(error)):
+                self.server.on_event(self.robot.name if self.robot is not None else self.peer, str(error))
         except RefusedError as error:
             self.refuse(str(error))
 
@@ -216,8 +215,8 @@ class Connection(asyncio.BufferedProtocol):
             self.send(self._dialect.encode_commands(self.robot.data.commands.stop(), {}))
         self.close()
 
-    def complain(self, text: str) -> None:
-        """Send an error, unless there were many."""
+    def complain(self, text: str) -> bool:
+        """Send an error, unless there were many; return whether it was sent."""
         now_s = time.monotonic()
         self._error_credit = min(_ERROR_BURST, self._error_credit + (now_s - self._error_s) * _ERRORS_PER_S)
         self._error_s = now_s
@@ -225,11 +224,12 @@ class Connection(asyncio.BufferedProtocol):
         may_send = self.pace == "client" or self._error_credit >= 1
         if self._dialect is None or not may_send or self._transport.get_write_buffer_size() > _MAX_UNSENT_BYTES:
             self._hidden_errors += 1
-            return
+            return False
         self._error_credit -= 1
         hidden = f" (and {self._hidden_errors} other errors)" if self._hidden_errors else ""
         self._hidden_errors = 0
         self.send(self._dialect.encode_error(text + hidden))
+        return True
 
     def refuse(self, text: str) -> None:
         """Send an error and close the connection."""

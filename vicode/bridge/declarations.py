@@ -153,6 +153,18 @@ class Command:
         return tuple(values.get(name, 0) for name in self.parameters)
 
 
+def cached_per_tick(compute: Callable[[Any], Any]) -> property:
+    """A property of a world that is computed when it is read, at most once per tick, as sensors do not change in it."""
+
+    def read(world: "World") -> Any:
+        cache = world.bridge.cache
+        if compute not in cache:
+            cache[compute] = compute(world)
+        return cache[compute]
+
+    return property(read, doc=compute.__doc__)
+
+
 def _read_age(sensor: Sensor, world: "World") -> float:
     return world.bridge.readings.age_s(sensor)
 

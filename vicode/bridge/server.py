@@ -94,6 +94,7 @@ class BridgeServer:
     _ages: AgeFigures = field(default_factory=AgeFigures)
     _joined: int = 0
     _listener: asyncio.Server | None = None
+    _is_stopping: bool = False
 
     async def start(self) -> None:
         """Listen and tick.
@@ -137,6 +138,7 @@ class BridgeServer:
 
     async def stop(self) -> None:
         """Stop all robots, close all connections, behaviors and worlds."""
+        self._is_stopping = True
         if self.ticker is not None:
             self.ticker.cancel()
             await asyncio.wait([self.ticker])
@@ -166,7 +168,8 @@ class BridgeServer:
             return
         seat.connection, seat.left_s = None, time.monotonic()
         seat.robot.leave_team()
-        if not seat.is_named or connection.pace == "client" or not self.options.grace_s:
+        is_kept = seat.is_named and connection.pace == "clock" and self.options.grace_s > 0 and not self._is_stopping
+        if not is_kept:
             self.on_event(seat.robot.name, "disconnected")
             self._drop(seat)
         else:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, fields
 from types import SimpleNamespace
-from typing import ClassVar, Self, TypeVar
+from typing import Any, ClassVar, Self, TypeVar
 
 from vicode.bridge.commands import CommandQueue
 from vicode.bridge.declarations import Command, Event, Sensor
@@ -92,9 +92,11 @@ class WorldData:
     events: EventQueue
     commands: CommandQueue
     targets: tuple[str, ...]
+    cache: dict[object, Any]
+    """Values of this tick."""
 
     def __init__(self, world_class: type[World]) -> None:
-        self.robot, self.time_ns, self.team = "", 0, ()
+        self.robot, self.time_ns, self.team, self.cache = "", 0, (), {}
         self.counts = Counts()
         sensors, events = list_declarations(world_class, Sensor), list_declarations(world_class, Event)
         self.readings = Readings(sensors, self.counts)
@@ -115,6 +117,7 @@ class WorldData:
         """Prepare a tick of the behavior at `time_ns`; ages count from `now_ns`, the clock of `receive`."""
         self.time_ns = time_ns
         self.counts.ticks += 1
+        self.cache.clear()
         self.readings.begin_tick(now_ns)
         self.events.begin_tick()
 

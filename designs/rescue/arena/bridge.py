@@ -1,7 +1,7 @@
 """What the rescue robot sends and obeys when `vicode bridge` drives it."""
 
 from arena.world import REGIONS
-from vicode.bridge import Command, Sensor, World
+from vicode.bridge import Command, Sensor, World, cached_per_tick
 
 
 class RescueWorld(World):
@@ -35,20 +35,25 @@ class RescueWorld(World):
         """Degrees turned since the start, either way."""
         return abs(self._turned)
 
+    @cached_per_tick
+    def least_distances(self) -> dict[str, float]:
+        """The least distance in each region."""
+        laser, last = self.laser, len(REGIONS) - 1
+        # The regions begin at the left, the distances at the right.
+        edges = [round(number * (len(laser) - 1) / len(REGIONS)) for number in range(len(REGIONS) + 1)]
+        return {name: min(laser[edges[last - at] : edges[last - at + 1] + 1]) for at, name in enumerate(REGIONS)}
+
     def __getattr__(self, name: str) -> float:
         """The least distance in a region, such as laser_min_n."""
         region = name.removeprefix("laser_min_")
         if region == name or region not in REGIONS:
             raise AttributeError(name)
-        laser = self.laser
-        # The regions begin at the left, the distances at the right.
-        number, width = len(REGIONS) - 1 - REGIONS.index(region), (len(laser) - 1) / len(REGIONS)
-        return float(min(laser[round(number * width) : round((number + 1) * width) + 1]))
+        return self.least_distances[region]
 
     @property
     def laser_max(self) -> float:
         """The largest of the least distances."""
-        return max(self.__getattr__(f"laser_min_{region}") for region in REGIONS)
+        return max(self.least_distances.values())
 
     def differential_drive(self, *, speed: float, turning_speed: float) -> None:
         if self.time >= self._free_at:
