@@ -16,7 +16,7 @@ PICTURES = ROOT / "docs/pictures"
 def main() -> None:
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=find_chromium(playwright), args=CHROMIUM_ARGUMENTS)
-        run("experiment", "meeting", "--out", folder, "--no-real-time")
+        run("experiment", "meeting", "--out", folder, "--seeds", "4", "--no-real-time")
         page = browser.new_page(viewport={"width": 1160, "height": 960})
         page.goto(Path(folder, "meeting.html").as_uri())
         page.screenshot(path=PICTURES / "experiment.png")

@@ -1,6 +1,10 @@
 """The experiments succeed behind a real bridge, as designs and as XABSL, and their pages show it."""
 
+import contextlib
 import re
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -39,6 +43,27 @@ def test_a_project_without_the_behavior_is_refused(tmp_path: Path, capsys: pytes
     (tmp_path / "blink.yaml").write_text("vicode: 1\ninitial: a\nstates: {a: {}}\n")
     assert main(["experiment", "circle", "--out", str(tmp_path / "out"), "--project", str(tmp_path)]) == 2
     assert capsys.readouterr().err == f"vicode: {tmp_path} has no design 'drive_circle'\n"
+
+
+def test_the_bridge_ends_with_the_experiment(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "vicode", "experiment", "meeting", "--out", str(tmp_path), "--seeds", "9"]
+    with subprocess.Popen(command, stderr=subprocess.DEVNULL, start_new_session=True) as process:
+        while (bridge := find_connected_child(process.pid)) is None:
+            assert process.poll() is None
+            time.sleep(0.05)
+        process.terminate()
+    assert process.returncode == 130
+    assert not bridge.exists()
+
+
+def find_connected_child(process_id: int) -> Path | None:
+    """The process of the first child, as soon as it has a socket."""
+    children = Path(f"/proc/{process_id}/task/{process_id}/children").read_text().split()
+    for child in (Path("/proc", each) for each in children):
+        with contextlib.suppress(OSError):
+            if any(file.readlink().name.startswith("socket:") for file in (child / "fd").iterdir()):
+                return child
+    return None
 
 
 @pytest.mark.nightly

@@ -2,8 +2,10 @@
 
 import argparse
 import asyncio
+import contextlib
+import signal
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -41,10 +43,21 @@ def run(args: argparse.Namespace) -> int:
     from vicode.simulated_robot.client import BridgeError
 
     try:
-        return _run(EXPERIMENTS[args.name], args)
+        with _ending_at_sigterm():
+            return _run(EXPERIMENTS[args.name], args)
     except (ExperimentError, BridgeStartError, BridgeError) as error:
         print(f"vicode: {error}", file=sys.stderr)
         return 2
+
+
+@contextlib.contextmanager
+def _ending_at_sigterm() -> Iterator[None]:
+    """Treat SIGTERM as Ctrl-C, so that the bridge ends, too."""
+    previous = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, previous)
 
 
 def _run(experiment: "Experiment", args: argparse.Namespace) -> int:

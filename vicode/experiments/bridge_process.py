@@ -10,6 +10,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from vicode.simulation.environment import fresh_environment
+
 _ADDRESS = re.compile(r"127\.0\.0\.1:(\d+)")
 _PEAK_MEMORY = re.compile(r"VmHWM:\s+(\d+) kB")
 _END_TIMEOUT_S = 10.0
@@ -38,8 +40,14 @@ def running_bridge(arguments: Sequence[str]) -> Iterator[BridgeUse]:
     command = [sys.executable, "-P", "-m", "vicode", "bridge", *arguments, "--port", "0"]
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     with tempfile.TemporaryFile() as errors:
+        # In a separate session, the bridge does not receive Ctrl-C from the terminal; it ends with the block.
         process = subprocess.Popen(
-            command, stdout=subprocess.PIPE, stderr=errors, stdin=subprocess.DEVNULL, start_new_session=True
+            command,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            stdin=subprocess.DEVNULL,
+            env=fresh_environment(),
+            start_new_session=True,
         )
         try:
             use = BridgeUse(_read_port(process))
