@@ -17,7 +17,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=find_chromium(playwright), args=CHROMIUM_ARGUMENTS)
         run("experiment", "meeting", "--out", folder, "--seeds", "4", "--no-real-time")
-        page = browser.new_page(viewport={"width": 1160, "height": 960})
+        page = browser.new_page(viewport={"width": 1160, "height": 1280})
         page.goto(Path(folder, "meeting.html").as_uri())
         page.screenshot(path=PICTURES / "experiment.png")
         take_view(browser)
@@ -33,7 +33,7 @@ def take_view(browser: Browser) -> None:
     try:
         page = browser.new_page(viewport={"width": 1160, "height": 640})
         page.goto(robots.stdout.readline().split()[-1])
-        page.get_by_text("pass_door: cross").wait_for()
+        page.get_by_text("to_meeting").first.wait_for()
         page.screenshot(path=PICTURES / "simulated-robot.png")
     finally:
         for process in (robots, bridge):

@@ -104,7 +104,7 @@ class SimulationSession:
                 self.arena.advance(TICK_S)
                 now = round(tick * TICK_S, 6)
                 for track, link in zip(self.tracks, self._links, strict=True):
-                    link.send_tick(self._sense(track, is_first=tick == 1), time_s=now)
+                    link.send_tick(self._sense(track), time_s=now)
                 for track, link in zip(self.tracks, self._links, strict=True):
                     track.take(await link.read())
                     self._record(track)
@@ -134,7 +134,7 @@ class SimulationSession:
                 await asyncio.sleep(due - loop.time())
                 self.arena.advance(max(0.0, due - start - self.arena.now_s))
                 for track, link in zip(self.tracks, self._links, strict=True):
-                    link.send(self._sense(track, is_first=tick == 1), time_s=round(self.arena.now_s, 6))
+                    link.send(self._sense(track), time_s=round(self.arena.now_s, 6))
                     self._record(track)
                     await link.drain()
                 on_tick()
@@ -163,15 +163,15 @@ class SimulationSession:
             point = TrackPoint(time_s=time_s, at=robot.at, yaw=robot.yaw, active=track.active, age_ms=track.age_ms)
             track.points.append(point)
 
-    def _sense(self, track: RobotTrack, *, is_first: bool) -> Sensors:
+    def _sense(self, track: RobotTrack) -> Sensors:
         robot = track.robot
         track.ranges = self.arena.scan(robot)
-        sensors: dict[str, Sequence[float]] = {
+        return {
+            "NUMBER": (robot.number,),
             "LASER": track.ranges,
             "INS": _rounded(robot.odometry()),
             "GROUNDTRUTH": _rounded((*robot.at, robot.yaw)),
         }
-        return {"NUMBER": (robot.number,), **sensors} if is_first else sensors
 
 
 class _ReaderGroup:

@@ -30,7 +30,8 @@ class pass_door(Component):
         )
 
     def _in_approach(self, decide: bool = True) -> None:
-        if decide and bool(self.world.arrived):
+        # not with the point of the state before
+        if decide and self.root.now_ns - self._entered_ns >= 100_000_000 and bool(self.world.arrived):  # after 0.1 s
             self._change_to("cross")
             return
         self._call(self.drive_to, x=4.2, y=float(door_y))
