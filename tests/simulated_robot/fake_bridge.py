@@ -9,15 +9,17 @@ from contextlib import asynccontextmanager, contextmanager
 
 
 @asynccontextmanager
-async def fake_bridge(*, greeting: bytes = b"Robot connection accepted\n", error: str = "") -> AsyncIterator[int]:
-    """Yield the port of a bridge that ends with the block."""
+async def fake_bridge(
+    *, greeting: bytes = b"Robot connection accepted\n", error: str = "", messages: float = float("inf")
+) -> AsyncIterator[int]:
+    """Yield the port of a bridge that ends with the block; it closes connections after a number of messages."""
     tasks = []
 
     async def serve(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         tasks.append(asyncio.current_task())
         with contextlib.suppress(ConnectionError):
             writer.write(greeting)
-            await _drive(reader, writer, error)
+            await _drive(reader, writer, error, messages)
         with contextlib.suppress(ConnectionError):
             writer.close()
             await writer.wait_closed()
@@ -54,9 +56,10 @@ def fake_bridge_thread() -> Iterator[int]:
         loop.close()
 
 
-async def _drive(reader: asyncio.StreamReader, writer: asyncio.StreamWriter, error: str) -> None:
+async def _drive(reader: asyncio.StreamReader, writer: asyncio.StreamWriter, error: str, messages: float) -> None:
     turned, yaw, drive = 0.0, None, None
-    while line := await reader.readline():
+    while (line := await reader.readline()) and messages > 0:
+        messages -= 1
         is_json = line.startswith(b"{")
         message = json.loads(line) if is_json else _read_jxi(line)
         if "hello" in message:

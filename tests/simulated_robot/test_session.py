@@ -75,3 +75,14 @@ def test_a_refusal_of_the_bridge_is_passed_on() -> None:
 
     with pytest.raises(BridgeError, match="the bridge reports: no behavior 'dance'"):
         asyncio.run(run())
+
+
+@pytest.mark.parametrize("is_lock_step", [True, False])
+def test_a_bridge_that_leaves_ends_the_session(is_lock_step: bool) -> None:
+    async def run() -> None:
+        async with fake_bridge(messages=5) as port:
+            session = SimulationSession(Arena(WorldMap()), BridgeAddress(port=port))
+            await (session.run_lock_step if is_lock_step else session.run_real_time)(60)
+
+    with pytest.raises(BridgeError, match="the bridge closed the connection"):
+        asyncio.run(run())

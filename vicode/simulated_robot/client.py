@@ -1,6 +1,7 @@
 """The robot's end of a connection to a bridge, in JSON lines or in the lines of JXI."""
 
 import asyncio
+import contextlib
 from collections.abc import AsyncIterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -134,32 +135,39 @@ class RobotConnection:
 
     async def answers(self) -> AsyncIterator[Answer]:
         """All further messages, until the bridge closes the connection."""
-        while line := await self._reader.readline():
+        while line := await _read_or_end(self._reader):
             answer = _read_jxi(line) if self._is_jxi else _read_json(line)
             if answer is not None:
                 yield answer
 
     async def drain(self) -> None:
-        """Wait until the bridge has room for more messages."""
-        await self._writer.drain()
+        """Wait until the bridge has room for more messages; a closed connection is reported by reading."""
+        with contextlib.suppress(ConnectionError):
+            await self._writer.drain()
 
     async def close(self) -> None:
         self._writer.close()
-        try:
+        # The bridge may have closed first.
+        with contextlib.suppress(OSError):
             await self._writer.wait_closed()
-        except OSError:
-            # The bridge closed first.
-            return
 
     async def _read_line(self) -> bytes:
         try:
             async with asyncio.timeout(_ANSWER_TIMEOUT_S):
-                line = await self._reader.readline()
+                line = await _read_or_end(self._reader)
         except TimeoutError:
             raise BridgeError(f"the bridge did not answer for {_ANSWER_TIMEOUT_S:g} s") from None
         if not line:
             raise BridgeError("the bridge closed the connection")
         return line
+
+
+async def _read_or_end(reader: asyncio.StreamReader) -> bytes:
+    """The next line, empty at the end of the connection."""
+    try:
+        return await reader.readline()
+    except ConnectionError:
+        return b""
 
 
 def _decode(line: bytes) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import count, pairwise
 
 from vicode.simulated_robot.arena import Arena, SimulatedRobot
-from vicode.simulated_robot.client import Answer, HelloMessage, RobotConnection, Sensors
+from vicode.simulated_robot.client import Answer, BridgeError, HelloMessage, RobotConnection, Sensors
 from vicode.simulated_robot.world_map import Point
 
 TICK_S = 0.05
@@ -120,7 +120,11 @@ class SimulationSession:
         on_tick: Callable[[], None] = lambda: None,
         period_s: float = TICK_S,
     ) -> None:
-        """Simulate in real time; messages that the bridge does not take in time are not sent."""
+        """Simulate in real time; messages that the bridge does not take in time are not sent.
+
+        Raises:
+            BridgeError: The bridge refused or closed a connection.
+        """
         async with AsyncExitStack() as stack:
             await self._connect(stack, is_lock_step=False)
             group = await stack.enter_async_context(_ReaderGroup())
@@ -128,7 +132,7 @@ class SimulationSession:
                 group.follow(track, link)
             loop = asyncio.get_running_loop()
             start = due = loop.time()
-            for tick in count(1):
+            while True:
                 # A late tick is not repeated: its time is simulated with the next one.
                 due = max(due + period_s, loop.time())
                 await asyncio.sleep(due - loop.time())
@@ -182,8 +186,8 @@ class _ReaderGroup:
 
     @property
     def is_closed(self) -> bool:
-        """Whether the bridge closed all connections."""
-        return bool(self._tasks) and all(task.done() for task in self._tasks)
+        """Whether a connection has ended."""
+        return any(task.done() for task in self._tasks)
 
     def follow(self, track: RobotTrack, link: RobotConnection) -> None:
         self._tasks.append(asyncio.create_task(_follow(track, link)))
@@ -202,6 +206,7 @@ class _ReaderGroup:
 async def _follow(track: RobotTrack, link: RobotConnection) -> None:
     async for answer in link.answers():
         track.take(answer)
+    raise BridgeError("the bridge closed the connection")
 
 
 def _rounded(values: Sequence[float]) -> tuple[float, ...]:
