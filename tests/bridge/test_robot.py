@@ -6,7 +6,7 @@ import pytest
 
 from tests.bridge.sample_robots import TICK_NS, SampleWorld, make_catalog
 from vicode.bridge.behaviors import BehaviorCatalog, BehaviorError, XabslCatalog
-from vicode.bridge.robot import Robot
+from vicode.bridge.robot import Robot, TeamRound
 from vicode.xabsl.compiler import compile_source, declared_symbols
 from vicode.xabsl.parser import parse
 from vicode.xabsl.source_loader import load_source
@@ -69,7 +69,8 @@ def make_robot(behavior: str, catalog: BehaviorCatalog | None = None, *, name: s
 
 def advance(robots: list[Robot], number: int) -> None:
     for robot in robots:
-        robot.tick(number * TICK_NS, number * TICK_NS, [each for each in robots if each is not robot])
+        # As in lock step, where each robot ticks on its own.
+        robot.tick(number * TICK_NS, number * TICK_NS, TeamRound(robots, number * TICK_NS))
 
 
 def states(robots: list[Robot]) -> list[str]:

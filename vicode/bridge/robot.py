@@ -14,6 +14,10 @@ from vicode.bridge.world import World
 _MAX_REPORTED = 1000
 
 
+TeamKey = tuple[str, str]
+"""The name of a team, and the behavior of its robots."""
+
+
 class Broadcast:
     """What a robot told its team at the end of a tick: the message of its behavior, and published values."""
 
@@ -21,6 +25,27 @@ class Broadcast:
 
     def __init__(self, time_ns: int, message: Any, published: SimpleNamespace | None) -> None:
         self.time_ns, self.message, self.published = time_ns, message, published
+
+
+class TeamRound:
+    """What the robots of a team hear in their ticks at one time: what was told before, so that order has no effect.
+
+    Attributes:
+        messages: The messages of behaviors, with the names of the robots.
+        published: The published values of worlds.
+    """
+
+    __slots__ = ("messages", "published")
+
+    def __init__(self, robots: "Iterable[Robot]" = (), at_ns: int = 0) -> None:
+        self.messages: list[tuple[str, Any]] = []
+        self.published: list[SimpleNamespace] = []
+        for robot in robots:
+            broadcast = robot.told_before(at_ns)
+            if broadcast is not None and broadcast.message is not None:
+                self.messages.append((robot.name, broadcast.message))
+            if broadcast is not None and broadcast.published is not None:
+                self.published.append(broadcast.published)
 
 
 class Robot:
@@ -79,13 +104,13 @@ class Robot:
         self.behavior, self.behavior_name, self._start_ns = behavior, name, None
         self.data.commands.repeat()
 
-    def tick(self, at_ns: int, now_ns: int, mates: Iterable["Robot"]) -> None:
+    def tick(self, at_ns: int, now_ns: int, team: TeamRound) -> None:
         """Run the behavior once.
 
         Args:
             at_ns: When the tick is due, on a clock that all robots of a team share.
             now_ns: The time on the clock of the messages, from which ages are counted.
-            mates: The other robots of the team.
+            team: What the team told before.
         """
         behavior, data = self.behavior, self.data
         if behavior is None:
@@ -94,9 +119,8 @@ class Robot:
             self._start_ns = at_ns
         self.clock.ns = max(self.clock.ns, at_ns - self._start_ns)
         data.begin_tick(self.clock.ns, now_ns)
-        heard = [each for each in (mate.heard_at(at_ns) for mate in mates) if each is not None]
-        data.team = tuple(each.published for each in heard if each.published is not None)
-        behavior.hear(each.message for each in heard if each.message is not None)
+        data.published = team.published
+        behavior.hear([message for name, message in team.messages if name != self.name])
         if self._advance is not None:
             self._advance_world(self._advance)
         behavior.step()
@@ -107,8 +131,8 @@ class Robot:
         for problem in data.take_problems():
             self.reports.append(problem)
 
-    def heard_at(self, at_ns: int) -> Broadcast | None:
-        """What the other robots hear in their tick at this time: what was told before, so that order has no effect."""
+    def told_before(self, at_ns: int) -> Broadcast | None:
+        """What this robot told last before a time."""
         if not self._broadcasts:
             return None
         newest = self._broadcasts[-1]
@@ -117,7 +141,7 @@ class Robot:
         return self._broadcasts[0] if len(self._broadcasts) > 1 else None
 
     @property
-    def team_key(self) -> tuple[str, str]:
+    def team_key(self) -> TeamKey:
         """Robots with the same key are a team."""
         return self.team, self.behavior_name
 

@@ -5,7 +5,7 @@ import ipaddress
 import re
 import ssl
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from vicode.bica.loader import describe_user_error
@@ -13,7 +13,7 @@ from vicode.bridge.ages import AgeFigures
 from vicode.bridge.behaviors import BehaviorCatalog
 from vicode.bridge.connection import Connection
 from vicode.bridge.dialects import JoinRequest, RefusedError
-from vicode.bridge.robot import Robot
+from vicode.bridge.robot import Robot, TeamKey, TeamRound
 from vicode.bridge.world import Counts, World
 
 DEFAULT_PORT = 7001
@@ -23,6 +23,7 @@ _HANDSHAKE_S = 10.0
 _STOP_S = 2.0
 _TURN_S = 0.005
 """So long robots are stepped before connections get their turn."""
+_SILENCE = TeamRound()
 _ROBOT_NAME = re.compile(r"[\w.-]{1,64}")
 
 
@@ -230,7 +231,7 @@ class BridgeServer:
 
     def tick(self, robot: Robot, *, at_ns: int, now_ns: int) -> None:
         """Run one tick of a robot, with its team."""
-        self._tick_among(robot, self._speakers(), at_ns, now_ns)
+        self._tick_in_team(robot, self._hear(at_ns), at_ns, now_ns)
 
     # Ticks of the clock
 
@@ -248,12 +249,12 @@ class BridgeServer:
     async def tick_all(self, at_ns: int) -> None:
         """Run one tick of the robots whose clock is that of the server."""
         self.ticks.run += 1
-        speakers, turn_s = self._speakers(), time.monotonic() + _TURN_S
+        teams, turn_s = self._hear(at_ns), time.monotonic() + _TURN_S
         for seat in [*self._seats.values()]:
             connection = seat.connection
             if connection is None or connection.pace == "client" or seat.robot.behavior is None:
                 continue
-            self._tick_among(seat.robot, speakers, at_ns, time.monotonic_ns())
+            self._tick_in_team(seat.robot, teams, at_ns, time.monotonic_ns())
             for line in seat.robot.take_reports():
                 connection.complain(line)
             connection.flush()
@@ -261,13 +262,18 @@ class BridgeServer:
                 await asyncio.sleep(0)
                 turn_s = time.monotonic() + _TURN_S
 
-    def _tick_among(self, robot: Robot, speakers: Iterable[Robot], at_ns: int, now_ns: int) -> None:
-        robot.tick(at_ns, now_ns, [each for each in speakers if each is not robot and each.team_key == robot.team_key])
+    def _tick_in_team(self, robot: Robot, teams: Mapping[TeamKey, TeamRound], at_ns: int, now_ns: int) -> None:
+        robot.tick(at_ns, now_ns, teams.get(robot.team_key, _SILENCE))
         for line in robot.reports:
             self.on_event(robot.name, line)
 
-    def _speakers(self) -> list[Robot]:
-        return [seat.robot for seat in self._seats.values() if seat.robot.speaks]
+    def _hear(self, at_ns: int) -> dict[TeamKey, TeamRound]:
+        """What the robots of each team hear in their ticks at this time."""
+        teams: dict[TeamKey, list[Robot]] = {}
+        for seat in self._seats.values():
+            if seat.robot.speaks:
+                teams.setdefault(seat.robot.team_key, []).append(seat.robot)
+        return {key: TeamRound(robots, at_ns) for key, robots in teams.items()}
 
     def _end_grace_times(self) -> None:
         now_s = time.monotonic()

@@ -1,5 +1,6 @@
 """World: what one robot senses and does, declared by the user; and the bridge's side of it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from types import SimpleNamespace
 from typing import Any, ClassVar, Self, TypeVar
@@ -43,7 +44,7 @@ class World:
     @property
     def team(self) -> tuple[SimpleNamespace, ...]:
         """The team mates: `robot`, and what they published, as it was at the end of their last tick."""
-        return self.bridge.team
+        return tuple(each for each in self.bridge.published if each.robot != self.robot)
 
 
 @dataclass(slots=True)
@@ -86,7 +87,7 @@ class WorldData:
 
     robot: str
     time_ns: int
-    team: tuple[SimpleNamespace, ...]
+    published: Sequence[SimpleNamespace]
     counts: Counts
     readings: Readings
     events: EventQueue
@@ -96,7 +97,7 @@ class WorldData:
     """Values of this tick."""
 
     def __init__(self, world_class: type[World]) -> None:
-        self.robot, self.time_ns, self.team, self.cache = "", 0, (), {}
+        self.robot, self.time_ns, self.published, self.cache = "", 0, (), {}
         self.counts = Counts()
         sensors, events = list_declarations(world_class, Sensor), list_declarations(world_class, Event)
         self.readings = Readings(sensors, self.counts)
