@@ -64,20 +64,7 @@ def make_machine(states: int, edges: int, *, acts: bool) -> Machine:
 
 def load_component(machine: Machine, senses: str = "benchmarks.senses:Senses") -> type[Component]:
     """Generate and import the component of a machine; `senses` is the implementation of the component that it reads."""
-    interface = Interface(
-        component="Senses",
-        implementation=senses,
-        outputs=tuple(Declaration(name=name, type="float") for name in "abc"),
-    )
-    design = Design(
-        component="Measured",
-        frequency_hz=50,
-        uses=(Use(alias="senses", component="Senses"),),
-        variables=(Declaration(name="speed", initial="0"),),
-        initial="S0",
-        states=tuple(make_state(machine, number) for number in range(len(machine.edges))),
-    )
-    project = Project(name="bench", components=(interface,), designs=(design,))
+    project = make_project(machine, senses)
     with tempfile.TemporaryDirectory() as folder:
         apply_diffs(compare_files(generate(project), Path(folder)), Path(folder))
         for name in [name for name in sys.modules if name.partition(".")[0] == "bench"]:
@@ -89,8 +76,30 @@ def load_component(machine: Machine, senses: str = "benchmarks.senses:Senses") -
     return measured
 
 
-def make_state(machine: Machine, number: int) -> State:
+def make_project(machine: Machine, senses: str, *, counts: bool = False) -> Project:
+    """The project of a machine; with `counts` its output `changes` counts the changes of the state."""
+    interface = Interface(
+        component="Senses",
+        implementation=senses,
+        outputs=tuple(Declaration(name=name, type="float") for name in "abc"),
+    )
+    design = Design(
+        component="Measured",
+        frequency_hz=50,
+        uses=(Use(alias="senses", component="Senses"),),
+        variables=(
+            Declaration(name="speed", initial="0"),
+            *([Declaration(name="changes", initial="0")] if counts else []),
+        ),
+        initial="S0",
+        states=tuple(make_state(machine, number, counts=counts) for number in range(len(machine.edges))),
+    )
+    return Project(name="bench", components=(interface,), designs=(design,))
+
+
+def make_state(machine: Machine, number: int, *, counts: bool) -> State:
     """Return a state of the design that says what a machine does."""
+    leave = (Assign(values=(("changes", "changes + 1"),)),) if counts else ()
     actions = (Assign(values=(("speed", str(number)),)),) if machine.acts else ()
     transitions = tuple(
         Transition(
@@ -99,7 +108,7 @@ def make_state(machine: Machine, number: int) -> State:
         )
         for edge in machine.edges[number]
     )
-    return State(name=f"S{number}", actions=actions, transitions=transitions)
+    return State(name=f"S{number}", actions=actions, leave=leave, transitions=transitions)
 
 
 def write_if_elif(machine: Machine) -> str:

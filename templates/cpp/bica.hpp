@@ -34,6 +34,14 @@
 #undef round
 #endif
 
+#if defined(__GNUC__)
+#define BICA_INLINE inline __attribute__((always_inline))
+#define BICA_INLINE_LAMBDA __attribute__((always_inline))
+#else
+#define BICA_INLINE inline
+#define BICA_INLINE_LAMBDA
+#endif
+
 namespace bica {
 
 using Nanoseconds = std::int64_t;
@@ -343,13 +351,17 @@ public:
 
     /// Activates the component: restarts it if it was inactive, then works if its period has elapsed.
     virtual void step() {
-        StepGuard observed(*this);
-        attempt([this] {
-            begin_iteration([this](bool) { restart_times(); restart(); });
+        begin_observed_step();
+        attempt(*this, [this] {
+            if (is_restarting(false)) {
+                restart_times();
+                restart();
+            }
             if (must_work()) {
                 work();
             }
         });
+        end_observed_step();
     }
 
     const char* name() const { return name_; }
@@ -371,9 +383,9 @@ public:
     /// Whether the component was in a final state after its last step, in this or the previous iteration.
     bool is_done() const { return in_final_state() && is_recent(); }
     bool was_stepped() const { return stepped_in_ == root.iteration_; }
-    /// The state that the last step left; nullptr if it left none.
+    /// The state that the last step left, for observers; nullptr if it left none.
     const char* left_state() const { return left_; }
-    /// The id of the transition that the last step took; nullptr if it has none.
+    /// The id of the transition that the last step took, for observers; nullptr if it has none.
     const char* transition() const { return transition_; }
 
     Root& root;
@@ -386,49 +398,21 @@ protected:
     virtual bool in_final_state() const { return false; }
     virtual bool is_recent() const { return root.iteration_ - stepped_in_ <= 1; }
 
-    /// Tells the observer of a step, and that the component is not being modulated any more.
-    class StepGuard {
-    public:
-        explicit StepGuard(Component& component, bool resume = false) : component_(component) {
-            if (component.root.observer != nullptr) {
-                const bool is_modulated = component.root.modulated_ == &component;
-                component.root.modulated_ = nullptr;
-                component.left_ = component.transition_ = nullptr;
-                component.root.observer->begin_step(component, is_modulated, component.will_work(resume));
-            }
-        }
-        ~StepGuard() {
-            if (component_.root.observer != nullptr) {
-                component_.root.observer->end_step(component_);
-            }
-        }
-        StepGuard(const StepGuard&) = delete;
-        StepGuard& operator=(const StepGuard&) = delete;
-
-    private:
-        Component& component_;
-    };
-
     /// Runs one step of a generated component.
     template <class Machine>
-    static void step_machine(Machine& machine, bool resume) {
-        StepGuard observed(machine, resume);
-        attempt_in(machine, [&machine, resume] {
-            machine.begin_iteration([&machine, resume](bool is_first) {
-                if (is_first || !resume) {
-                    machine.restart_times();
-                    machine.start();
-                }
-            });
-            machine.require(0);
-            if (machine.must_work()) {
-                machine.forget_calls();
-                machine.decide();
-                machine.act();
-            } else {
-                machine.repeat_calls();
-            }
-        });
+    BICA_INLINE static void step_machine(Machine& machine, bool resume) {
+        if (machine.root.observer == nullptr) {
+            run_step(machine, resume);
+        } else {
+            step_observed(machine, resume);
+        }
+    }
+
+    template <class Machine>
+    static void step_observed(Machine& machine, bool resume) {
+        machine.begin_observed_step(resume);
+        run_step(machine, resume);
+        machine.end_observed_step();
     }
 
     /// Modulates and steps a component.
@@ -453,10 +437,12 @@ protected:
         target.step();
     }
 
-    /// Notes that a state was left, for observers, and starts the time of the new one.
-    void change_state(const char* transition) {
-        left_ = state_name();
-        transition_ = transition;
+    /// Starts the time of the new state; tells observers which one was left.
+    BICA_INLINE void change_state(const char* transition) {
+        if (root.observer != nullptr) {
+            left_ = state_name();
+            transition_ = transition;
+        }
         entered_ns_ = root.now_ns_;
     }
 
@@ -468,13 +454,11 @@ protected:
     Nanoseconds period_ns() const { return period_ns_; }
     Nanoseconds entered_ns() const { return entered_ns_; }
 
-    template <class Start>
-    void begin_iteration(Start start) {
+    /// Counts the step; whether the component was inactive before, and does not resume.
+    BICA_INLINE bool is_restarting(bool resume) {
         const std::int64_t missed = root.iteration_ - stepped_in_;
         stepped_in_ = root.iteration_;
-        if (missed > 1) {
-            start(missed > root.iteration_);
-        }
+        return missed > 1 && (!resume || missed > root.iteration_);
     }
 
     void restart_times() {
@@ -495,7 +479,7 @@ private:
         return period_ns_ == 0 || restarts || root.now_ns_ - worked_ns_ >= period_ns_;
     }
 
-    bool must_work() {
+    BICA_INLINE bool must_work() {
         if (period_ns_ != 0 && root.now_ns_ - worked_ns_ < period_ns_) {
             return false;
         }
@@ -503,13 +487,41 @@ private:
         return true;
     }
 
-    template <class Body>
-    void attempt(Body body) {
-        attempt_in(*this, body);
+    template <class Machine>
+    BICA_INLINE static void run_step(Machine& machine, bool resume) {
+        attempt(machine, [&machine, resume]() BICA_INLINE_LAMBDA {
+            if (machine.is_restarting(resume)) {
+                machine.restart_times();
+                machine.start();
+            }
+            machine.require(0);
+            if (machine.must_work()) {
+                machine.forget_calls();
+                machine.decide();
+                machine.act();
+            } else {
+                machine.repeat_calls();
+            }
+        });
+    }
+
+    void begin_observed_step(bool resume = false) {
+        if (root.observer != nullptr) {
+            const bool is_modulated = root.modulated_ == this;
+            root.modulated_ = nullptr;
+            left_ = transition_ = nullptr;
+            root.observer->begin_step(*this, is_modulated, will_work(resume));
+        }
+    }
+
+    void end_observed_step() {
+        if (root.observer != nullptr) {
+            root.observer->end_step(*this);
+        }
     }
 
     template <class Body>
-    static void attempt_in(Component& component, Body body) {
+    BICA_INLINE static void attempt(Component& component, Body body) {
 #if defined(__cpp_exceptions)
         try {
             body();

@@ -78,7 +78,7 @@ class FunctionWriter:
         ):
             if any(getattr(state, phase) for state in plan.states):
                 body = self._switch(partial(self._phase_steps, phase))
-                yield self._function("void", phase, "", body, doc)
+                yield self._function("void", phase, "", body, doc, is_inline=phase == "leave")
         yield self._change_to()
         yield from self._code_functions()
 
@@ -90,12 +90,13 @@ class FunctionWriter:
         if self.component.common_decisions:
             body += ["    if (decide_common()) {", "        return;", "    }"]
         body += self._switch(lambda state: self._decisions(state.decisions, 3 * INDENT))
-        return self._function("void", "decide", "", body, "Takes the first transition whose guard holds.")
+        doc = "Takes the first transition whose guard holds."
+        return self._function("void", "decide", "", body, doc, is_inline=True)
 
     def _act(self) -> FunctionView:
         body = ["    act_common();"] if self.component.common_actions else []
         body += self._switch(lambda state: self._steps(state.actions, 3 * INDENT))
-        return self._function("void", "act", "", body, "Runs the actions of the active state.")
+        return self._function("void", "act", "", body, "Runs the actions of the active state.", is_inline=True)
 
     def _change_to(self) -> FunctionView:
         plan = self.component
@@ -313,11 +314,15 @@ class FunctionWriter:
                         rest = self._statements(otherwise, indent + INDENT, scope)
                         return [*lines, f"{margin}}} else {{", *rest, f"{margin}}}"]
 
-    def _function(self, type_: str, name: str, parameters: str, body: Sequence[str], doc: str) -> FunctionView:
+    def _function(
+        self, type_: str, name: str, parameters: str, body: Sequence[str], doc: str, *, is_inline: bool = False
+    ) -> FunctionView:
+        """A function; one that only `step` calls is inlined into it."""
+        inline = "BICA_INLINE " if is_inline else ""
         defaulted = parameters.replace("const char* transition", "const char* transition = nullptr")
         return FunctionView(
             declaration=f"{type_} {name}({defaulted});",
-            signature=f"{type_} {self.class_name}::{name}({parameters})",
+            signature=f"{inline}{type_} {self.class_name}::{name}({parameters})",
             body=tuple(body),
             doc=tuple(doc_comment(doc)),
         )
