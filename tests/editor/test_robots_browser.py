@@ -95,6 +95,7 @@ def test_a_tuned_constant_is_written_back(robot: RobotProgram, folder: Path, tmp
         expect(page.locator(".guard", has_text="→ Lit")).to_contain_text("false")
         page.get_by_role("spinbutton", name="Tune bright, number").fill("30")
         expect(active(page)).to_have_attribute("data-id", "Lit")
+        assert page.locator(".robot-tuning").evaluate("form => form.scrollWidth <= form.clientWidth")
         page.get_by_role("button", name="Write bright back").click()
         expect(page.get_by_role("button", name="Write bright back")).to_be_hidden()
         assert "bright: {value: 30, tunable: true, range: [0, 50]}" in (folder / "project.yaml").read_text()

@@ -57,7 +57,7 @@ class LiveServer:
         self.control, self._stays_open = control, stays_open
         self._asked_address = str(address)
         self._listener, self.address = _listen(str(address))
-        self.token = token or ("" if self.address.startswith(_UNIX) else secrets.token_urlsafe(12))
+        self.token = token or ("" if self.address.startswith(_UNIX) else secrets.token_hex(12))
         self._feeds: list[LiveFeed] = []
         self._viewers: list[_Viewer] = []
         self._selector = selectors.DefaultSelector()

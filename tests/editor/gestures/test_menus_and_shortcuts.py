@@ -40,6 +40,16 @@ def test_each_kind_of_element_has_its_menu(sketch: EditorDriver) -> None:
     sketch.expect_undone()
 
 
+def test_a_long_menu_is_shown_whole_over_the_panel_below(sketch: EditorDriver) -> None:
+    sketch.page.set_viewport_size({"width": 1366, "height": 600})
+    sketch.page.get_by_role("tab", name="Simulate").click()
+    sketch.click(sketch.state("Go"), right=True)
+    expect(sketch.menu().get_by_role("menuitem", name="Toggle breakpoint")).to_be_in_viewport(ratio=1)
+    assert sketch.menu().evaluate("menu => menu.scrollHeight <= menu.clientHeight")
+    sketch.choose("Toggle breakpoint")
+    expect(sketch.menu()).to_be_hidden()
+
+
 def test_a_menu_works_by_keys_alone(sketch: EditorDriver) -> None:
     sketch.select("Go")
     for keys in ("Shift+F10", "ContextMenu"):

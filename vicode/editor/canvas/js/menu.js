@@ -8,7 +8,7 @@ const EDGE = 8;
 export class Menu {
   constructor(canvas) {
     this.canvas = canvas;
-    this.element = html("div", { class: "menu", role: "menu", tabindex: "-1", hidden: true });
+    this.element = html("div", { class: "menu", role: "menu", tabindex: "-1", popover: "manual", hidden: true });
     this.element.addEventListener("keydown", (event) => this.#down(event));
     this.element.addEventListener("focusout", (event) => this.#lost(event));
     for (const name of ["pointerdown", "pointermove", "pointerup", "dblclick", "wheel", "keyup"]) this.element.addEventListener(name, (event) => event.stopPropagation());
@@ -22,11 +22,12 @@ export class Menu {
     this.element.replaceChildren(...this.#rows(entries));
     this.element.setAttribute("aria-label", MENU);
     this.element.hidden = false;
-    const { width, height } = this.canvas.viewport;
+    // A popover may cover the panels around the stage, which leave little room for a long menu.
+    this.element.showPopover();
+    const stage = this.canvas.stage.getBoundingClientRect();
     const fit = (at, size, room) => Math.max(EDGE, Math.min(at, room - size - EDGE));
-    this.element.style.maxHeight = `${height - 2 * EDGE}px`;
-    this.element.style.left = `${fit(x, this.element.offsetWidth, width)}px`;
-    this.element.style.top = `${fit(y, this.element.offsetHeight, height)}px`;
+    this.element.style.left = `${fit(stage.left + x, this.element.offsetWidth, window.innerWidth)}px`;
+    this.element.style.top = `${fit(stage.top + y, this.element.offsetHeight, window.innerHeight)}px`;
     this.#items()[0].focus({ preventScroll: true });
   }
 
@@ -46,6 +47,7 @@ export class Menu {
     this.canvas.gestures.menuAt = null;
     if (refocus) this.canvas.stage.focus({ preventScroll: true });
     this.element.hidden = true;
+    this.element.hidePopover();
   }
 
   #rows(entries) {
