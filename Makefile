@@ -14,7 +14,7 @@ PYTHON = $(shell for name in python3 python3.14 python3.13 python3.12 python3.11
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help edit test fast check nightly versions bench gen pictures clean chromium gpp
+.PHONY: help edit test fast check nightly versions bench gen pictures clean chromium gpp neovim
 
 help:  ## list these commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-8s  %s\n", $$1, $$2}' Makefile
@@ -22,20 +22,20 @@ help:  ## list these commands
 edit: $(VENV)/.ready  ## open the editor on designs/
 	@$(BIN)/vicode edit designs
 
-test: $(VENV)/.ready-test chromium gpp  ## pass every test, a real browser included (under 10 minutes)
+test: $(VENV)/.ready-test chromium gpp neovim  ## pass every test, a real browser included (under 10 minutes)
 	@$(PYTEST) $(PARALLEL)
 
-fast: $(VENV)/.ready-test gpp  ## pass the tests that need no browser
+fast: $(VENV)/.ready-test gpp neovim  ## pass the tests that need no browser
 	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
 
-check: $(VENV)/.ready-dev gpp  ## format, lint, types, architecture, fast tests (two minutes)
+check: $(VENV)/.ready-dev gpp neovim  ## format, lint, types, architecture, fast tests (two minutes)
 	$(BIN)/ruff format --check
 	$(BIN)/ruff check
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
 
-nightly: $(VENV)/.ready-test chromium gpp versions  ## the long runs: fuzzing, other Pythons and versions, the browser tests 20 times
+nightly: $(VENV)/.ready-test chromium gpp neovim versions  ## the long runs: fuzzing, other Pythons and versions, the browser tests 20 times
 	@VICODE_HYPOTHESIS=nightly $(PYTEST) $(PARALLEL) --timeout 3600 -m "nightly or hypothesis"
 	@failed=0; for run in $$(seq 20); do echo "Browser tests, run $$run of 20:"; \
 		VICODE_ONE_TRY=1 $(PYTEST) $(PARALLEL) -m "browser and not nightly" || failed=1; done; \
@@ -64,6 +64,9 @@ chromium: $(VENV)/.ready-test
 
 gpp:
 	@.ci/gpp
+
+neovim:
+	@.ci/neovim
 
 $(BIN)/python:
 	@test -n "$(PYTHON)" || { echo "vicode needs Python 3.11 or newer with venv: sudo apt install python3-venv" >&2; exit 1; }

@@ -1,178 +1,9 @@
-"""The language server as a child process, driven over standard input and output."""
+"""What the language server knows about the files of a behavior."""
 
-import json
-import subprocess
-import sys
-from collections.abc import Iterator
-from pathlib import Path
-from typing import Any
-
-import pytest
-
+from tests.xabsl.lsp_client import FILES, LspClient, locations
 from vicode.xabsl.server.grammar import grammar
+from vicode.xabsl.server.semantic_tokens import LEGEND
 from vicode.xabsl.tokens import KEYWORDS
-
-FILES = {
-    "agents.xabsl": """include "symbols.xabsl";
-include "options/play.xabsl";
-include "options/kick.xabsl";
-agent player("Player", play);
-""",
-    "symbols.xabsl": """namespace symbols("Symbols") {
-  enum side { left, right };
-  /** distance to the ball */
-  float input ball.distance [0..5000] "mm";
-  enum side input ball.side;
-  float input angle(float x; float y;);
-  float output speed;
-  enum side output foot;
-}
-""",
-    "options/play.xabsl": """option play {
-  initial state wait {
-    decision {
-      if (ball.distance < 300 && ball.side == left)
-        goto go;
-      else
-        stay;
-    }
-    action {
-      foot = side.right;
-    }
-  }
-  target state go {
-    action {
-      kick(power = 3);
-      speed = angle(x = 1, y = ball.distance);
-    }
-  }
-}
-""",
-    "options/kick.xabsl": """option kick {
-  float @power;
-  initial state only {
-    action {
-      speed = @power;
-    }
-  }
-}
-""",
-}
-
-
-class LspClient:
-    """A minimal client: sends requests and records published diagnostics and messages."""
-
-    def __init__(self) -> None:
-        command = [sys.executable, "-m", "vicode", "xabsl", "lsp"]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        self.number = 0
-        self.start_session(Path.cwd())
-        self.request("initialize", {"processId": None, "rootUri": None, "capabilities": {}})
-        self.notify("initialized", {})
-
-    def start_session(self, folder: Path) -> None:
-        self.folder = folder
-        self.diagnostics: dict[str, list[dict[str, Any]]] = {}
-        self.shown_messages: list[str] = []
-        self.versions: dict[str, int] = {}
-
-    def close_documents(self) -> None:
-        for name in self.versions:
-            self.notify("textDocument/didClose", {"textDocument": {"uri": self.uri(name)}})
-        self.wait_for_diagnostics()
-
-    def send(self, message: dict[str, Any]) -> None:
-        assert self.process.stdin
-        body = json.dumps({"jsonrpc": "2.0", **message}).encode()
-        self.process.stdin.write(b"Content-Length: %d\r\n\r\n%s" % (len(body), body))
-        self.process.stdin.flush()
-
-    def notify(self, method: str, params: dict[str, Any]) -> None:
-        self.send({"method": method, "params": params})
-
-    def request(self, method: str, params: dict[str, Any]) -> Any:
-        self.number += 1
-        self.send({"id": self.number, "method": method, "params": params})
-        while True:
-            message = self.read()
-            if message.get("id") == self.number:
-                assert "error" not in message, message
-                return message["result"]
-
-    def read(self) -> dict[str, Any]:
-        assert self.process.stdout
-        length = 0
-        while line := self.process.stdout.readline().strip():
-            if line.lower().startswith(b"content-length:"):
-                length = int(line.split(b":")[1])
-        message: dict[str, Any] = json.loads(self.process.stdout.read(length))
-        if message.get("method") == "textDocument/publishDiagnostics":
-            name = message["params"]["uri"].removeprefix(f"{self.folder.as_uri()}/")
-            self.diagnostics[name] = message["params"]["diagnostics"]
-        elif message.get("method") == "window/showMessage":
-            self.shown_messages.append(message["params"]["message"])
-        return message
-
-    def uri(self, name: str) -> str:
-        return (self.folder / name).as_uri()
-
-    def open(self, name: str) -> None:
-        text = (self.folder / name).read_text(encoding="utf-8")
-        document = {"uri": self.uri(name), "languageId": "xabsl", "version": 1, "text": text}
-        self.versions[name] = 1
-        self.notify("textDocument/didOpen", {"textDocument": document})
-        self.wait_for_diagnostics()
-
-    def change(self, name: str, text: str) -> None:
-        self.versions[name] += 1
-        document = {"uri": self.uri(name), "version": self.versions[name]}
-        self.notify("textDocument/didChange", {"textDocument": document, "contentChanges": [{"text": text}]})
-        self.wait_for_diagnostics()
-
-    def wait_for_diagnostics(self) -> None:
-        """Wait until the server has processed all previous notifications."""
-        self.request("textDocument/documentSymbol", {"textDocument": {"uri": self.uri("agents.xabsl")}})
-
-    def at(self, name: str, text: str, word: str, *, end: bool = False) -> dict[str, Any]:
-        """Parameters with the position of the first occurrence of a word in a text."""
-        offset = text.index(word) + (len(word) if end else 1)
-        line = text.count("\n", 0, offset)
-        character = offset - (text.rfind("\n", 0, offset) + 1)
-        return {"textDocument": {"uri": self.uri(name)}, "position": {"line": line, "character": character}}
-
-    def complete(self, name: str, text: str, after: str) -> list[str]:
-        """Change the file to a text and return the completions after the first occurrence of a word."""
-        self.change(name, text)
-        return [item["label"] for item in self.request("textDocument/completion", self.at(name, text, after, end=True))]
-
-
-@pytest.fixture(scope="module")
-def client() -> Iterator[LspClient]:
-    """One server for all tests, since a process takes longer to start than a test to run."""
-    client = LspClient()
-    yield client
-    client.request("shutdown", {})
-    client.notify("exit", {})
-    assert client.process.stdin
-    client.process.stdin.close()
-    client.process.wait(20)
-    assert client.process.stdout
-    client.process.stdout.close()
-
-
-@pytest.fixture
-def editor(client: LspClient, tmp_path: Path) -> Iterator[LspClient]:
-    (tmp_path / "options").mkdir()
-    for name, text in FILES.items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    client.start_session(tmp_path)
-    yield client
-    client.close_documents()
-
-
-def locations(results: list[dict[str, Any]]) -> list[tuple[str, int]]:
-    return [(result["uri"].rsplit("/", 1)[1], result["range"]["start"]["line"] + 1) for result in results]
 
 
 def test_hover_definition_references_outline_and_rename(editor: LspClient) -> None:
@@ -207,8 +38,7 @@ def test_hover_definition_references_outline_and_rename(editor: LspClient) -> No
     edit = editor.request("textDocument/rename", rename)["changes"]
     assert [change["newText"] for change in edit[editor.uri("options/play.xabsl")]] == ["foot.side.right"]
     params = {**editor.at("symbols.xabsl", FILES["symbols.xabsl"], "speed"), "newName": "foot"}
-    assert editor.request("textDocument/rename", params) is None
-    assert editor.shown_messages == ["there is already a decimal output foot"]
+    assert editor.request("textDocument/rename", params, refused=True) == "there is already a decimal output foot"
 
 
 def test_diagnostics_of_all_files_follow_each_change(editor: LspClient) -> None:
@@ -246,16 +76,111 @@ def test_completions_depend_on_the_context(editor: LspClient) -> None:
     )
 
 
-def test_formatting(editor: LspClient) -> None:
-    editor.open("options/kick.xabsl")
-    unformatted = "option kick { float @power; initial state only { action { speed = @power; } } }"
-    editor.change("options/kick.xabsl", unformatted)
-    params = {
-        "textDocument": {"uri": editor.uri("options/kick.xabsl")},
-        "options": {"tabSize": 2, "insertSpaces": True},
+def test_a_completion_replaces_the_whole_dotted_name(editor: LspClient) -> None:
+    name, play = "options/play.xabsl", FILES["options/play.xabsl"]
+    editor.open(name)
+    for written in ("ball.", "ball.di", "bal"):
+        text = play.replace("ball.distance < 300", f"{written} < 300")
+        editor.change(name, text)
+        items = editor.request("textDocument/completion", editor.at(name, text, f"({written}", end=True))
+        (item,) = [item for item in items if item["label"] == "ball.distance"]
+        assert item["textEdit"]["newText"] == "ball.distance"
+        assert "filterText" not in item
+        assert item["textEdit"]["range"] == {
+            "start": {"line": 3, "character": 10},
+            "end": {"line": 3, "character": 10 + len(written)},
+        }
+    text = play.replace("speed = angle", "an").replace("foot = side", "// foot = side")
+    editor.change(name, text)
+    items = editor.request("textDocument/completion", editor.at(name, text, "// foot", end=True))
+    assert items == []
+    text = play.replace("speed = angle(x = 1, y = ball.distance);", "speed = an")
+    editor.change(name, text)
+    items = editor.request("textDocument/completion", editor.at(name, text, "speed = an", end=True))
+    (item,) = [item for item in items if item["label"] == "angle"]
+    assert (item["insertTextFormat"], item["textEdit"]["newText"]) == (2, "angle(x = ${1}, y = ${2})")
+
+
+def test_highlights_tell_reading_from_writing(editor: LspClient) -> None:
+    name, kick = "options/kick.xabsl", FILES["options/kick.xabsl"]
+    editor.open(name)
+    result = editor.request("textDocument/documentHighlight", editor.at(name, kick, "@power"))
+    assert [(each["range"]["start"]["line"], each["kind"]) for each in result] == [(1, 3), (4, 2)]
+    result = editor.request("textDocument/documentHighlight", editor.at(name, kick, "speed"))
+    assert [(each["range"]["start"]["line"], each["kind"]) for each in result] == [(4, 3)]
+
+
+def test_search_folding_and_definitions_of_includes(editor: LspClient) -> None:
+    editor.open("agents.xabsl")
+    symbols = editor.request("workspace/symbol", {"query": "bdist"})
+    assert [(each["name"], each["location"]["range"]["start"]["line"]) for each in symbols] == [("ball.distance", 3)]
+    (state, *_rest) = editor.request("workspace/symbol", {"query": "wait"})
+    assert (state["name"], state["containerName"]) == ("wait", "play")
+
+    editor.open("options/play.xabsl")
+    params = {"textDocument": {"uri": editor.uri("options/play.xabsl")}}
+    folds = editor.request("textDocument/foldingRange", params)
+    assert {(fold["startLine"], fold["endLine"]) for fold in folds} == {
+        *((0, 17), (1, 10), (2, 6), (8, 9), (12, 16), (13, 15))
     }
-    (edit,) = editor.request("textDocument/formatting", params)
-    assert edit["newText"].split("\n")[1] == "  float @power;"
+    folds = editor.request("textDocument/foldingRange", {"textDocument": {"uri": editor.uri("agents.xabsl")}})
+    assert folds == [{"startLine": 0, "endLine": 2, "kind": "imports"}]
+
+    result = editor.request("textDocument/definition", editor.at("agents.xabsl", FILES["agents.xabsl"], "options/kick"))
+    assert locations([result]) == [("kick.xabsl", 1)]
+
+
+def test_calls_of_options(editor: LspClient) -> None:
+    name, play, kick = "options/play.xabsl", FILES["options/play.xabsl"], FILES["options/kick.xabsl"]
+    editor.open(name)
+    (item,) = editor.request("textDocument/prepareCallHierarchy", editor.at(name, play, "kick(power"))
+    assert (item["name"], item["uri"]) == ("kick", editor.uri("options/kick.xabsl"))
+    (call,) = editor.request("callHierarchy/incomingCalls", {"item": item})
+    assert (call["from"]["name"], call["fromRanges"][0]["start"]["line"]) == ("play", 14)
+    (item,) = editor.request("textDocument/prepareCallHierarchy", editor.at(name, play, "play"))
+    (call,) = editor.request("callHierarchy/outgoingCalls", {"item": item})
+    assert call["to"]["name"] == "kick"
+    (call,) = editor.request("callHierarchy/incomingCalls", {"item": item})
+    assert call["from"]["name"] == "player"
+    assert editor.request("textDocument/prepareCallHierarchy", editor.at("options/kick.xabsl", kick, "only")) is None
+
+
+def test_signature_help_follows_the_arguments(editor: LspClient) -> None:
+    name, play = "options/play.xabsl", FILES["options/play.xabsl"]
+    editor.open(name)
+    for after, active in (("angle(", 0), ("angle(x = 1", 0), ("angle(x = 1,", 1), ("y = ball", 1)):
+        result = editor.request("textDocument/signatureHelp", editor.at(name, play, after, end=True))
+        assert (result["signatures"][0]["label"], result["activeParameter"]) == (
+            "float input angle(float x, float y)",
+            active,
+        )
+    assert editor.request("textDocument/signatureHelp", editor.at(name, play, "goto ", end=True)) is None
+
+
+def test_semantic_tokens_name_what_names_refer_to(editor: LspClient) -> None:
+    editor.open("options/kick.xabsl")
+    text = FILES["options/kick.xabsl"].replace("option", "/* 😀\n*/ option", 1)
+    editor.change("options/kick.xabsl", text)
+    legend = LEGEND.token_types
+    params = {"textDocument": {"uri": editor.uri("options/kick.xabsl")}}
+    data = editor.request("textDocument/semanticTokens/full", params)["data"]
+    line, column, found = 0, 0, []
+    lines = text.split("\n")
+    for lines_down, columns, length, kind, _modifiers in zip(*[iter(data)] * 5, strict=True):
+        line, column = line + lines_down, columns + (0 if lines_down else column)
+        units = lines[line].encode("utf-16-le")
+        found.append((units[2 * column : 2 * (column + length)].decode("utf-16-le"), legend[kind]))
+    assert found[:7] == [
+        ("/* 😀", "comment"),
+        ("*/", "comment"),
+        ("option", "keyword"),
+        ("kick", "class"),
+        ("float", "keyword"),
+        ("@power", "parameter"),
+        ("initial", "keyword"),
+    ]
+    assert ("speed", "property") in found
+    assert ("only", "label") in found
 
 
 def test_the_grammar_contains_every_keyword() -> None:

@@ -11,7 +11,7 @@ from vicode.findings.finding import (
     sort_findings,
     worst_severity,
 )
-from vicode.findings.nearest import did_you_mean, nearest_name
+from vicode.findings.nearest import did_you_mean, nearest_name, write_instead
 from vicode.findings.render import render_json, render_text
 
 __all__ = [
@@ -31,4 +31,5 @@ __all__ = [
     "render_text",
     "sort_findings",
     "worst_severity",
+    "write_instead",
 ]

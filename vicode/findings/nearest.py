@@ -5,15 +5,20 @@ from difflib import get_close_matches
 
 
 class Suggestion(str):
-    """The text of a fix that proposes a known name."""
+    """The text of a fix that proposes a name in place of another."""
 
     __slots__ = ("name",)
     name: str
 
-    def __new__(cls, name: str) -> "Suggestion":
-        text = super().__new__(cls, f"did you mean '{name}'?")
+    def __new__(cls, name: str, message: str = "") -> "Suggestion":
+        text = super().__new__(cls, message or f"did you mean '{name}'?")
         text.name = name
         return text
+
+
+def write_instead(name: str) -> Suggestion:
+    """Return a fix that gives the correct spelling of a name."""
+    return Suggestion(name, f"write {name}")
 
 
 def nearest_name(name: str, known: Iterable[str]) -> str | None:

@@ -125,7 +125,7 @@ def _enumeration(cursor: TokenCursor, start: int, doc: str, name: NameNode) -> E
     elements = [cursor.expect_name("for an element")]
     while cursor.accept(","):
         if cursor.kind == "}":
-            cursor.add_finding("X651", "a comma after the last element", "remove it")
+            cursor.add_finding("X651", "a comma after the last element", "remove it", token=cursor.position - 1)
             break
         elements.append(cursor.expect_name("for an element"))
     cursor.expect("}", "after the elements")

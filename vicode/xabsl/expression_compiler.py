@@ -7,7 +7,7 @@ expression. After an error, compilation continues with a placeholder value.
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from vicode.findings import did_you_mean
+from vicode.findings import did_you_mean, write_instead
 from vicode.xabsl import tree
 from vicode.xabsl.engine.program import Term
 from vicode.xabsl.lexer import Tokens
@@ -80,7 +80,7 @@ class ExpressionCompiler:
             self.report.references.append((self.tokens, argument.name.first_token, parameter))
             if name != parameter.name:
                 message = f"parameter names in a call are written without @: {name}"
-                self.add_finding(argument.name.first_token, "X621", message, f"write {parameter.name}")
+                self.add_finding(argument.name.first_token, "X621", message, write_instead(parameter.name))
             check_range(self.report, self.tokens, argument.value, parameter)
             if parameter.name in seen:
                 self.add_finding(
@@ -283,7 +283,7 @@ class ExpressionCompiler:
             self.add_finding(token, "X621", f"unknown symbol {name}", otherwise)
             return
         if name in self.parameters:
-            otherwise = f"write @{name}"
+            otherwise = write_instead(f"@{name}")
         self.add_finding(token, "X621", f"unknown symbol {name}", did_you_mean(name, names, otherwise))
 
 

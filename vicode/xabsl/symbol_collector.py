@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from vicode.findings import Finding, Note, did_you_mean, get_rule
+from vicode.findings import Finding, Note, did_you_mean, get_rule, write_instead
 from vicode.xabsl import tree
 from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.source_loader import ProgramSource
@@ -152,7 +152,9 @@ class _Collector:
             written_name = node.name.text
             if is_option and not written_name.startswith("@"):
                 message = f"parameter {written_name} has no @, so the option cannot refer to it"
-                self.report.add_finding(owner.tokens, node.name.first_token, "X635", message, f"write @{written_name}")
+                self.report.add_finding(
+                    owner.tokens, node.name.first_token, "X635", message, write_instead(f"@{written_name}")
+                )
             name = written_name.removeprefix("@") if is_option else written_name
             full = f"{owner.name}.{name}"
             parameter = Definition("parameter", name, owner.tokens, node.name, node, kind, enum, full)

@@ -1,5 +1,7 @@
 """Completion: proposals depend on the enclosing block and on the expected value."""
 
+import re
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
@@ -7,9 +9,11 @@ from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.server.hover import doc_comment, signature
 from vicode.xabsl.server.open_behavior import OpenBehavior
 from vicode.xabsl.symbol_table import ENUM, Definition, SymbolTable
-from vicode.xabsl.tokens import NAME
+from vicode.xabsl.tokens import DOC, HEADER, NAME, STRING
 
 _BLOCKS = frozenset(("option", "state", "decision", "action", "namespace", "behavior", "enum"))
+_COMPLETE_COMMENT = re.compile(r"//[^\n]*\n|/\*(?s:.*?)\*/")
+_PREFIX = re.compile(r"@?[A-Za-z_][A-Za-z0-9_.]*\Z|@\Z")
 _VALUES = ("true", "false", "state_time", "option_time", "action_done", "conflict")
 _BLOCK_KEYWORDS = {
     "": ("include", "option", "namespace", "agent"),
@@ -54,8 +58,16 @@ class _CompletionContext:
     """The callee of the enclosing parentheses."""
 
 
+def find_prefix(text: str, offset: int) -> str:
+    """The part of a name before a character, with its dots."""
+    match = _PREFIX.search(text, text.rfind("\n", 0, offset) + 1, offset)
+    return match[0] if match else ""
+
+
 def complete_at(behavior: OpenBehavior, tokens: Tokens, offset: int) -> list[CompletionProposal]:
     """Completions at a character; the word that ends there is the prefix."""
+    if _is_in_comment_or_string(tokens, offset):
+        return []
     context, table = _context_at(tokens, offset), behavior.compiled.table
     last = context.kinds[-1] if context.kinds else ""
     block = context.blocks[-1] if context.blocks else ""
@@ -73,9 +85,22 @@ def complete_at(behavior: OpenBehavior, tokens: Tokens, offset: int) -> list[Com
     return [_keyword_proposal(keyword) for keyword in _BLOCK_KEYWORDS.get(block, ())]
 
 
+def _is_in_comment_or_string(tokens: Tokens, offset: int) -> bool:
+    last = bisect_left(tokens.starts, offset) - 1
+    if last < 0:
+        between = tokens.text[:offset]
+    else:
+        end = tokens.starts[last] + len(tokens.texts[last])
+        if tokens.kinds[last] in (STRING, DOC, HEADER) and offset < end:
+            return True
+        between = tokens.text[end:offset]
+    rest = _COMPLETE_COMMENT.sub("", between)
+    return "//" in rest or "/*" in rest
+
+
 def _argument_proposals(table: SymbolTable, context: _CompletionContext) -> Iterator[CompletionProposal]:
     """Proposals inside parentheses: parameters of the callee, or values for a parameter or a condition."""
-    owner = _find_callee(table, context.call)
+    owner = find_callee(table, context.call)
     if context.kinds[-1] in ("(", ",") and owner is not None:
         for parameter in owner.parameters.values():
             proposal = _definition_proposal(parameter)
@@ -88,7 +113,7 @@ def _argument_proposals(table: SymbolTable, context: _CompletionContext) -> Iter
         yield from _value_proposals(table, context)
 
 
-def _find_callee(table: SymbolTable, name: str) -> Definition | None:
+def find_callee(table: SymbolTable, name: str) -> Definition | None:
     callees = [
         *table.callable.get(name, ()),
         *(definition for definition in table.readable.get(name, ()) if definition.role == "input"),
@@ -135,7 +160,7 @@ def _expected_elements(table: SymbolTable, context: _CompletionContext) -> Itera
     if len(context.texts) < 2 or context.kinds[-1] not in ("=", "==", "!="):
         return ()
     name = context.texts[-2]
-    owner, option = _find_callee(table, context.call), table.options.get(context.option)
+    owner, option = find_callee(table, context.call), table.options.get(context.option)
     candidates = [*table.readable.get(name, ())]
     if context.kinds[-1] == "=" and owner is not None:
         candidates = [owner.parameters[name]] if name in owner.parameters else []
@@ -169,7 +194,7 @@ def _context_at(tokens: Tokens, offset: int) -> _CompletionContext:
         elif kind == "}" and stack:
             stack.pop()
         elif kind == "(":
-            calls.append(_callee_name(tokens, number))
+            calls.append(callee_name(tokens, number))
         elif kind == ")" and calls:
             calls.pop()
         elif kind == ";":
@@ -180,7 +205,7 @@ def _context_at(tokens: Tokens, offset: int) -> _CompletionContext:
     return context
 
 
-def _callee_name(tokens: Tokens, number: int) -> str:
+def callee_name(tokens: Tokens, number: int) -> str:
     """The name before an opening parenthesis: a callee, `agent` or `if`."""
     if number >= 2 and tokens.kinds[number - 2] == "agent":
         return "agent"

@@ -53,7 +53,7 @@ class OpenBehavior:
         self._references = {}
         for tokens, token, definition in self.compiled.references:
             self._references.setdefault(id(tokens), []).append((token, definition))
-        for definition in self._definitions():
+        for definition, _owner in self.definitions():
             self._references.setdefault(id(definition.tokens), []).append(
                 (definition.name_node.first_token, definition)
             )
@@ -71,6 +71,30 @@ class OpenBehavior:
         index = bisect_right(references, number, key=lambda reference: reference[0]) - 1
         return references[index][1] if index >= 0 and references[index][0] == number else None
 
+    def references_in(self, tokens: Tokens) -> list[tuple[int, Definition]]:
+        """The names in a file, declared or used: number of the token and definition, in order."""
+        return self._references.get(id(tokens), [])
+
+    def path_of(self, tokens: Tokens) -> Path:
+        return next(path for path, parsed in self.source.files.items() if parsed.tokens is tokens)
+
+    def include_at(self, path: Path, offset: int) -> Path | None:
+        """The file that the include statement at a character names."""
+        parsed = self.source.files.get(path)
+        number = token_at(parsed.tokens, offset) if parsed else 0
+        for include in parsed.file.includes if parsed else ():
+            if include.first_token <= number <= include.last_token:
+                return (path.parent / include.path.replace("\\", "/")).resolve()
+        return None
+
+    def is_written(self, occurrence: SymbolOccurrence, definition: Definition) -> bool:
+        """Whether a name is declared or assigned there."""
+        if occurrence == self.declaration_occurrence(definition):
+            return True
+        tokens = self.source.files[occurrence.path].tokens
+        number = token_at(tokens, occurrence.start)
+        return tokens.kinds[number + 1] == "=" and tokens.kinds[number - 1] in ("{", ";")
+
     def declaration_occurrence(self, definition: Definition) -> SymbolOccurrence:
         return self._occurrence(definition.tokens, definition.name_node.first_token)
 
@@ -84,6 +108,25 @@ class OpenBehavior:
             if referenced is definition
         ]
 
+    def renamed_occurrence(self, path: Path, offset: int) -> SymbolOccurrence:
+        """The name at a character that can be renamed.
+
+        Raises:
+            RenameError: There is no name, or no known declaration.
+        """
+        parsed = self.source.files.get(path)
+        if parsed is None:
+            raise RenameError("no behavior includes this file")
+        number = token_at(parsed.tokens, offset)
+        occurrence = self._occurrence(parsed.tokens, number)
+        if self.definition_at(path, offset) is not None:
+            return occurrence
+        if occurrence.text in KEYWORDS:
+            raise RenameError(f"'{occurrence.text}' is a keyword")
+        if not _NAME.fullmatch(occurrence.text.removeprefix("@")) or not occurrence.start <= offset <= occurrence.end:
+            raise RenameError("there is no name at the cursor")
+        raise RenameError(f"{occurrence.text} is not declared in this behavior")
+
     def rename_edits(self, definition: Definition, name: str) -> list[SymbolOccurrence]:
         """The text changes that rename a definition.
 
@@ -93,7 +136,7 @@ class OpenBehavior:
         name = name.removeprefix("@")
         if not _NAME.fullmatch(name) or name in KEYWORDS:
             raise RenameError(f"{name} is not a valid name")
-        if any(other.name == name and _share_scope(other, definition) for other in self._definitions()):
+        if any(other.name == name and _share_scope(other, definition) for other, _owner in self.definitions()):
             raise RenameError(f"there is already a {definition.description} {name}")
         edits = []
         for occurrence in self.occurrences(definition):
@@ -116,18 +159,19 @@ class OpenBehavior:
                     occurrence.path, occurrence.start, occurrence.end, name + text.removeprefix(enum)
                 )
 
-    def _definitions(self) -> Iterator[Definition]:
+    def definitions(self) -> Iterator[tuple[Definition, Definition | None]]:
+        """All definitions, each with the one that contains it, such as the option of a state."""
         table = self.compiled.table
         groups = (table.enums, table.options, table.behaviors, table.agents)
         for definition in (*(definition for group in groups for definition in group.values()), *table.symbols(*_ROLES)):
-            yield definition
+            yield definition, None
             for inner in (definition.parameters, definition.elements, definition.states):
-                yield from inner.values()
+                for each in inner.values():
+                    yield each, definition
 
     def _occurrence(self, tokens: Tokens, token: int) -> SymbolOccurrence:
-        path = next(path for path, parsed in self.source.files.items() if parsed.tokens is tokens)
         start = tokens.starts[token]
-        return SymbolOccurrence(path, start, start + len(tokens.texts[token]), tokens.texts[token])
+        return SymbolOccurrence(self.path_of(tokens), start, start + len(tokens.texts[token]), tokens.texts[token])
 
     def _read(self, path: Path) -> str:
         text = self.open_texts.get(path)

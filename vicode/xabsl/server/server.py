@@ -1,27 +1,29 @@
-"""The language server: converts between the Language Server Protocol and `OpenBehavior`."""
+"""The language server: answers the requests of the Language Server Protocol about XABSL files."""
 
-from collections.abc import Sequence
-from importlib.metadata import version
-from pathlib import Path
+import difflib
+from collections.abc import Callable
+from typing import TypeVar
 
 from lsprotocol import types as lsp
-from pygls import uris
-from pygls.lsp.server import LanguageServer
+from pygls.exceptions import JsonRpcException
 
-from vicode.findings import Finding, Severity
-from vicode.xabsl import tree
-from vicode.xabsl.lexer import Tokens
+from vicode.findings import Severity
+from vicode.xabsl.parser import ParsedFile
 from vicode.xabsl.printer import print_file
-from vicode.xabsl.server.completion import CompletionProposal, complete_at
+from vicode.xabsl.server import call_hierarchy
+from vicode.xabsl.server.code_actions import code_actions
+from vicode.xabsl.server.completion import CompletionProposal, complete_at, find_prefix
+from vicode.xabsl.server.folding import folding_ranges
 from vicode.xabsl.server.hover import hover_text
-from vicode.xabsl.server.open_behavior import OpenBehavior, RenameError, SymbolOccurrence, find_main_file
+from vicode.xabsl.server.language_server import XabslLanguageServer
+from vicode.xabsl.server.open_behavior import OpenBehavior, RenameError, SymbolOccurrence
+from vicode.xabsl.server.outline import document_symbols, workspace_symbols
+from vicode.xabsl.server.positions import path_of, range_at, uri_of
+from vicode.xabsl.server.semantic_tokens import LEGEND, semantic_tokens
+from vicode.xabsl.server.signature_help import signature_help
 from vicode.xabsl.symbol_table import Definition
 
-_SEVERITIES = {
-    Severity.ERROR: lsp.DiagnosticSeverity.Error,
-    Severity.WARNING: lsp.DiagnosticSeverity.Warning,
-    Severity.NOTE: lsp.DiagnosticSeverity.Information,
-}
+_Result = TypeVar("_Result")
 _COMPLETION_KINDS = {
     "option": lsp.CompletionItemKind.Module,
     "behavior": lsp.CompletionItemKind.Function,
@@ -35,121 +37,83 @@ _COMPLETION_KINDS = {
     "state": lsp.CompletionItemKind.Class,
     "word": lsp.CompletionItemKind.Keyword,
 }
-_SYMBOL_KINDS = {
-    tree.ConstantNode: lsp.SymbolKind.Constant,
-    tree.EnumerationNode: lsp.SymbolKind.Enum,
-    tree.SymbolNode: lsp.SymbolKind.Variable,
-    tree.BehaviorNode: lsp.SymbolKind.Function,
-}
-
-
-class XabslLanguageServer(LanguageServer):
-    """Serves the behaviors of the open files."""
-
-    def __init__(self) -> None:
-        super().__init__("vicode-xabsl", version("vicode"), lsp.TextDocumentSyncKind.Full)
-        self.behaviors: dict[Path, OpenBehavior] = {}
-        self._main_files: dict[Path, Path] = {}
-        self._published: dict[Path, set[Path]] = {}
-
-    def find_behavior(self, path: Path) -> OpenBehavior:
-        """The behavior that includes a file, as last compiled."""
-        main = self._main_files.get(path)
-        if main is None:
-            main = self._main_files[path] = find_main_file(path)
-        if main not in self.behaviors:
-            self.behaviors[main] = OpenBehavior(main, self._texts())
-        return self.behaviors[main]
-
-    def on_change(self, path: Path) -> None:
-        """Compile the behavior of a file again and publish the findings of all its files."""
-        behavior = self.find_behavior(path)
-        if path not in behavior.source.files and self._main_files[path] != path:
-            # The file is no longer included, or another behavior includes it.
-            del self._main_files[path]
-            behavior = self.find_behavior(path)
-        behavior.open_texts = self._texts()
-        self.publish_findings(behavior)
-
-    def publish_findings(self, behavior: OpenBehavior) -> None:
-        """Publish the findings of a behavior, and clear those of files that have none any more."""
-        findings = behavior.refresh().findings
-        folder = behavior.source.main.parent
-        by_path: dict[Path, list[lsp.Diagnostic]] = {path: [] for path in self._published.get(behavior.main, ())}
-        is_alone = not _has_agents(behavior)
-        for finding in findings:
-            if finding.location is None or (is_alone and finding.rule.code in ("X609", "X621", "X644")):
-                # These findings are expected in a file that no behavior includes.
-                continue
-            path = (folder / finding.location.file).resolve()
-            by_path.setdefault(path, []).append(_diagnostic(finding, folder, self._text(behavior, path)))
-        for path, diagnostics in by_path.items():
-            self.text_document_publish_diagnostics(
-                lsp.PublishDiagnosticsParams(uri=_uri(path), diagnostics=diagnostics)
-            )
-        self._published[behavior.main] = {path for path, diagnostics in by_path.items() if diagnostics}
-
-    def resolve_position(self, uri: str, position: lsp.Position) -> tuple[OpenBehavior, Path, int]:
-        """Resolve a position to the behavior, the file and the offset of the character."""
-        path = _path(uri)
-        behavior = self.find_behavior(path)
-        text = self._text(behavior, path)
-        return behavior, path, _offset(text, position)
-
-    def location(self, behavior: OpenBehavior, occurrence: SymbolOccurrence) -> lsp.Location:
-        text = self._text(behavior, occurrence.path)
-        return lsp.Location(uri=_uri(occurrence.path), range=_range(text, occurrence.start, occurrence.end))
-
-    def workspace_edit(self, behavior: OpenBehavior, occurrences: Sequence[SymbolOccurrence]) -> lsp.WorkspaceEdit:
-        changes: dict[str, list[lsp.TextEdit]] = {}
-        for occurrence in occurrences:
-            text = self._text(behavior, occurrence.path)
-            edit = lsp.TextEdit(range=_range(text, occurrence.start, occurrence.end), new_text=occurrence.text)
-            changes.setdefault(_uri(occurrence.path), []).append(edit)
-        return lsp.WorkspaceEdit(changes=changes)
-
-    def _text(self, behavior: OpenBehavior, path: Path) -> str:
-        parsed = behavior.source.files.get(path)
-        return parsed.tokens.text if parsed else self._texts().get(path, "")
-
-    def _texts(self) -> dict[Path, str]:
-        return {_path(uri): document.source for uri, document in self.workspace.text_documents.items()}
 
 
 def create_server() -> XabslLanguageServer:
     server = XabslLanguageServer()
-    _register_document_sync(server)
-    _register_queries(server)
-    _register_edits(server)
+    for register in (_register_document_sync, _register_completion, _register_queries, _register_outlines):
+        register(server)
+    for register in (_register_call_hierarchy, _register_rename, _register_edits):
+        register(server)
     return server
 
 
 def _register_document_sync(server: XabslLanguageServer) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: lsp.DidOpenTextDocumentParams) -> None:
-        server.on_change(_path(params.text_document.uri))
+        server.on_change(path_of(params.text_document.uri))
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
     def changed(params: lsp.DidChangeTextDocumentParams) -> None:
-        server.on_change(_path(params.text_document.uri))
+        server.on_change(path_of(params.text_document.uri))
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
     def saved(params: lsp.DidSaveTextDocumentParams) -> None:
-        server.on_change(_path(params.text_document.uri))
+        server.on_change(path_of(params.text_document.uri))
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
     def closed(params: lsp.DidCloseTextDocumentParams) -> None:
-        server.on_change(_path(params.text_document.uri))
+        server.on_change(path_of(params.text_document.uri))
 
 
-def _register_queries(server: XabslLanguageServer) -> None:
+def _register_completion(server: XabslLanguageServer) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=[".", "@", "("]))
     def complete(params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
         behavior, path, offset = server.resolve_position(params.text_document.uri, params.position)
         parsed = behavior.source.files.get(path)
-        proposals = complete_at(behavior, parsed.tokens, offset) if parsed else []
-        return [_completion_item(proposal, number) for number, proposal in enumerate(proposals)]
+        if parsed is None:
+            return []
+        proposals = complete_at(behavior, parsed.tokens, offset)
+        start = offset - len(find_prefix(parsed.tokens.text, offset))
+        replaced = range_at(parsed.tokens.text, start, offset)
+        takes_snippets = _takes_snippets(server)
+        return [
+            _completion_item(proposal, number, replaced, takes_snippets=takes_snippets)
+            for number, proposal in enumerate(proposals)
+        ]
 
+    @server.feature(lsp.TEXT_DOCUMENT_SIGNATURE_HELP, lsp.SignatureHelpOptions(trigger_characters=["(", ",", "="]))
+    def help_with_signature(params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
+        behavior, path, offset = server.resolve_position(params.text_document.uri, params.position)
+        parsed = behavior.source.files.get(path)
+        return signature_help(behavior, parsed.tokens, offset) if parsed else None
+
+
+def _takes_snippets(server: XabslLanguageServer) -> bool:
+    document = server.client_capabilities.text_document
+    item = document.completion.completion_item if document and document.completion else None
+    return bool(item and item.snippet_support)
+
+
+def _completion_item(
+    proposal: CompletionProposal, number: int, replaced: lsp.Range, *, takes_snippets: bool
+) -> lsp.CompletionItem:
+    is_snippet = takes_snippets and bool(proposal.snippet)
+    return lsp.CompletionItem(
+        label=proposal.name,
+        kind=_COMPLETION_KINDS.get(proposal.kind),
+        detail=proposal.detail or None,
+        documentation=proposal.doc or None,
+        # Editors have their own idea of a word, which may end at a dot: the range says what is replaced.
+        # The text to filter by is the label. Neovim before 0.10 ignores the range of items that repeat it.
+        text_edit=lsp.TextEdit(range=replaced, new_text=proposal.snippet if is_snippet else proposal.name),
+        insert_text_format=lsp.InsertTextFormat.Snippet if is_snippet else lsp.InsertTextFormat.PlainText,
+        # Keeps the order of relevance.
+        sort_text=f"{number:05}",
+    )
+
+
+def _register_queries(server: XabslLanguageServer) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_HOVER)
     def hover(params: lsp.HoverParams) -> lsp.Hover | None:
         definition = _definition_at(server, params.text_document.uri, params.position)[1]
@@ -159,7 +123,11 @@ def _register_queries(server: XabslLanguageServer) -> None:
 
     @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
     def definition(params: lsp.DefinitionParams) -> lsp.Location | None:
-        behavior, target = _definition_at(server, params.text_document.uri, params.position)
+        behavior, path, offset = server.resolve_position(params.text_document.uri, params.position)
+        included = behavior.include_at(path, offset)
+        if included is not None:
+            return lsp.Location(uri=uri_of(included), range=range_at("", 0, 0))
+        target = behavior.definition_at(path, offset)
         return server.location(behavior, behavior.declaration_occurrence(target)) if target else None
 
     @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
@@ -176,38 +144,144 @@ def _register_queries(server: XabslLanguageServer) -> None:
         )
         return [server.location(behavior, occurrence) for occurrence in occurrences]
 
+    @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
+    def highlight(params: lsp.DocumentHighlightParams) -> list[lsp.DocumentHighlight]:
+        path = path_of(params.text_document.uri)
+        behavior, target = _definition_at(server, params.text_document.uri, params.position)
+        if target is None:
+            return []
+        return [
+            lsp.DocumentHighlight(
+                range=server.location(behavior, occurrence).range,
+                kind=lsp.DocumentHighlightKind.Write
+                if behavior.is_written(occurrence, target)
+                else lsp.DocumentHighlightKind.Read,
+            )
+            for occurrence in behavior.occurrences(target)
+            if occurrence.path == path
+        ]
+
+
+def _register_outlines(server: XabslLanguageServer) -> None:
+    @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+    def outline(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
+        parsed = _parsed_file(server, params.text_document.uri)
+        return document_symbols(parsed.tokens, parsed.file) if parsed else []
+
+    @server.feature(lsp.WORKSPACE_SYMBOL)
+    def search(params: lsp.WorkspaceSymbolParams) -> list[lsp.WorkspaceSymbol]:
+        return workspace_symbols(server.known_behaviors(), params.query)
+
+    @server.feature(lsp.TEXT_DOCUMENT_FOLDING_RANGE)
+    def fold(params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
+        parsed = _parsed_file(server, params.text_document.uri)
+        return folding_ranges(parsed) if parsed else []
+
+    @server.feature(lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, LEGEND)
+    def classify(params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:
+        parsed = _parsed_file(server, params.text_document.uri)
+        behavior = server.find_behavior(path_of(params.text_document.uri))
+        return lsp.SemanticTokens(data=semantic_tokens(behavior, parsed.tokens) if parsed else [])
+
+
+def _register_call_hierarchy(server: XabslLanguageServer) -> None:
+    def called_at(item: lsp.CallHierarchyItem) -> tuple[OpenBehavior, Definition | None]:
+        return _definition_at(server, item.uri, item.selection_range.start)
+
+    @server.feature(lsp.TEXT_DOCUMENT_PREPARE_CALL_HIERARCHY)
+    def prepare(params: lsp.CallHierarchyPrepareParams) -> list[lsp.CallHierarchyItem] | None:
+        behavior, target = _definition_at(server, params.text_document.uri, params.position)
+        item = call_hierarchy.call_item(behavior, target) if target else None
+        return [item] if item else None
+
+    @server.feature(lsp.CALL_HIERARCHY_INCOMING_CALLS)
+    def incoming(params: lsp.CallHierarchyIncomingCallsParams) -> list[lsp.CallHierarchyIncomingCall]:
+        behavior, target = called_at(params.item)
+        return call_hierarchy.incoming_calls(behavior, target) if target else []
+
+    @server.feature(lsp.CALL_HIERARCHY_OUTGOING_CALLS)
+    def outgoing(params: lsp.CallHierarchyOutgoingCallsParams) -> list[lsp.CallHierarchyOutgoingCall]:
+        behavior, target = called_at(params.item)
+        return call_hierarchy.outgoing_calls(behavior, target) if target else []
+
+
+def _register_rename(server: XabslLanguageServer) -> None:
+    @server.feature(lsp.TEXT_DOCUMENT_PREPARE_RENAME)
+    def prepare(params: lsp.PrepareRenameParams) -> lsp.PrepareRenamePlaceholder:
+        behavior, path, offset = server.resolve_position(params.text_document.uri, params.position)
+        occurrence = _answer(lambda: behavior.renamed_occurrence(path, offset))
+        return lsp.PrepareRenamePlaceholder(
+            range=server.location(behavior, occurrence).range, placeholder=occurrence.text
+        )
+
+    @server.feature(lsp.TEXT_DOCUMENT_RENAME, lsp.RenameOptions(prepare_provider=True))
+    def rename(params: lsp.RenameParams) -> lsp.WorkspaceEdit:
+        behavior, path, offset = server.resolve_position(params.text_document.uri, params.position)
+
+        def edits() -> list[SymbolOccurrence]:
+            behavior.renamed_occurrence(path, offset)
+            definition = behavior.definition_at(path, offset)
+            assert definition
+            return behavior.rename_edits(definition, params.new_name)
+
+        return server.workspace_edit(behavior, _answer(edits))
+
+
+def _answer(compute: Callable[[], _Result]) -> _Result:
+    """Compute an answer; the refusal to rename becomes an error that editors show."""
+    try:
+        return compute()
+    except RenameError as error:
+        raise JsonRpcException(str(error), code=lsp.LSPErrorCodes.RequestFailed.value) from None
+
 
 def _register_edits(server: XabslLanguageServer) -> None:
-    @server.feature(lsp.TEXT_DOCUMENT_RENAME)
-    def rename(params: lsp.RenameParams) -> lsp.WorkspaceEdit | None:
-        behavior, definition = _definition_at(server, params.text_document.uri, params.position)
-        if definition is None:
-            return None
-        try:
-            return server.workspace_edit(behavior, behavior.rename_edits(definition, params.new_name))
-        except RenameError as error:
-            server.window_show_message(lsp.ShowMessageParams(type=lsp.MessageType.Error, message=str(error)))
-            return None
-
-    @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
-    def document_symbols(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
-        path = _path(params.text_document.uri)
-        parsed = server.find_behavior(path).source.files.get(path)
-        return [_outline(parsed.tokens, item) for item in parsed.file.body] if parsed else []
+    @server.feature(
+        lsp.TEXT_DOCUMENT_CODE_ACTION, lsp.CodeActionOptions(code_action_kinds=[lsp.CodeActionKind.QuickFix])
+    )
+    def offer_fixes(params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
+        path = path_of(params.text_document.uri)
+        behavior = server.find_behavior(path)
+        only = params.context.only
+        if only and not any(lsp.CodeActionKind.QuickFix.startswith(kind) for kind in only):
+            return []
+        return code_actions(behavior, path, params)
 
     @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
     def format_document(params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit] | None:
-        path = _path(params.text_document.uri)
-        parsed = server.find_behavior(path).source.files.get(path)
-        if parsed is None or any(finding.severity is Severity.ERROR for finding in parsed.findings):
+        parsed = _parsed_file(server, params.text_document.uri)
+        if parsed is None or not _is_well_formed(parsed):
             return None
         text = parsed.tokens.text
-        return [lsp.TextEdit(range=_range(text, 0, len(text)), new_text=print_file(parsed.file))]
+        return [lsp.TextEdit(range=range_at(text, 0, len(text)), new_text=print_file(parsed.file))]
+
+    @server.feature(lsp.TEXT_DOCUMENT_RANGE_FORMATTING)
+    def format_lines(params: lsp.DocumentRangeFormattingParams) -> list[lsp.TextEdit] | None:
+        parsed = _parsed_file(server, params.text_document.uri)
+        return _format_range(parsed, params.range) if parsed and _is_well_formed(parsed) else None
 
 
-def _has_agents(behavior: OpenBehavior) -> bool:
-    files = behavior.source.files.values()
-    return any(isinstance(item, tree.AgentNode) for parsed in files for item in parsed.file.body)
+def _format_range(parsed: ParsedFile, selected: lsp.Range) -> list[lsp.TextEdit]:
+    """Format a file and keep only the changes of lines that touch a range."""
+    before, after = parsed.tokens.text.splitlines(keepends=True), print_file(parsed.file).splitlines(keepends=True)
+    last_line = selected.end.line - (selected.end.character == 0 and selected.end.line > selected.start.line)
+    edits = []
+    for tag, first, last, new_first, new_last in difflib.SequenceMatcher(
+        None, before, after, autojunk=False
+    ).get_opcodes():
+        if tag != "equal" and first <= last_line and max(last - 1, first) >= selected.start.line:
+            changed = lsp.Range(lsp.Position(first, 0), lsp.Position(last, 0))
+            edits.append(lsp.TextEdit(range=changed, new_text="".join(after[new_first:new_last])))
+    return edits
+
+
+def _is_well_formed(parsed: ParsedFile) -> bool:
+    return not any(finding.severity is Severity.ERROR for finding in parsed.findings)
+
+
+def _parsed_file(server: XabslLanguageServer, uri: str) -> ParsedFile | None:
+    path = path_of(uri)
+    return server.find_behavior(path).source.files.get(path)
 
 
 def _definition_at(
@@ -215,108 +289,3 @@ def _definition_at(
 ) -> tuple[OpenBehavior, Definition | None]:
     behavior, path, offset = server.resolve_position(uri, position)
     return behavior, behavior.definition_at(path, offset)
-
-
-def _outline(tokens: Tokens, item: tree.OptionNode | tree.NamespaceNode | tree.AgentNode) -> lsp.DocumentSymbol:
-    match item:
-        case tree.OptionNode():
-            inner = [_document_symbol(tokens, state, state.name, lsp.SymbolKind.Class) for state in item.states]
-            kind = lsp.SymbolKind.Module
-        case tree.NamespaceNode():
-            inner = [
-                _document_symbol(tokens, declaration, declaration.name, _SYMBOL_KINDS[type(declaration)])
-                for declaration in item.declarations
-            ]
-            kind = lsp.SymbolKind.Namespace
-        case tree.AgentNode():
-            inner, kind = [], lsp.SymbolKind.Object
-    outer = _document_symbol(tokens, item, item.name, kind)
-    outer.children = inner
-    return outer
-
-
-def _document_symbol(
-    tokens: Tokens, node: tree.SyntaxNode, name: tree.NameNode, kind: lsp.SymbolKind
-) -> lsp.DocumentSymbol:
-    text, last = tokens.text, min(max(node.last_token, name.first_token), len(tokens.starts) - 1)
-    end = tokens.starts[last] + len(tokens.texts[last])
-    selection = _range(text, tokens.starts[name.first_token], tokens.starts[name.first_token] + len(name.text))
-    return lsp.DocumentSymbol(
-        name=name.text, kind=kind, range=_range(text, tokens.starts[node.first_token], end), selection_range=selection
-    )
-
-
-def _completion_item(proposal: CompletionProposal, number: int) -> lsp.CompletionItem:
-    snippet = lsp.InsertTextFormat.Snippet if proposal.snippet else lsp.InsertTextFormat.PlainText
-    return lsp.CompletionItem(
-        label=proposal.name,
-        kind=_COMPLETION_KINDS.get(proposal.kind),
-        detail=proposal.detail or None,
-        documentation=proposal.doc or None,
-        insert_text=proposal.snippet or proposal.name,
-        insert_text_format=snippet,
-        # Keeps the order of relevance.
-        sort_text=f"{number:05}",
-    )
-
-
-def _diagnostic(finding: Finding, folder: Path, text: str) -> lsp.Diagnostic:
-    location = finding.location
-    assert location
-    start = _offset(text, lsp.Position(location.line - 1, 0)) + location.column - 1
-    related = [
-        lsp.DiagnosticRelatedInformation(
-            location=lsp.Location(
-                uri=_uri((folder / note.location.file).resolve()),
-                range=_simple_range(note.location.line, note.location.column, note.location.length),
-            ),
-            message=note.message,
-        )
-        for note in finding.notes
-        if note.location
-    ]
-    return lsp.Diagnostic(
-        range=_range(text, start, start + location.length),
-        message=finding.message + (f"; {finding.fix}" if finding.fix else ""),
-        severity=_SEVERITIES[finding.severity],
-        code=finding.rule.code,
-        source="vicode",
-        related_information=related or None,
-    )
-
-
-def _simple_range(line: int, column: int, length: int) -> lsp.Range:
-    return lsp.Range(lsp.Position(line - 1, column - 1), lsp.Position(line - 1, column - 1 + length))
-
-
-def _offset(text: str, position: lsp.Position) -> int:
-    """The offset of a position, whose column counts UTF-16 code units."""
-    start = 0
-    for _ in range(position.line):
-        line_end = text.find("\n", start)
-        if line_end < 0:
-            return len(text)
-        start = line_end + 1
-    units, offset = 0, start
-    while units < position.character and offset < len(text) and text[offset] != "\n":
-        units += 1 + (ord(text[offset]) > 0xFFFF)
-        offset += 1
-    return offset
-
-
-def _range(text: str, start: int, end: int) -> lsp.Range:
-    return lsp.Range(_position(text, start), _position(text, end))
-
-
-def _position(text: str, offset: int) -> lsp.Position:
-    line = text.count("\n", 0, offset)
-    line_start = text.rfind("\n", 0, offset) + 1
-    return lsp.Position(line, len(text[line_start:offset].encode("utf-16-le")) // 2)
-
-
-def _path(uri: str) -> Path:
-    return Path(uris.to_fs_path(uri) or uri).resolve()
-
-
-def _uri(path: Path) -> str:
-    return uris.from_fs_path(str(path)) or ""
