@@ -140,7 +140,8 @@ def _interface(item: InterfacePlan, frequency: float | None, names: GlobalNames)
     is_world = item.implementation == WORLD
     is_abstract = item.implementation not in ("", "internal", WORLD)
     values = list(item.stored_values)
-    inner = names.inside(member_name(value.name) for value in (*values, *item.outputs, *item.variables))
+    declared = (*values, *item.outputs, *item.variables, *_results(item))
+    inner = names.inside(member_name(value.name) for value in declared)
     printer = ExpressionPrinter(names=inner)
     stored = [] if is_world else [*item.outputs, *item.variables]
     hidden = {value.name for value in stored}
@@ -203,15 +204,20 @@ def world_behavior_name(item: InterfacePlan) -> str:
 
 def _world(interfaces: Iterable[InterfacePlan], names: GlobalNames) -> Iterator[str]:
     """The pure virtual methods of the world; components may share one."""
+    provided = [item for item in interfaces if item.implementation == WORLD]
+    methods = (each for item in provided for each in (*item.outputs, *item.variables, *_results(item)))
+    names = names.inside(map(world_name, methods))
     declared: set[str] = set()
-    for item in interfaces:
-        if item.implementation != WORLD:
-            continue
+    for item in provided:
         for declaration, doc in _world_methods(item, names):
             if declaration not in declared:
                 declared.add(declaration)
                 yield from doc_comment(doc, 4)
                 yield f"    virtual {declaration} = 0;"
+
+
+def _results(item: InterfacePlan) -> tuple[ValuePlan, ...]:
+    return tuple(function.result for function in item.functions)
 
 
 def _world_methods(item: InterfacePlan, names: GlobalNames) -> Iterator[tuple[str, str]]:
