@@ -165,6 +165,19 @@ def test_only_some_errors_are_answered() -> None:
 
 
 @in_event_loop
+def test_in_lock_step_each_error_is_answered_but_only_some_are_shown() -> None:
+    server = make_server()
+    shown: list[tuple[str, str]] = []
+    server.on_event = lambda robot, text: shown.append((robot, text))
+    client = Client(server)
+    client.send(HELLO)
+    client.send(b"junk\n" * 50)
+    assert len(client.answers()) == 51
+    assert 2 <= len(shown) < 40
+    assert shown[-1] == ("r1", "expected a JSON object, found 'junk'")
+
+
+@in_event_loop
 def test_a_slow_reader_gets_the_newest_command_only() -> None:
     server = make_server()
     client = Client(server)

@@ -1,6 +1,8 @@
 """A world: typed values of sensors, their age, events in order, commands on change."""
 
 import math
+import subprocess
+import sys
 from typing import Any
 
 import pytest
@@ -217,3 +219,10 @@ def test_a_derived_value_is_computed_once_per_tick() -> None:
         tick(world)
         assert (world.nearest, world.nearest, world.computed) == (4 + number, 4 + number, number + 1)
     assert Deriving.nearest.__doc__ == "The least distance."
+
+
+def test_worlds_need_the_standard_library_only() -> None:
+    program = "import sys, vicode.bridge; print(*(name for name in sys.modules if name.startswith('vicode.')))"
+    listed = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
+    assert listed
+    assert all(name.startswith("vicode.bridge") for name in listed)

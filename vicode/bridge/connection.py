@@ -216,20 +216,21 @@ class Connection(asyncio.BufferedProtocol):
         self.close()
 
     def complain(self, text: str) -> bool:
-        """Send an error, unless there were many; return whether it was sent."""
+        """Send an error, unless there were many; return whether it is one of the few."""
         now_s = time.monotonic()
         self._error_credit = min(_ERROR_BURST, self._error_credit + (now_s - self._error_s) * _ERRORS_PER_S)
         self._error_s = now_s
+        is_rare = self._error_credit >= 1
         # A client that ticks waits for one answer to each line.
-        may_send = self.pace == "client" or self._error_credit >= 1
-        if self._dialect is None or not may_send or self._transport.get_write_buffer_size() > _MAX_UNSENT_BYTES:
+        is_wanted = is_rare or self.pace == "client"
+        if self._dialect is None or not is_wanted or self._transport.get_write_buffer_size() > _MAX_UNSENT_BYTES:
             self._hidden_errors += 1
             return False
-        self._error_credit -= 1
+        self._error_credit -= is_rare
         hidden = f" (and {self._hidden_errors} other errors)" if self._hidden_errors else ""
         self._hidden_errors = 0
         self.send(self._dialect.encode_error(text + hidden))
-        return True
+        return is_rare
 
     def refuse(self, text: str) -> None:
         """Send an error and close the connection."""
