@@ -14,6 +14,7 @@ from vicode.generators.plan import (
     literal_value,
 )
 from vicode.model.expressions import (
+    BOOL,
     FLOAT,
     INT,
     Binary,
@@ -33,6 +34,7 @@ from vicode.model.expressions import (
     StatusFlag,
     Ternary,
     Variable,
+    walk,
 )
 from vicode.model.project import WORLD
 
@@ -94,6 +96,7 @@ class ExpressionPrinter:
         time_unit: "s" or "ms".
         functions: Outputs with arguments by alias and name.
         inputs: Outputs that the world provides, by alias and name: they are read by a method.
+        enclosing_calls: Functions whose arguments contain the printed expression.
     """
 
     names: GlobalNames
@@ -102,6 +105,7 @@ class ExpressionPrinter:
     uses_xabsl_arithmetic: bool = False
     functions: Mapping[tuple[str, str], FunctionPlan] = field(default_factory=dict)
     inputs: frozenset[tuple[str, str]] = frozenset()
+    enclosing_calls: frozenset[tuple[str, str]] = frozenset()
 
     @classmethod
     def of_component(
@@ -266,9 +270,39 @@ class ExpressionPrinter:
         target = f"{member_name(reference.alias)}.{member_name(reference.output)}"
         if reference.arguments is None:
             return Text(f"{target}()" if key in self.inputs else target)
+        if key in self.enclosing_calls or (self.uses_xabsl_arithmetic and _calls_itself(reference)):
+            return self._nested_call(reference)
         given = dict(reference.arguments)
         values = (given.get(argument.name, argument.initial) for argument in self.functions[key].arguments)
         return Text(f"{target}({', '.join(self.print(value).text for value in values)})")
+
+    def _nested_call(self, reference: OutputRef) -> Text:
+        """XABSL stores the arguments of a function in one place, which a call in an argument overwrites."""
+        key, given = (reference.alias, reference.output), dict(reference.arguments or ())
+        inside = replace(self, enclosing_calls=self.enclosing_calls | {key})
+        declared = self.functions[key].arguments
+        cells = {each.name: f"argument_{index}_{'_'.join(key)}" for index, each in enumerate(declared)}
+        # XABSL stores decimals first, then bools, then elements.
+        ordered = sorted(declared, key=lambda each: (each.type == BOOL) + 2 * (each.type not in (BOOL, INT, FLOAT)))
+        statements = [
+            f"{cells[each.name]} = {inside.print(given.get(each.name, each.initial)).text};" for each in ordered
+        ]
+        if key not in self.enclosing_calls:
+            statements = [
+                *(f"{self.names.type_name(each.type)} {cells[each.name]}{{}};" for each in declared),
+                *statements,
+            ]
+        target = f"{member_name(reference.alias)}.{member_name(reference.output)}({', '.join(cells.values())})"
+        return Text(f"[&] {{ {' '.join(statements)} return {target}; }}()")
+
+
+def _calls_itself(reference: OutputRef) -> bool:
+    """Whether an argument of a call contains a call of the same function."""
+    return any(
+        isinstance(node, OutputRef) and (node.alias, node.output) == (reference.alias, reference.output)
+        for _name, value in reference.arguments or ()
+        for node in walk(value)
+    )
 
 
 def format_number(value: float) -> str:

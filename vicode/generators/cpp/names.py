@@ -91,7 +91,7 @@ _MACRO_FAMILY = re.compile(
     re.ASCII,
 )
 # Functions of generated code, such as do_kick() and when_kick_to_wait(), and its local variables.
-_GENERATED_NAME = re.compile(r"(do|when|in)_\w*|value_\d+", re.ASCII)
+_GENERATED_NAME = re.compile(r"(do|when|in)_\w*|value_\d+|argument_\d+_\w+", re.ASCII)
 
 
 def escape(name: str, taken: Iterable[str] = ()) -> str:
