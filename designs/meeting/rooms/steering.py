@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 
+Point = tuple[float, float]
 Drive = tuple[float, float]
 """Speed in m/s, and turning speed in degrees/s to the left."""
 
@@ -10,8 +11,10 @@ ARRIVED_M = 0.1
 _CLEARANCE_M = 0.34
 _LOOK_AHEAD_M = 1.2
 _STUCK_M = 0.2
+_DETOUR_DEG = 150.0
+"""How far the robot turns away from its way to avoid an obstacle that is right in front of it."""
 _SPEED_M_S, _TURN_DEG_S = 0.4, 60.0
-_CANDIDATES = sorted(range(-90, 91, 10), key=abs)
+_CANDIDATES = range(-90, 91, 10)
 _ANGLES = tuple(math.radians(ray - 90) for ray in range(181))
 
 
@@ -31,10 +34,8 @@ def steer(ranges: Sequence[float], bearing: float, distance: float) -> Drive:
         for near, angle in zip(ranges, _ANGLES, strict=True)
         if near < reach + _CLEARANCE_M
     ]
-    directions = sorted((bearing, *_CANDIDATES), key=lambda each: abs(each - bearing))
-    free = {each: _free_path(obstacles, each, reach) for each in directions}
-    best = min(directions, key=lambda each: abs(each - bearing) + 150 * (1 - free[each] / reach))
-    if free[best] < min(_STUCK_M, reach / 2):
+    best, free = _choose_direction(obstacles, bearing, reach)
+    if free < min(_STUCK_M, reach / 2):
         # Look to the right until there is a way: robots that block each other turn away from each other.
         return 0.0, -_TURN_DEG_S
     turning_speed = max(-_TURN_DEG_S, min(_TURN_DEG_S, 2.5 * best))
@@ -43,7 +44,21 @@ def steer(ranges: Sequence[float], bearing: float, distance: float) -> Drive:
     return speed, turning_speed
 
 
-def _free_path(obstacles: Sequence[tuple[float, float]], direction: float, reach: float) -> float:
+def _choose_direction(obstacles: Sequence[Point], bearing: float, reach: float) -> tuple[float, float]:
+    """The direction near the bearing in which the way is free, or nearly so, and how far it is free."""
+    best, best_free, least = 0.0, 0.0, math.inf
+    for direction in sorted((bearing, *_CANDIDATES), key=lambda each: abs(each - bearing)):
+        off = abs(direction - bearing)
+        if off >= least:
+            break
+        free = _free_path(obstacles, direction, reach)
+        cost = off + _DETOUR_DEG * (1 - free / reach)
+        if cost < least:
+            best, best_free, least = direction, free, cost
+    return best, best_free
+
+
+def _free_path(obstacles: Sequence[Point], direction: float, reach: float) -> float:
     """How far the robot can drive in a direction without coming closer to an obstacle than its clearance."""
     ahead, across = math.cos(math.radians(direction)), math.sin(math.radians(direction))
     free = reach
