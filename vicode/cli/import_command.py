@@ -1,4 +1,4 @@
-"""Import an XABSL behavior as a project of designs, or merge its changes into them."""
+"""Import an XABSL behavior as a project of designs, or merge its changes into them; or import a file of SCXML."""
 
 import argparse
 import sys
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("agents", metavar="AGENTS.xabsl", type=Path, help="XABSL file with the agents")
+    parser.add_argument("agents", metavar="FILE", type=Path, help="XABSL file with the agents, or a file of SCXML")
     parser.add_argument(
         "--out", metavar="DIR", type=Path, required=True, help="project folder to create, such as designs/NAME"
     )
@@ -27,6 +27,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the designs; return 1 if the behavior has errors, files would be overwritten, or there are conflicts."""
+    if args.agents.suffix == ".scxml":
+        return _import_scxml(args)
     from vicode.cli.import_record import RECORD_FILE, format_record, read_record
     from vicode.findings import Severity
     from vicode.importers import import_behavior, render_robot_class
@@ -44,10 +46,7 @@ def run(args: argparse.Namespace) -> int:
     if record is not None:
         return _merge(args.out, record, source, args.name)
     texts = _texts(replace(imported, project=_with_layout(imported.project)))
-    there = [path for path in texts if (args.out / path).exists()]
-    if there and not args.force:
-        more = f" and {len(there) - 1} more" if len(there) > 1 else ""
-        print(f"vicode: {args.out / there[0]}{more} would be overwritten; use --force", file=sys.stderr)
+    if _would_overwrite(args, texts):
         return 1
     _write(args.out, {**texts, RECORD_FILE: format_record(args.out, source)})
     robot = args.out / "robot.py"
@@ -56,6 +55,43 @@ def run(args: argparse.Namespace) -> int:
         _write(args.out, {robot.name: render_robot_class(imported.project)})
     print(_summary(imported, args.out))
     return 0
+
+
+def _import_scxml(args: argparse.Namespace) -> int:
+    """Write one design; return 1 if the document cannot be expressed, or files would be overwritten."""
+    from vicode.cli.console import print_findings
+    from vicode.importers import ImportedDesign, ImportResult
+    from vicode.importers.scxml import ScxmlError, import_scxml
+    from vicode.model.names import name_from_text, snake_case
+    from vicode.store.documents import default_project_name
+
+    component = name_from_text(args.agents.stem) or "Machine"
+    try:
+        project = import_scxml(
+            args.agents.read_bytes(), component, args.name or default_project_name(args.out.resolve().name)
+        )
+    except ScxmlError as error:
+        print_findings([error.finding(args.agents)], to_stderr=True)
+        return 1
+    about = ImportedDesign(
+        component=component, path=f"{snake_case(component)}.yaml", comments=(), file=args.agents, anchors=()
+    )
+    imported = ImportResult(project=_with_layout(project), designs=(about,), comments=())
+    texts = _texts(imported)
+    if _would_overwrite(args, texts):
+        return 1
+    _write(args.out, texts)
+    print(_summary(imported, args.out))
+    return 0
+
+
+def _would_overwrite(args: argparse.Namespace, texts: "dict[str, str]") -> bool:
+    there = [path for path in texts if (args.out / path).exists()]
+    if there and not args.force:
+        more = f" and {len(there) - 1} more" if len(there) > 1 else ""
+        print(f"vicode: {args.out / there[0]}{more} would be overwritten; use --force", file=sys.stderr)
+        return True
+    return False
 
 
 def _merge(folder: Path, record: "ImportRecord", source: "ProgramSource", name: str | None) -> int:

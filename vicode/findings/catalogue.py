@@ -152,6 +152,10 @@ _RECORDS = (
     ("X647", "active-twice", Severity.WARNING, "option executed twice in a cycle"),
     ("X651", "nonstandard-spelling", Severity.NOTE, "spelling that the original compiler rejects"),
     ("X652", "bool-choice", Severity.NOTE, "conditional expression with bools"),
+    # SCXML
+    ("S801", "not-scxml", Severity.ERROR, "file that is not SCXML"),
+    ("S802", "not-in-designs", Severity.ERROR, "element of SCXML that designs do not support"),
+    ("S803", "bad-scxml", Severity.ERROR, "unknown name or expression outside of the portable subset in SCXML"),
 )
 
 RULES = {
