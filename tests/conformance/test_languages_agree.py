@@ -7,12 +7,14 @@ import os
 import random
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
 
 import pytest
 
 from tests.conformance.conformance_cases import CASES, LANGUAGES, Case, short_form
 from tests.conformance.random_designs import draw_projects
+from tests.conformance.scxml_cases import DOCUMENTS, expected_states, scxml_run
 from vicode.conformance.comparison import find_absent_languages
 from vicode.conformance.cpp import COMPILER_MISSING, CppProgram, find_compiler
 from vicode.conformance.inputs import ConformanceRun
@@ -65,6 +67,9 @@ def session(tmp_path_factory: pytest.TempPathFactory) -> Session:
     for file in FILES:
         case = Case(file, tmp_path_factory.mktemp("case"))
         runs[case.name], absent[case.name] = case.run, case.not_in
+    for file in DOCUMENTS:
+        runs[f"scxml_{file.stem}"] = scxml_run(file)
+        absent[f"scxml_{file.stem}"] = find_absent_languages(scxml_run(file))
     for number, project in enumerate(draw_projects(RANDOM_DESIGNS)):
         name = f"random_{number}"
         runs[name] = random_run(project, "Player", iterations=ITERATIONS, seed=number)
@@ -99,6 +104,17 @@ def test_a_language_is_left_out_for_the_reason_that_the_check_reports(file: Path
     case = Case(file, tmp_path)
     assert case.header["feature"] in FEATURES
     assert dict(case.not_in) == {**find_absent_languages(case.run), **dict(case.header.get("beyond_check", {}))}
+
+
+@pytest.mark.parametrize("file", DOCUMENTS, ids=lambda file: file.stem)
+def test_imported_scxml_passes_in_each_language(session: Session, file: Path) -> None:
+    name = f"scxml_{file.stem}"
+    states = [iteration.steps[0].fields["state"] for iteration in session.traces["python"][name]]
+    assert " ".join(state for state, _repeated in groupby(states)) == expected_states(file)
+    assert states[-1] == "pass_"
+    for language in LANGUAGES[1:]:
+        if name in session.traces[language]:
+            assert differences(session, name, language) == ""
 
 
 def test_each_feature_has_a_case() -> None:

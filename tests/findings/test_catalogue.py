@@ -21,7 +21,7 @@ def test_names_are_unique() -> None:
 
 @pytest.mark.parametrize("rule", RULES.values(), ids=lambda rule: rule.code)
 def test_rules_are_well_formed(rule: Rule) -> None:
-    assert re.fullmatch(r"[YPEDLGX]\d{3}", rule.code)
+    assert re.fullmatch(r"[YPEDLGXS]\d{3}", rule.code)
     assert re.fullmatch(r"[a-z]+(-[a-z]+)*", rule.name)
     assert rule.summary[:1].islower() or rule.summary.startswith(("YAML", "Python"))
     assert not rule.summary.endswith(".")

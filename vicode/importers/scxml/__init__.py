@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from vicode.importers.names import DesignNames, to_design_name
+from vicode.importers.names import DesignNames
 from vicode.importers.scxml.actions import ActionWriter
 from vicode.importers.scxml.expressions import check_expression, translate
 from vicode.importers.scxml.reader import Element, ScxmlError, read_scxml
@@ -72,7 +72,7 @@ class _Importer:
             states=(*states, *self._between.values()),
         )
         interfaces = (Interface(component=EVENTS, outputs=events),) if events else ()
-        project = Project(name=name, languages=("python", "cpp", "xabsl"), components=interfaces, designs=(design,))
+        project = Project(name=name, languages=("python", "cpp"), components=interfaces, designs=(design,))
         self._check(project, design)
         return project
 
@@ -107,15 +107,14 @@ class _Importer:
     def _decisions(self, leaf: ScxmlState) -> Iterator[Decision]:
         """First transitions without event, then those of inner states, then those of the states around them."""
         found = [(owner, each) for owner in leaf.ancestors() for each in owner.transitions()]
-        for has_event in (False, True):
-            for owner, transition in found:
-                if bool(transition.attributes.get("event")) == has_event:
-                    guard = self._guard(leaf, transition)
-                    if guard is not None:
-                        decision = self._decision(leaf, owner, transition, guard)
-                        yield decision
-                        if guard.is_empty:
-                            return
+        found.sort(key=lambda pair: bool(pair[1].attributes.get("event")))
+        for owner, transition in found:
+            guard = self._guard(leaf, transition)
+            if guard is None:
+                continue
+            yield self._decision(leaf, owner, transition, guard)
+            if guard.is_empty:
+                return
 
     def _guard(self, leaf: ScxmlState, transition: Element) -> Guard | None:
         """The guard; None if the transition can never be taken in this state."""
@@ -136,7 +135,9 @@ class _Importer:
             if text == "false":
                 return None
             terms += [text] if text != "true" else []
-        return Guard(when=" and ".join(f"({each})" if len(terms) > 1 else each for each in terms), after=after)
+        return Guard(
+            when=" and ".join(f"({each})" if len(terms) > 1 and " or " in each else each for each in terms), after=after
+        )
 
     def _event_terms(self, event: str, leaf: ScxmlState) -> Iterator[str]:
         plain = _plain(event)
@@ -201,8 +202,10 @@ class _Importer:
             return Transition(to=target)
         key = (actions, f"{stem}:{target}" if is_forced else target)
         if key not in self._between:
-            name = self.names.allocate(to_design_name(stem if stem == "Start" else f"{stem}_{target}"))
-            self._between[key] = State(name=name, actions=actions, transitions=(Transition(to=target),))
+            name = self.names.allocate(stem if stem == "Start" else f"{stem}_{target}")
+            # The initial state decides before it acts.
+            entered, acted = (actions, ()) if stem == "Start" else ((), actions)
+            self._between[key] = State(name=name, enter=entered, actions=acted, transitions=(Transition(to=target),))
         return Transition(to=self._between[key].name)
 
 
