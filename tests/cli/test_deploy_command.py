@@ -72,7 +72,7 @@ def run_deployed(folder: Path, *arguments: str) -> subprocess.CompletedProcess[s
 
 
 def test_a_deployed_program_runs_without_vicode(rig: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot") == 0
+    assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot/") == 0
     assert "start it with robot/run" in capsys.readouterr().out
     done = run_deployed(tmp_path / "robot", "--ticks", "3")
     assert (done.returncode, done.stderr) == (0, "")
@@ -194,7 +194,35 @@ def test_a_robot_is_reached_over_ssh(
     assert vicode("deploy", "lamps/lamp.yaml", "--to", f"nao@10.0.0.7:{place}") == 2
 
 
-@pytest.mark.parametrize("target", ["nao@robot:", "-oProxyCommand=x:dir", "two\nlines"])
+def test_the_home_folder_of_a_robot_is_left_alone(
+    rig: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    home = tmp_path / "home"
+    programs = tmp_path / "bin"
+    (home / "mine").mkdir(parents=True)
+    (home / "mine/notes").touch()
+    programs.mkdir()
+    for name, text in [("ssh", SSH.replace("exec sh", f"cd '{home}' && exec sh")), ("rsync", "#!/bin/sh\nexit 12\n")]:
+        (programs / name).write_text(text)
+        (programs / name).chmod(0o755)
+    monkeypatch.setenv("PATH", f"{programs}{os.pathsep}{os.environ['PATH']}")
+    assert vicode("deploy", "lamps/lamp.yaml", "--to", "nao@10.0.0.7:~/mine") == 2
+    assert "has files that vicode did not deploy" in capsys.readouterr().err
+    assert vicode("deploy", "lamps/lamp.yaml", "--to", "nao@10.0.0.7:~") == 2
+    assert sorted(path.name for path in home.iterdir()) == ["mine"]
+
+
+def test_a_robot_that_cannot_be_reached_is_told_from_a_full_folder(
+    rig: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "ssh").write_text("#!/bin/sh\nexit 255\n")
+    (tmp_path / "ssh").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
+    assert vicode("deploy", "lamps/lamp.yaml", "--to", "nao@10.0.0.7:player") == 2
+    assert "nao@10.0.0.7 cannot be reached with ssh" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("target", ["nao@robot:", "nao@robot:~kim/x", "-oProxyCommand=x:dir", "two\nlines"])
 def test_targets_are_no_options(rig: Path, target: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert vicode("deploy", "lamps/lamp.yaml", f"--to={target}") == 2
     assert "invalid target" in capsys.readouterr().err

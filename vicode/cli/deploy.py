@@ -18,6 +18,8 @@ MARKER = ".vicode-deployed"
 
 _SKIPPED_FOLDERS = frozenset({"__pycache__", "node_modules", "venv", "build", "dist"})
 _KEPT_FOLDER = "log"
+_NO_FOLDER, _HAS_FILES, _NO_RSYNC = 11, 12, 13
+"""Exit codes of the checks on the robot."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -156,9 +158,10 @@ def _is_remote(target: str) -> bool:
 
 def _launcher_of(target: str) -> str:
     if _is_remote(target):
-        host, _colon, folder = target.partition(":")
-        return f"ssh {host} {folder}/run"
-    return f"{target}/run"
+        host, place = _split(target)
+        # With a terminal (-t), Ctrl-C reaches the program; without one, it would go on when ssh ends.
+        return f"ssh -t {host} {shlex.quote(shlex.quote(f'{place}/run'))}"
+    return shlex.quote(str(Path(target, "run")))
 
 
 def _copy(folder: Path, target: str) -> None:
@@ -190,16 +193,33 @@ def _copy_here(folder: Path, target: Path) -> None:
     shutil.copytree(folder, target, dirs_exist_ok=True)
 
 
-def _copy_over_ssh(folder: Path, target: str) -> None:
+def _split(target: str) -> tuple[str, str]:
+    """The host and the folder of a remote target; ssh starts in the home folder."""
     host, _colon, place = target.partition(":")
-    if not place or host.startswith("-"):
-        raise OSError(f"invalid target '{target}'; write user@host:folder")
+    place = place.removeprefix("~/").rstrip("/") or place[:1]
+    if not place or place.startswith(("~", "-")) or host.startswith("-"):
+        raise OSError(f"invalid target '{target}'; write user@host:folder, from the home folder or from /")
+    return host, place
+
+
+def _copy_over_ssh(folder: Path, target: str) -> None:
+    host, place = _split(target)
     quoted = shlex.quote(place)
-    check = f'mkdir -p {quoted} && cd {quoted} && {{ test -e {MARKER} || test -z "$(ls -A)"; }}'
-    if _call(["ssh", "--", host, check]):
-        raise OSError(f"{target} cannot be reached, or has files that vicode did not deploy")
-    if shutil.which("rsync"):
-        copy = ["rsync", "-a", "--delete", f"--exclude=/{_KEPT_FOLDER}/", "--", f"{folder}/", f"{host}:{place}/"]
+    checks = (
+        f"mkdir -p {quoted} && cd {quoted} || exit {_NO_FOLDER}",
+        f'test -e {MARKER} || test -z "$(ls -A)" || exit {_HAS_FILES}',
+        f"command -v rsync > /dev/null || exit {_NO_RSYNC}",
+    )
+    code = _call(["ssh", "--", host, "; ".join(checks)])
+    if code == _NO_FOLDER:
+        raise OSError(f"the folder {place} cannot be created on {host}")
+    if code == _HAS_FILES:
+        raise OSError(f"{target} has files that vicode did not deploy; choose an empty folder")
+    if code not in (0, _NO_RSYNC):
+        raise OSError(f"{host} cannot be reached with ssh")
+    if code == 0 and shutil.which("rsync"):
+        # -s: a shell of the robot does not split or expand the name of the folder.
+        copy = ["rsync", "-as", "--delete", f"--exclude=/{_KEPT_FOLDER}/", "--", f"{folder}/", f"{host}:{place}/"]
         failed = _call(copy)
     else:
         unpack = f"cd {quoted} && find . -mindepth 1 -maxdepth 1 ! -name {_KEPT_FOLDER} -exec rm -rf {{}} + && tar xf -"
