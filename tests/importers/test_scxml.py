@@ -1,11 +1,13 @@
 """SCXML becomes designs; what cannot be expressed is refused with its line."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from vicode.cli.entry_point import main
 from vicode.importers.scxml import ScxmlError, import_scxml
+from vicode.importers.scxml.writer import write_scxml
 from vicode.model.design import Stay, Transition
 from vicode.store import open_project
 
@@ -91,3 +93,34 @@ def test_the_command_prints_file_line_and_reason(tmp_path: Path, capsys: pytest.
     said = capsys.readouterr().err
     assert "two.scxml:2:1: error S802 not-in-designs: <parallel>: a design is in one state at a time" in said
     assert not (tmp_path / "out").exists()
+
+
+def test_an_exported_design_imports_as_the_same_design(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "lamp.scxml").write_text(LAMP, encoding="utf-8")
+    assert main(["import", str(tmp_path / "lamp.scxml"), "--out", str(tmp_path / "lamp")]) == 0
+    (design,) = open_project(tmp_path / "lamp").project.designs
+    lit = design.states[1]
+    single = replace(design, states=(replace(design.states[0], transitions=design.states[0].transitions[:1]), lit))
+    again = import_scxml(write_scxml(single).encode(), "Lamp", "lamp").designs[0]
+    assert [(each.name, each.enter, each.leave) for each in again.states] == [
+        (each.name, each.enter, each.leave) for each in single.states
+    ]
+    assert [each.guard for each in again.states[0].transitions] == [each.guard for each in single.states[0].transitions]
+    assert [type(each) for each in again.states[1].transitions] == [type(each) for each in lit.transitions]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("frequency: 5\ninitial: A\nstates: {A: {}}", "frequency"),
+        ("uses: {l: Legs}\ninitial: A\nstates: {A: {modulates: [l]}}", "modulates (state A)"),
+        ("variables: {n: 0}\ninitial: A\nstates: {A: {enter: [{set: {n: n // 2}}]}}", "no operator '//'"),
+    ],
+)
+def test_what_scxml_cannot_say_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, words: str
+) -> None:
+    (tmp_path / "a.yaml").write_text(f"vicode: 1\ncomponent: A1\n{text}\n", encoding="utf-8")
+    assert main(["export", str(tmp_path / "a.yaml"), "--format", "scxml"]) == 1
+    assert words in capsys.readouterr().err
+    assert not (tmp_path / "a.scxml").exists()

@@ -1,4 +1,4 @@
-"""Export the diagram of a design as an image or as Mermaid, PlantUML, or Graphviz text."""
+"""Export the diagram of a design as an image or as Mermaid, PlantUML, or Graphviz text, or the design as SCXML."""
 
 import argparse
 import sys
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help="design file")
     parser.add_argument(
-        "--format", choices=EXPORT_FORMATS, help="output format (default: by the suffix of OUT, else svg)"
+        "--format", choices=[*EXPORT_FORMATS, "scxml"], help="output format (default: by the suffix of OUT, else svg)"
     )
     parser.add_argument("-o", "--out", metavar="OUT", help="output file, or - for stdout (default: next to the design)")
     parser.add_argument("--states", metavar="A,B", help="export only these states and the components they use")
@@ -31,6 +31,8 @@ def run(args: argparse.Namespace) -> int:
     design = _read(Path(args.file))
     if design is None:
         return 1
+    if args.format == "scxml" or (args.format is None and str(args.out or "").endswith(".scxml")):
+        return _export_scxml(args, design)
     from vicode.output import write_atomically
 
     only = _states(args.states)
@@ -46,6 +48,24 @@ def run(args: argparse.Namespace) -> int:
         return 0
     out = Path(args.out) if args.out else Path(args.file).with_suffix(form.suffixes[0])
     write_atomically(out, content)
+    print(f"wrote {out.as_posix()}")
+    return 0
+
+
+def _export_scxml(args: argparse.Namespace, design: "Design") -> int:
+    from vicode.importers.scxml.writer import NotInScxmlError, write_scxml
+    from vicode.output import write_atomically
+
+    try:
+        text = write_scxml(design)
+    except NotInScxmlError as error:
+        print(f"{args.file}: {error}", file=sys.stderr)
+        return 1
+    if args.out == "-":
+        print(text, end="")
+        return 0
+    out = Path(args.out) if args.out else Path(args.file).with_suffix(".scxml")
+    write_atomically(out, text)
     print(f"wrote {out.as_posix()}")
     return 0
 

@@ -93,7 +93,7 @@ def check_expression(text: str, scope: Scope, expected: str, line: int) -> None:
     Raises:
         ScxmlError: It has errors.
     """
-    parsed = parse_expression(text, scope, expected)
+    parsed = parse_expression(text, scope, expected or None)
     if parsed.tree is None or parsed.diagnostics:
         reason = parsed.diagnostics[0].message if parsed.diagnostics else "not an expression"
         raise ScxmlError("S803", f"'{text}': {reason}", line)
