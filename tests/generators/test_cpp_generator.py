@@ -8,6 +8,7 @@ import pytest
 
 from tests.cpp_tools import STANDARD, WARNINGS, find_gpp, outputs, start, write_project, write_unit
 from tests.generators.code_tools import write_files
+from vicode.cli import main
 from vicode.generators import generate
 from vicode.model.design import Assign, Declaration, Design, Guard, State, Transition
 from vicode.model.project import Project
@@ -127,3 +128,21 @@ def test_cmake_builds_a_static_library(gpp: str, generated: dict[Path, str], tmp
     outputs([start(["cmake", "-S", str(folder / "forward"), "-B", str(tmp_path)], folder)])
     outputs([start(["cmake", "--build", str(tmp_path)], folder)])
     assert (tmp_path / "libforward.a").exists()
+
+
+def test_the_programs_of_the_documentation_compile(gpp: str, generated: dict[Path, str]) -> None:
+    page = (DESIGNS.parent / "docs" / "cpp.md").read_text(encoding="utf-8")
+    program, head = (block.partition("```")[0] for block in page.split("```cpp\n")[1:])
+    folders = {package: folder for folder, package in generated.items()}
+    (folders["rescue"] / "main.cpp").write_text(program, encoding="utf-8")
+    head = f'#include "forward/components.hpp"\n{head}\nbica::Root root;\nHead head(root);\n'
+    (folders["forward"] / "main.cpp").write_text(head, encoding="utf-8")
+    command = [gpp, *STANDARD, *WARNINGS, "-I.", "-fsyntax-only", "main.cpp"]
+    assert outputs([start(command, folders[package]) for package in ("rescue", "forward")]) == ["", ""]
+
+
+def test_a_single_header_holds_everything(gpp: str, tmp_path: Path) -> None:
+    assert main(["gen", str(DESIGNS / "forward"), "--single-header", str(tmp_path / "forward.hpp")]) == 0
+    (tmp_path / "sketch.cpp").write_text('#include "forward.hpp"\nbica::Root root;\n', encoding="utf-8")
+    command = [gpp, *STANDARD, *WARNINGS, "-DBICA_NO_HOST", "-fno-exceptions", "-fsyntax-only", "sketch.cpp"]
+    assert outputs([start(command, tmp_path)]) == [""]

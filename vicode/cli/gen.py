@@ -25,6 +25,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--diff", action="store_true", help="write nothing; print a diff")
     parser.add_argument("--apply", action="store_true", help="apply edits of generated files to the designs first")
     add_output_arguments(parser)
+    parser.add_argument(
+        "--single-header", metavar="FILE", help="write all C++ of one project into one header and nothing else"
+    )
     parser.add_argument("--force", action="store_true", help="overwrite edited files, keeping a copy as NAME.edited")
 
 
@@ -78,6 +81,8 @@ def _run_or_report(
 def _generate(opened: LoadedProject, args: argparse.Namespace) -> int:
     from vicode.sync import plan_generation
 
+    if args.single_header:
+        return _write_single_header(opened, args)
     has_errors = print_errors(opened)
     plan = plan_generation(generation_input(opened, args), applies_edits=args.apply, take=args.take)
     if args.diff:
@@ -87,6 +92,21 @@ def _generate(opened: LoadedProject, args: argparse.Namespace) -> int:
     if args.diff or args.check:
         return int(bool(plan.differences) or has_errors)
     return int(not write_plan(opened, plan, is_forced=args.force) or has_errors)
+
+
+def _write_single_header(opened: LoadedProject, args: argparse.Namespace) -> int:
+    from vicode.generators.cpp.single_header import join_headers
+    from vicode.output import write_atomically
+
+    has_errors = print_errors(opened)
+    args.language = ["cpp"]
+    files = _files(opened, opened.open_project.project, args)
+    if not files or has_errors:
+        print("vicode: no single header: the project has errors or no designs", file=sys.stderr)
+        return 1
+    write_atomically(Path(args.single_header), join_headers(files))
+    print(f"wrote {args.single_header}")
+    return 0
 
 
 def print_errors(opened: LoadedProject) -> bool:
