@@ -99,9 +99,10 @@ inline double floor_divide(double a, double b) {
 constexpr double xabsl_divide(double a, double b) { return a / (b == 0.0 ? 1e-7 : b); }
 
 /// Remainder of the integer parts as in the XABSL engine: the sign of `a`, and 0 if the integer part of `b` is 0.
+/// An integer has no -0.0.
 inline double xabsl_remainder(double a, double b) {
     const double divisor = std::trunc(b);
-    return std::isfinite(a) && std::isfinite(b) && divisor != 0.0 ? std::fmod(std::trunc(a), divisor) : 0.0;
+    return std::isfinite(a) && std::isfinite(b) && divisor != 0.0 ? std::fmod(std::trunc(a) + 0.0, divisor) : 0.0;
 }
 
 /// Converts an integral double, limited to 64 bits; nan gives 0.
