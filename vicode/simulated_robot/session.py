@@ -68,7 +68,8 @@ class RobotTrack:
         """Follow an answer of the bridge."""
         if command := answer.commands.get("DIFFERENTIALDRIVE"):
             self.robot.drive(*command[:2])
-        if answer.active is not None:
+        if answer.active is not None and answer.active != self.active:
+            # Equal states share one tuple, of which the points of a long run keep many.
             self.active = answer.active
         self.errors += answer.errors[: _KEPT_ERRORS - len(self.errors)]
         self.age_ms = answer.age_ms if answer.age_ms is not None else self.age_ms
