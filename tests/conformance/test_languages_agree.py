@@ -30,7 +30,7 @@ ITERATIONS = 20
 FEATURES = {
     *("order", "groups", "timers", "common transitions", "requires and modulates", "restart", "resume", "periods"),
     *("nested components", "parameters", "enumerations", "arithmetic", "final states", "outputs and variables"),
-    *("arithmetic: xabsl", "time_unit: ms", "teams", "disabled", "names", "times"),
+    *("code", "arithmetic: xabsl", "time_unit: ms", "teams", "disabled", "names", "times"),
 }
 
 Traces = Mapping[str, Mapping[str, list[TraceIteration]]]
