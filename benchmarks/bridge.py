@@ -32,7 +32,7 @@ FLOOD_LINES = 200_000
 
 
 class EchoWorld(World):
-    """Two sensors and a command that tells what was acted on."""
+    """Two sensors and a command with the values that were acted on."""
 
     stamp = Sensor("STAMP", float)
     laser = Sensor("LASER", float, length=181)

@@ -1,4 +1,4 @@
-"""Time of one iteration in C++: the generated component beside a hand-written switch, in one program.
+"""Time of one iteration in C++: the generated component compared with a hand-written switch, in one program.
 
 Run it with `python -m benchmarks.cpp`; it needs g++. Both get the same inputs and must pass through the same states.
 It also shows the size of the object code of designs/forward.
@@ -140,7 +140,7 @@ def measure_size(compiler: str, folder: Path) -> str:
 
 
 def write_class(machine: Machine) -> str:
-    """The class that a person would write beside the generated one."""
+    """The hand-written class that the generated one is compared with."""
     states = ", ".join(f"S{number}" for number in range(len(machine.edges)))
     return f"""#pragma once
 #include "bench/interfaces.hpp"

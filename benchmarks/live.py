@@ -41,7 +41,7 @@ def main() -> None:
     parser.add_argument("--ticks", type=int, default=20_000)
     options = parser.parse_args()
     ratios: dict[str, list[float]] = {
-        "open, nobody watches": [],
+        "open, no viewer": [],
         "1 viewer": [],
         "10 viewers": [],
         "10 that hardly read": [],
@@ -52,7 +52,7 @@ def main() -> None:
     for _round in range(options.rounds):
         base = measure(make_root(), options.ticks)
         plain_ns.append(base)
-        ratios["open, nobody watches"].append(measure_watched(0, options.ticks) / base)
+        ratios["open, no viewer"].append(measure_watched(0, options.ticks) / base)
         ratios["1 viewer"].append(measure_watched(1, options.ticks) / base)
         ratios["10 viewers"].append(measure_watched(10, options.ticks) / base)
         ratios["10 that hardly read"].append(measure_watched(10, options.ticks, delay_s=1.0) / base)

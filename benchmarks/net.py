@@ -1,4 +1,4 @@
-"""Cost of components in other processes: age under overload, round trips beside bare zenoh, time of an iteration.
+"""Cost of components in other processes: age under overload, round trips and bare zenoh, time per iteration.
 
 Run it with `python -m benchmarks.net`; needs `vicode[net]`. Both processes are on this machine.
 """
@@ -164,7 +164,7 @@ def measure_cost(count: int = 2000) -> dict[str, float]:
 
 
 def measure_source(count: int = 2000) -> dict[str, float]:
-    """Median time of an iteration of a robot whose components nobody or one process reads."""
+    """Median time of an iteration of a robot whose components no process or one process reads."""
     with Root(Source) as root:
         times = {"not connected": median_time(count, lambda _number: root.step())}
         root.connect("source")

@@ -56,7 +56,7 @@ def make_parser() -> argparse.ArgumentParser:
     add("--port", type=int, default=6000, help="UDP port of the server (default: %(default)s)")
     add("--half", type=int, default=300, metavar="S", help="length of the half in seconds of the game (default: 300)")
     add("--synchronous", action="store_true", help="play as fast as the machine can, not in real time")
-    add("--teams", type=int, choices=(1, 2), default=2, help="one team plays against nobody")
+    add("--teams", type=int, choices=(1, 2), default=2, help="one team plays without opponents")
     add(
         "--players",
         type=int,
@@ -84,7 +84,7 @@ def run_server(options: argparse.Namespace) -> Iterator[None]:
         "nr_extra_halfs": 0,
         "penalty_shoot_outs": "false",
         "auto_mode": "true",
-        # In cycles, which take no time in synchronous mode as long as nobody plays.
+        # In cycles, which take no time in synchronous mode while no player is connected.
         "connect_wait": 100_000 if (options.teams, options.players) == (2, 11) else 300,
         "kick_off_wait": 10,
         "game_over_wait": 10,

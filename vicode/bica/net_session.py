@@ -55,7 +55,7 @@ class Receiver:
         self._try_receive = subscriber.try_recv
 
     def take_all(self) -> Iterator[tuple[str, bytes]]:
-        """Yield the waiting messages, but no more than the queue holds: those that arrive meanwhile are left."""
+        """Yield the waiting messages, but no more than the queue holds: those that arrive during the loop are left."""
         for _ in range(MAX_WAITING):
             received = self.take()
             if received is None:
@@ -87,7 +87,7 @@ class AliveKeys:
         self._keys: set[str] = set()
 
     def read(self) -> set[str]:
-        # Changes that arrive meanwhile are read next time.
+        # Changes that arrive during the call are read next time.
         for _ in range(_MAX_ALIVE_KEYS):
             sample = self._try_receive()
             if sample is None:

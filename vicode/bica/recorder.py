@@ -37,7 +37,7 @@ _active_runs: set[tuple[Path, int]] = set()
 
 
 class Recorder:
-    """Writes iterations into a ring of segments, each a trace of its own: FILE.RUN.SEGMENT.jsonl.
+    """Writes iterations into a ring of segments, each a complete trace: FILE.RUN.SEGMENT.jsonl.
 
     The thread of the root appends to a queue and never waits for the disk: iterations that find the queue full are
     counted and left out.

@@ -91,7 +91,7 @@ class RemoteComponent(Component):
         self._session.close()
 
     def _send(self, now_s: float) -> None:
-        """Send the parameters if they have changed, and else so often that the other side goes on."""
+        """Send the parameters if they have changed, and otherwise often enough that the other side keeps working."""
         values = self.__dict__
         parameters = {name: values[name] for name in self._parameters}
         interval_s, self._worked_s = now_s - self._worked_s, now_s

@@ -104,7 +104,7 @@ class DesignCatalog:
 
 
 class DesignBehavior:
-    """A component and all that it uses, in a root of its own."""
+    """A component and all that it uses, in its own root."""
 
     def __init__(self, component_class: Any, setup: BehaviorSetup) -> None:
         self._report_line = setup.report
@@ -164,7 +164,7 @@ class XabslCatalog:
 
 
 class XabslBehavior:
-    """An agent or option in an engine of its own."""
+    """An agent or option in its own engine."""
 
     def __init__(self, catalog: XabslCatalog, name: str, setup: BehaviorSetup) -> None:
         self._report_line = setup.report

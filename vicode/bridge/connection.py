@@ -248,7 +248,7 @@ class Connection(asyncio.BufferedProtocol):
         return is_free and not self._transport.get_write_buffer_size() and not self._transport.is_closing()
 
     def _describe(self, robot: Robot) -> dict[str, Any]:
-        """What a message says beside commands: the age of the data acted on, and active states if asked for."""
+        """What a message has in addition to commands: age of the data acted on, active states if asked for."""
         more: dict[str, Any] = {}
         if (age_ns := robot.data.readings.age_ns) is not None:
             more["age_ms"] = round(age_ns / 1e6, 3)

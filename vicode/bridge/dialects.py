@@ -42,7 +42,7 @@ class JoinRequest:
 
 
 class RefusedError(Exception):
-    """The connection cannot go on; the text is the last line to the client."""
+    """The connection must end; the text is the last line to the client."""
 
 
 class Client(Protocol):
@@ -93,7 +93,7 @@ class Dialect(Protocol):
         """Do what a line says.
 
         Raises:
-            FrameError: It cannot be done; the connection goes on.
+            FrameError: It cannot be done; the connection stays open.
             RefusedError: The connection ends.
         """
 

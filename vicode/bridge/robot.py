@@ -151,7 +151,7 @@ class Robot:
         return bool(self._broadcasts)
 
     def leave_team(self) -> None:
-        """Take back what the team heard: nobody controls this robot now."""
+        """Withdraw what the team heard: the robot is not controlled any more."""
         self._broadcasts.clear()
 
     def take_reports(self) -> list[str]:

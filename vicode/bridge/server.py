@@ -236,7 +236,7 @@ class BridgeServer:
     # Ticks of the clock
 
     async def _run_ticks(self) -> None:
-        """Tick at multiples of the tick; those that pass meanwhile are skipped."""
+        """Tick at multiples of the tick; those that pass during a long one are skipped."""
         tick_s, start_s, number = self.options.tick_ns / 1e9, time.monotonic(), 0
         while True:
             late = int((time.monotonic() - start_s) / tick_s) - number

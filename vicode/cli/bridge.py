@@ -58,7 +58,7 @@ def run(args: argparse.Namespace) -> int:
         world_class = load_world(args.world or loaded.settings.world, loaded)
         if isinstance(world_class, int):
             return world_class
-        # What is loaded by now stays: collections need not look at it.
+        # What is loaded so far stays: collections need not look at it.
         gc.collect()
         gc.freeze()
         try:

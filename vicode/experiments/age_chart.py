@@ -1,4 +1,4 @@
-"""The chart of the age of the data that behaviors acted on, over time, beside what the thesis reports."""
+"""The chart of the age of the data that behaviors acted on, over time, with what the thesis reports."""
 
 import math
 from collections.abc import Iterable, Sequence

@@ -1,4 +1,4 @@
-"""A bridge in a process of its own, for the time of an experiment."""
+"""A bridge in a separate process, for the time of an experiment."""
 
 import re
 import resource

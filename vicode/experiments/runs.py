@@ -12,7 +12,7 @@ from vicode.simulated_robot.session import BridgeAddress, RobotTrack, Simulation
 from vicode.simulated_robot.world_map import WorldMap
 
 Advance = Callable[[float], None]
-"""Is told simulated seconds as they pass."""
+"""Receives simulated seconds as they pass."""
 
 _AT_ONCE = 6
 _SETTLE_S = 0.5

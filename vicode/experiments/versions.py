@@ -18,7 +18,7 @@ from vicode.simulated_robot.session import RobotTrack
 from vicode.store import open_project
 
 ProgressCallback = Callable[[str, int, int], None]
-"""Is told what runs, and how many of how many runs are done."""
+"""Receives what runs, and how many of how many runs are done."""
 
 _REAL_TIME_S = 60.0
 
@@ -83,7 +83,7 @@ async def run_versions(
     has_real_time: bool,
     on_progress: ProgressCallback = lambda _name, _done, _all: None,
 ) -> tuple[VersionResult, ...]:
-    """Run both versions with seeds 1 to `seeds`, each with a bridge of its own.
+    """Run both versions with seeds 1 to `seeds`, each with its own bridge.
 
     Raises:
         BridgeStartError: A bridge did not start.

@@ -117,7 +117,7 @@ class World:
             is_complete = is_complete or (has_begun and kind == ("think" if self._is_synchronous else "see"))
 
     def send_commands(self) -> None:
-        """Send the commands of this cycle; a server in synchronous mode goes on when all players have sent theirs."""
+        """Send the commands of this cycle; a server in synchronous mode continues when all players have sent theirs."""
         done = "(done)" if self._is_synchronous and self.cycle else ""
         for command in (self._body_command, self._neck_command, done):
             if command:

@@ -68,7 +68,7 @@ class ExternalEditor:
         command = [_filled(part, values) for part in self.arguments]
         null = subprocess.DEVNULL
         process = subprocess.Popen(command, stdin=null, stdout=null, stderr=null, start_new_session=True)
-        # An ended process that nobody waits for stays in the process table.
+        # An ended process that no one waits for stays in the process table.
         threading.Thread(target=process.wait, daemon=True).start()
 
 

@@ -208,7 +208,7 @@ class RobotLink:
             self._task = asyncio.get_running_loop().create_task(self._run(parse_address(self.address)), name="robots")
 
     def close(self) -> None:
-        """Disconnect; robots go on."""
+        """Disconnect; robots continue."""
         if self._task is not None:
             self._task.cancel()
             self._task = None

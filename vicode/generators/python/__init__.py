@@ -36,7 +36,7 @@ _RUNTIME_FOLDER = Path(vicode.bica.__file__).parent
 
 
 def generate_python(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ...]:
-    """Generate all files of a project; with `standalone` also the runtime, as package `vicode.bica` beside them."""
+    """Generate all files of a project; with `standalone` also the runtime, as package `vicode.bica` next to them."""
     names = assign_global_names(plan)
     folder = f"{LANGUAGE}/{plan.package.name}"
     project = f"the project {plan.name}"

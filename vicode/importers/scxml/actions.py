@@ -119,7 +119,7 @@ class ActionWriter:
         for name, value, test in written:
             if name in read and len(written) > 1:
                 reason = f"<if> assigns '{name}', which its conditions read"
-                raise ScxmlError("S802", reason, element.line, "assign it in a state of its own")
+                raise ScxmlError("S802", reason, element.line, "assign it in a separate state")
             yield Assign(values=((name, f"({value}) if {test} else {name}"),))
 
 

@@ -9,7 +9,7 @@ _STATES = ("state", "final")
 _REASONS = {
     "parallel": ("a design is in one state at a time", "make a component of each region, and call them from a state"),
     "history": ("a design does not store the state that was left", "use a component with resume: true"),
-    "invoke": ("designs start no other services", "use a component of its own, and call it in the state"),
+    "invoke": ("designs start no other services", "use a separate component, and call it in the state"),
     "raise": ("designs have no queue of events", "set a variable, and test it in guards"),
     "script": ("scripts are not translated", "use <assign>"),
     "foreach": ("designs have no collections", "use <assign> for each value"),
