@@ -116,6 +116,15 @@ def test_a_broken_disk_is_reported_once_and_the_robot_goes_on(
     assert capsys.readouterr().err.count("No space left on device; the run continues without it") == 1
 
 
+def test_a_full_disk_does_not_fail_the_end_of_the_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    recorder = Recorder(tmp_path / "run.jsonl", start_thread=False)
+    recorder._stream.close()
+    recorder._stream = Path("/dev/full").open("w", encoding="utf-8")  # noqa: SIM115 - closed by the recorder
+    recorder.add({"iteration": 1, "time_ns": 0, "tree": [], "errors": []})
+    recorder.close()
+    assert capsys.readouterr().err.count("No space left on device; the run continues without it") == 1
+
+
 def test_values_of_components_that_are_not_stepped_are_recorded(tmp_path: Path) -> None:
     world = make_world()
     with Root(Car, clock=SimulatedClock(), world=world) as root:

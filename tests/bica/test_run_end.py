@@ -171,6 +171,13 @@ def test_a_reader_that_leaves_closes_all(folder: Path) -> None:
     assert process.wait(timeout=60) == 1, text
 
 
+def test_an_address_in_use_is_no_error_of_the_component(folder: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        address = f"127.0.0.1:{other.getsockname()[1]}"
+        _out, err = start(folder, "--watch", address, "--path", "limit").communicate(timeout=60)
+    assert err == f"error: viewers cannot connect to {address}: Address already in use; choose another --watch\n"
+
+
 def test_a_failing_start_closes_what_was_created(folder: Path) -> None:
     process = start(folder, "--stream", "--path", "init")
     _out, err = process.communicate(timeout=60)

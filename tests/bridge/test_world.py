@@ -89,6 +89,8 @@ def test_a_malformed_value_is_reported_and_the_one_before_stays(world: AgingWorl
         (ParameterTypes(value_type=float), b"1e999", "parameter 1 is inf, expected a finite number"),
         (ParameterTypes(value_type=float, bounds=(0, 20)), b"20.5", "parameter 1 is 20.5, expected 0 to 20"),
         (ParameterTypes(value_type=float, bounds=(0, 20)), ["a"], "parameter 1 is 'a', expected a number"),
+        (ParameterTypes(value_type=float), b"1_0", "parameter 1 is '1_0', expected a number"),
+        (ParameterTypes(value_type=float), ["\u0663"], "expected a number"),
         (ParameterTypes(value_type=float), [True], "parameter 1 is True, expected a number"),
         (ParameterTypes(value_type=float), b"\xff", "expected UTF-8"),
         (ParameterTypes(value_type=int), b"1.5", "parameter 1 is '1.5', expected an integer"),

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .observer import IterationRecord, StepRecord
     from .root import Root
 
-_MAX_FREQUENCY_HZ = 10_000.0
+_MIN_FREQUENCY_HZ, _MAX_FREQUENCY_HZ = 0.001, 10_000.0
 
 
 class ControlError(ValueError):
@@ -175,8 +175,10 @@ class Controller:
     def _set_frequency(self, _viewer: object, request: dict[str, Any]) -> str:
         component = self._component(request.get("component"))
         hertz = request.get("hz")
-        if not isinstance(hertz, int | float) or isinstance(hertz, bool) or not 0 < hertz <= _MAX_FREQUENCY_HZ:
-            raise ControlError(f"'hz' must be a number greater than 0, up to {_MAX_FREQUENCY_HZ:g}")
+        if isinstance(hertz, bool) or not (
+            isinstance(hertz, int | float) and _MIN_FREQUENCY_HZ <= hertz <= _MAX_FREQUENCY_HZ
+        ):
+            raise ControlError(f"'hz' must be a number from {_MIN_FREQUENCY_HZ:g} to {_MAX_FREQUENCY_HZ:g}")
         component.set_frequency(hertz)
         return f"{type(component).__name__} works at {hertz:g} Hz"
 
@@ -190,6 +192,8 @@ class Controller:
         if not declarations or not owners or name.startswith("_"):
             raise ControlError(f"no component uses a constant '{name}'")
         value = convert_value(request.get("value"), getattr(declarations[0], name), name)
+        if isinstance(value, float) and not math.isfinite(value):
+            raise ControlError(f"{name} must be a finite number")
         for module in (*owners, *declarations):
             setattr(module, name, value)
         return f"constant {name} = {value}"

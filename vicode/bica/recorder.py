@@ -9,6 +9,7 @@ import re
 import threading
 import time
 from collections import deque
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -119,7 +120,9 @@ class Recorder:
         self.write()
         with self._lock:
             self._has_failed = True
-            self._stream.close()
+            # Closing tries again to write what did not fit on a full disk; that was reported.
+            with suppress(OSError):
+                self._stream.close()
         _active_runs.discard((self.path, self._run))
 
     def _write_until_closed(self) -> None:

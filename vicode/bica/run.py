@@ -202,8 +202,17 @@ def _make_root(component_class: type[Component], world: Any, writer: _RecordWrit
     if options.net is not None:
         root.connect(options.net, team=options.team or "", on_call=options.on_call)
     if options.watch is not None:
-        root.watch(options.watch, token=os.environ.get("VICODE_WATCH_TOKEN", ""), control=options.control)
+        _watch(root, options)
     return root
+
+
+def _watch(root: Root, options: argparse.Namespace) -> None:
+    try:
+        root.watch(options.watch, token=os.environ.get("VICODE_WATCH_TOKEN", ""), control=options.control)
+    except (OSError, OverflowError) as error:
+        number = getattr(error, "errno", None)
+        reason = os.strerror(number) if number and number > 0 else error
+        raise UserCodeError(f"viewers cannot connect to {options.watch}: {reason}; choose another --watch") from error
 
 
 def _find_tick_ns(root: Root, options: argparse.Namespace) -> int:

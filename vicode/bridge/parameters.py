@@ -65,7 +65,7 @@ class ParameterTypes:
     def _convert_floats(self, raw: Raw) -> list[Any] | None:
         """The usual case, and the fast one; None if something is no number."""
         given: Sequence[Any] = raw.split(b",") if isinstance(raw, bytes) else raw
-        if not set(map(type, given)) <= _NUMBER_TYPES:
+        if not set(map(type, given)) <= _NUMBER_TYPES or (isinstance(raw, bytes) and b"_" in raw):
             return None
         try:
             # float() also reads bytes with spaces around.
@@ -119,6 +119,9 @@ def _convert(value: Any, value_type: type[Any]) -> Any:
             return value
         return _WORDS.get(str(value).lower())
     if isinstance(value, bool) or not isinstance(value, int | float | str):
+        return None
+    if isinstance(value, str) and ("_" in value or not value.isascii()):
+        # float() reads 1_000, and digits of all scripts.
         return None
     try:
         number = float(value)
