@@ -19,7 +19,7 @@ from vicode.model.xabsl.names import component_name, symbol_name, unqualified_na
 from vicode.model.xabsl.unsupported import find_unsupported_in_design, find_unsupported_in_root, is_done_expressible
 
 LANGUAGE = "xabsl"
-MAX_DEPTH = 100
+MAX_DEPTH = 1150
 """Maximum nesting of decisions and their guards that XABSL parsers accept."""
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.]*\Z", re.ASCII)

@@ -40,12 +40,15 @@ COMMANDS = (
 )
 _BATCH_COMMANDS = ("gen", "sync", "check")
 EXIT_OK, EXIT_FINDINGS, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_PIPE_CLOSED = 0, 1, 2, 130, 141
+_RECURSION_LIMIT = 10_000
 _ASCII = {"→": "->", "…": "...", "×": "x", "–": "-", "·": "-"}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
     _make_streams_lenient()
+    # Trees of decisions and expressions are read and written recursively; their depth is limited where they are read.
+    sys.setrecursionlimit(max(_RECURSION_LIMIT, sys.getrecursionlimit()))
     words = sys.argv[1:] if arguments is None else arguments
     # A command is parsed without the modules of the others, which are slow to import.
     parsed = _make_parser(words[:1] if words and words[0] in COMMANDS else COMMANDS).parse_args(words)

@@ -28,6 +28,7 @@ from vicode.xabsl.lexer import Comment, Tokens
 from vicode.xabsl.parser import ParsedFile
 from vicode.xabsl.symbol_table import Definition
 
+_MAX_GROUPS = 8
 TokenReferences = dict[tuple[int, int], Definition]
 """Definitions by the id of the token list and the index of the token."""
 
@@ -170,6 +171,9 @@ class OptionImporter:
                 case tree.GotoNode() | tree.StayNode():
                     decisions.append(self._leaf(current, Guard(), doc))
                     current = None
+                case tree.IfNode(otherwise=tree.SyntaxNode()) if self._is_inverted(current, path):
+                    decisions.append(self._inverted_branch(current, _join_docs(doc, current.doc), decision_path))
+                    doc, current = "", current.then
                 case tree.IfNode():
                     decisions.append(self._branch(current, _join_docs(doc, current.doc), decision_path))
                     doc, current = current.else_doc, current.otherwise
@@ -184,6 +188,21 @@ class OptionImporter:
             self.anchors.append((then.first_token, path))
             return self._leaf(then, guard, doc)
         return DecisionGroup(guard=guard, then=self._decisions(then, "", (*path, "then")), doc=doc)
+
+    def _is_inverted(self, node: tree.IfNode, path: DesignPath) -> bool:
+        """Whether the first branch follows in the list and the second one forms a group.
+
+        Files can hold only some groups inside each other; from there on, the deeper branch never starts a new group.
+        """
+        return path.count("then") >= _MAX_GROUPS and nesting(node.then) > nesting(node.otherwise)
+
+    def _inverted_branch(self, node: tree.IfNode, doc: str, path: DesignPath) -> Decision:
+        assert node.otherwise is not None
+        guard = Guard(when=f"not ({self.translator.translate(node.condition)})")
+        then = self._decisions(node.otherwise, node.else_doc, (*path, "then"))
+        if len(then) == 1 and isinstance(then[0], Transition | Stay):
+            return replace(then[0], guard=guard, doc=_join_docs(doc, then[0].doc))
+        return DecisionGroup(guard=guard, then=then, doc=doc)
 
     def _leaf(self, node: tree.GotoNode | tree.StayNode, guard: Guard, doc: str) -> Decision:
         if isinstance(node, tree.StayNode):
@@ -248,6 +267,20 @@ class OptionImporter:
             return self.declarations.names[parameter]
         names = DesignNames(self.declarations.shared_names)
         return {item: names.allocate(item.name) for item in called.parameters.values()}[parameter]
+
+
+def nesting(node: tree.DecisionTreeNode | None) -> int:
+    """The number of decisions inside each other, not counting those that follow in an `else`."""
+    deepest, pending = 0, [(node, 0)]
+    while pending:
+        current, depth = pending.pop()
+        match current:
+            case tree.BlockNode(inner=inner):
+                pending.append((inner, depth))
+            case tree.IfNode():
+                deepest = max(deepest, depth + 1)
+                pending += [(current.then, depth + 1), (current.otherwise, depth)]
+    return deepest
 
 
 def _join_docs(first: str, second: str) -> str:

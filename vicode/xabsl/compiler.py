@@ -7,6 +7,7 @@ from vicode.findings import Finding, Severity, did_you_mean, sort_findings
 from vicode.xabsl import tree
 from vicode.xabsl.checks import check_semantics
 from vicode.xabsl.engine.program import CompiledOption, CompiledState, Program, Term, TypedSlot
+from vicode.xabsl.engine.recursion import allow_calls
 from vicode.xabsl.engine.symbols import BasicBehavior, RobotSymbol, SymbolList
 from vicode.xabsl.expression_compiler import ExpressionCompiler
 from vicode.xabsl.lexer import Tokens
@@ -39,6 +40,7 @@ def compile_source(source: ProgramSource) -> CompileResult:
                 options.append(_OptionCompiler(table, report, parsed.tokens, item).compile())
             elif isinstance(item, tree.AgentNode):
                 agents.append((item.name.text, _resolve_root(item, table, report, parsed.tokens)))
+    allow_calls(len(options))
     check_semantics(source, table, report)
     findings = sort_findings([*source.findings, *report.findings])
     is_sound = not any(finding.severity is Severity.ERROR for finding in findings)

@@ -3,12 +3,13 @@
 from collections.abc import Collection
 
 from vicode.findings import Finding, did_you_mean, get_rule
+from vicode.xabsl.engine.recursion import depth_limit
 from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.tokens import DOC, END, HEADER, KEYWORDS, NAME
 from vicode.xabsl.tree import NameNode
 
-MAX_DEPTH = 120
-"""Limit of nesting. The functions that read and traverse the tree are recursive."""
+_MAX_DEPTH, _FRAMES_PER_LEVEL = 1200, 8
+"""Limit of nesting. The functions that read and traverse the tree are recursive: see `depth_limit`."""
 
 _RESUME_KINDS = (KEYWORDS | {"}", DOC, END}) - {"true", "false"}
 
@@ -20,7 +21,7 @@ class XabslSyntaxError(Exception):
 class TokenCursor:
     """Reads the tokens of a file in order. `kind` is the kind of the next token, `position` its number."""
 
-    __slots__ = ("depth", "findings", "kind", "kinds", "position", "tokens")
+    __slots__ = ("depth", "findings", "kind", "kinds", "max_depth", "position", "tokens")
 
     def __init__(self, tokens: Tokens) -> None:
         self.tokens = tokens
@@ -28,6 +29,7 @@ class TokenCursor:
         self.position = 0
         self.kind = self.kinds[0]
         self.depth = 0
+        self.max_depth = depth_limit(_MAX_DEPTH, _FRAMES_PER_LEVEL)
         self.findings: list[Finding] = []
 
     def advance(self) -> int:
@@ -91,11 +93,12 @@ class TokenCursor:
         """Count one more level of nesting; the caller decreases `depth`.
 
         Raises:
-            XabslSyntaxError: The nesting is deeper than `MAX_DEPTH`.
+            XabslSyntaxError: The nesting is deeper than `max_depth`.
         """
         self.depth += 1
-        if self.depth > MAX_DEPTH:
-            self.add_finding("X604", f"nested deeper than {MAX_DEPTH} levels", "move parts of it into separate options")
+        if self.depth > self.max_depth:
+            message = f"nested deeper than {self.max_depth} levels"
+            self.add_finding("X604", message, "move parts of it into separate options")
             raise XabslSyntaxError
 
     def add_finding(self, code: str, message: str, fix: str = "", token: int = -1) -> None:

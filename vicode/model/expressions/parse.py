@@ -4,6 +4,7 @@ The syntax is parsed with the Python parser and then restricted to a subset. Not
 """
 
 import ast
+import sys
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -14,7 +15,7 @@ from vicode.model.expressions.tree import Expr
 from vicode.model.python_parser import parse_single_expression
 
 MAX_LENGTH = 10_000
-MAX_DEPTH = 60
+_MAX_DEPTH, _FRAMES_PER_LEVEL = 1000, 16
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,7 +81,8 @@ def _parse_syntax(text: str) -> tuple[ast.expr | None, ExpressionDiagnostic | No
     except (ValueError, RecursionError, MemoryError):
         return None, _not_an_expression("the expression is nested too deeply", (0, len(text)))
     # Each level has at least one character.
-    if len(text) + 2 > MAX_DEPTH and _is_too_deep(parsed):
+    max_depth = min(_MAX_DEPTH, sys.getrecursionlimit() // _FRAMES_PER_LEVEL)
+    if len(text) + 2 > max_depth and _is_too_deep(parsed, max_depth):
         return None, _not_an_expression("the expression is nested too deeply", (0, len(text)))
     return parsed, None
 
@@ -96,9 +98,9 @@ def _not_an_expression(
     return ExpressionDiagnostic(rule=get_rule("E301"), message=message, fix=fix, span=span)
 
 
-def _is_too_deep(root: ast.expr) -> bool:
+def _is_too_deep(root: ast.expr, max_depth: int) -> bool:
     level: list[ast.AST] = [root]
-    for _depth in range(MAX_DEPTH):
+    for _depth in range(max_depth):
         level = [child for node in level for child in ast.iter_child_nodes(node)]
         if not level:
             return False

@@ -27,7 +27,7 @@ SUPPORTED_FUNCTIONS = frozenset(
 """The functions that can be expanded in XABSL."""
 
 UNSUPPORTED, DIFFERENT_RESULT = "L701", "L702"
-MAX_SIZE = 1000
+MAX_SIZE = 4000
 """Maximum number of nodes of an expanded expression."""
 
 

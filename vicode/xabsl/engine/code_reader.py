@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 
 from .program import CompiledOption, CompiledState, Program, Term, TypedSlot
+from .recursion import depth_limit
 
-MAX_DEPTH = 150
+_MAX_DEPTH, _FRAMES_PER_LEVEL = 2500, 4
 _BINARY = {"d": frozenset("+-*d%"), "b": frozenset("=n<l>g")}
 _KINDS = ("d", "b", "e")
 
@@ -20,6 +21,7 @@ class _WordReader:
         lines = (line for line in text.splitlines() if not line.lstrip().startswith("//"))
         self.words: Iterator[str] = iter(" ".join(lines).split())
         self.number = 0
+        self.max_depth = depth_limit(_MAX_DEPTH, _FRAMES_PER_LEVEL)
 
     def next(self) -> str:
         self.number += 1
@@ -112,14 +114,14 @@ def _tree(words: _WordReader, depth: int) -> Term:
     letter = words.next()
     if letter == "t":
         return ("t", words.next())
-    if letter != "i" or depth > MAX_DEPTH:
+    if letter != "i" or depth > words.max_depth:
         raise words.error(f"expected a decision, found {letter[:40]}" if letter != "i" else "nested too deeply")
     return ("i", _value(words, "b", depth), _tree(words, depth + 1), _tree(words, depth + 1))
 
 
 def _value(words: _WordReader, kind: str, depth: int) -> Term:
     letter = words.next()
-    if depth > MAX_DEPTH:
+    if depth > words.max_depth:
         raise words.error("nested too deeply")
     depth += 1
     if letter in "op" and len(letter) == 1:

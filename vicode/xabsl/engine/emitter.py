@@ -12,6 +12,9 @@ from .program import CompiledOption, CompiledState, Program, Term, TypedSlot
 _MAX_DEPTH = 30
 """Deeper decisions are moved to separate functions, because Python limits the depth of indentation."""
 
+_MAX_BRANCHES = 200
+"""Longer chains of branches are continued in separate functions: Python compiles each one inside the previous one."""
+
 
 @dataclass(frozen=True, slots=True)
 class BehaviorBinding:
@@ -120,9 +123,10 @@ class _StateEmitter:
             option_time,
             self._action_done(),
             self._conflict(),
+            self._to_function,
         )
         # On entry state_time is 0; action_done still refers to the last execution of the callees.
-        self.entering = TermEmitter(*common, "0", option_time, self._action_done(), self._conflict())
+        self.entering = TermEmitter(*common, "0", option_time, self._action_done(), self._conflict(), self._to_function)
 
     def lines(self) -> list[str]:
         """Emit both functions, preceded by helper functions for deep decisions."""
@@ -170,8 +174,13 @@ class _StateEmitter:
         if depth > _MAX_DEPTH:
             yield from (f"{pad}{line}" for line in self._helper(tree, goto))
             return
-        keyword = "if"
+        keyword, branches = "if", 0
         while tree[0] == "i":
+            branches += 1
+            if branches > _MAX_BRANCHES:
+                yield f"{pad}else:"
+                yield from (f"{pad}    {line}" for line in self._helper(tree, goto))
+                return
             condition, then, last = tree[1], tree[2], tree[3]
             yield f"{pad}{keyword} {_strip_parentheses(self.deciding.emit(condition, 'b'))}:"
             yield from self._branch(then, depth + 1, goto)
@@ -201,6 +210,11 @@ class _StateEmitter:
         self.helpers[index] = "\n".join([f"def {name}(now, cycle):", *body])
         is_inner = goto.endswith("True")
         return [f"if {name}(now, cycle):", "    return True" if is_inner else "    return"]
+
+    def _to_function(self, text: str) -> str:
+        name = f"x{self.name}_{len(self.helpers)}"
+        self.helpers.append(f"def {name}(now, cycle):\n    return {text}")
+        return f"{name}(now, cycle)"
 
     def _actions(self, terms: TermEmitter) -> Iterator[str]:
         for action in self.state.actions:

@@ -11,6 +11,7 @@ from .arithmetic import divide, remainder
 from .emitter import PythonEmitter
 from .linker import NEVER, BehaviorRecord, WorldLinker
 from .program import Program
+from .recursion import allow_calls
 from .symbols import SymbolList
 from .team import CapacityState, CoopMessage, CoopState, StrictSynchronizedState, SynchronizedState, TeamSettings
 from .validation import LoadError, check_loops, check_structure, check_symbols, select_used_symbols, used_symbols
@@ -83,6 +84,7 @@ class Engine:
         strict: bool = False,
         traced: bool = False,
     ) -> None:
+        allow_calls(len(program.options))
         self.program, self.world, self.clock = program, world, clock
         self.symbols = select_used_symbols(symbols, program) if symbols is not None else used_symbols(program)
         self.errors: list[str] = []

@@ -23,6 +23,9 @@ _INFIX = {
     "&": "and",
     "|": "or",
 }
+_CHAINS = ("+-", "*")
+_MAX_NESTING = 60
+"""Python reads at most 200 nested parentheses; deeper expressions are moved to functions."""
 TIME_MASK = "0xFFFFFFFF"
 """Times are integer milliseconds that wrap around after 32 bits, as in the original."""
 
@@ -55,9 +58,15 @@ class TermEmitter:
     option_time: str = "0"
     action_done: str = "False"
     conflict: str = "False"
+    to_function: Callable[[str], str] = str
+    """Moves an expression to a function and returns the call."""
 
     def emit(self, term: Term, kind: str) -> str:
         """Emit a term of this kind, in parentheses where necessary."""
+        text = self._emit(term, kind)
+        return self.to_function(text) if len(text) > 2 * _MAX_NESTING and _nesting(text) > _MAX_NESTING else text
+
+    def _emit(self, term: Term, kind: str) -> str:
         letter = term[0]
         match letter:
             case "v":
@@ -113,7 +122,16 @@ class TermEmitter:
                 return f"divide({self.emit(term[1], 'd')}, {self.emit(divisor, 'd')})"
             case "%":
                 return f"remainder({self.emit(term[1], 'd')}, {self.emit(term[2], 'd')})"
-        return f"({self.emit(term[1], 'd')} {_INFIX[term[0]]} {self.emit(term[2], 'd')})"
+        return self._chain(term)
+
+    def _chain(self, term: Term) -> str:
+        """Emit a chain of operators that Python evaluates from the left as well, without parentheses and recursion."""
+        operators = next(group for group in _CHAINS if term[0] in group)
+        operands: list[str] = []
+        while term[0] in operators:
+            operands.append(f" {_INFIX[term[0]]} {self.emit(term[2], 'd')}")
+            term = term[1]
+        return f"({self.emit(term, 'd')}{''.join(reversed(operands))})"
 
     def _boolean(self, term: Term) -> str:
         match term[0]:
@@ -127,6 +145,18 @@ class TermEmitter:
                 return f"({f' {_INFIX[term[0]]} '.join(self.emit(operand, 'b') for operand in term[1:])})"
         kind = "e" if term[0] == "c" else "d"
         return f"({self.emit(term[1], kind)} {_INFIX[term[0]]} {self.emit(term[2], kind)})"
+
+
+def _nesting(text: str) -> int:
+    """The greatest number of open parentheses in a text."""
+    depth = deepest = 0
+    for character in text:
+        if character == "(":
+            depth += 1
+            deepest = max(deepest, depth)
+        elif character == ")":
+            depth -= 1
+    return deepest
 
 
 def _number(value: float | bool) -> str:
