@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from vicode.cli.console import print_findings
+from vicode.cli.edit import port_number
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -38,7 +39,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--watch", action="store_true", help="serve the site on this machine and rebuild it after every change"
     )
-    parser.add_argument("--port", type=int, default=0, help="with --watch: port to listen on (default: a free port)")
+    parser.add_argument(
+        "--port", type=port_number, default=0, help="with --watch: port to listen on (default: a free port)"
+    )
     parser.add_argument("--no-open", action="store_true", help="with --watch: do not open a browser")
 
 

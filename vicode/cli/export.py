@@ -28,6 +28,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the file; return 1 if the design cannot be read or a state does not exist."""
+    if Path(args.file).is_dir():
+        print(f"vicode: {args.file} is a folder; name one design file in it", file=sys.stderr)
+        return 2
     design = _read(Path(args.file))
     if design is None:
         return 1

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from vicode.bica import options
 from vicode.cli.console import print_findings
+from vicode.cli.edit import port_number
 
 if TYPE_CHECKING:
     from vicode.simulated_robot.session import SimulationSession
@@ -29,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--robots", type=options.count, default=1, metavar="N", help="number of robots (default: 1)")
     add("--host", default="127.0.0.1", metavar="HOST", help="where the bridge runs (default: %(default)s)")
-    add("--port", type=int, default=7001, metavar="P", help="its port (default: %(default)s)")
+    add("--port", type=port_number, default=7001, metavar="P", help="its port (default: %(default)s)")
     add("--token", default="", metavar="TEXT", help="its token, if it has one")
     add("--behavior", default="", metavar="NAME", help="design or agent that drives the robots (default: the bridge's)")
     add("--seed", type=int, default=1, metavar="N", help="seed of start poses and noise (default: %(default)s)")

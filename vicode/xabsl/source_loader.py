@@ -16,6 +16,8 @@ _EXTENSIONS = (".xabsl", ".yabsl")
 _UNDEFINED = (0x81, 0x8D, 0x8F, 0x90, 0x9D)
 _WINDOWS_1252 = {byte: bytes([byte]).decode("cp1252") for byte in range(0x80, 0xA0) if byte not in _UNDEFINED}
 """The characters of Windows-1252 by their bytes, where it differs from latin-1."""
+_UTF16_MARKS = ("ÿþ", "þÿ")
+"""The byte order marks of UTF-16, read as Windows-1252."""
 
 
 _AGENT = re.compile(r"^[ \t]*agent\s+\w+\s*\(", re.MULTILINE)
@@ -145,15 +147,22 @@ def _read(source: ProgramSource, path: Path, location: SourceLocation | None, sh
     if path in source.files:
         return None
     if path.suffix.lower() not in _EXTENSIONS:
-        _add_finding(source, location, "X607", f"{shown} does not end in .xabsl", "rename the file", shown=shown)
+        _add_finding(
+            source, location, "X607", f"{shown} does not end in .xabsl", "rename the file", shown=source.main.name
+        )
         return None
     try:
-        return read(path)
+        text = read(path)
     except OSError as error:
         fix = did_you_mean(path.name, _sibling_files(path), "check the path, which is relative to the including file")
         reason = error.strerror or type(error).__name__
-        _add_finding(source, location, "X606", f"{shown} cannot be read: {reason}", fix, shown=shown)
+        _add_finding(source, location, "X606", f"{shown} cannot be read: {reason}", fix, shown=source.main.name)
         return None
+    if text.startswith(_UTF16_MARKS) and "\0" in text:
+        message = f"{shown} is encoded in UTF-16"
+        _add_finding(source, location, "X601", message, "save it as UTF-8", shown=source.main.name)
+        return None
+    return text
 
 
 def _parse(source: ProgramSource, path: Path, text: str, parse_text: ParseText) -> ParsedFile:
