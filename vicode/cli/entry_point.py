@@ -47,9 +47,10 @@ _ASCII = {"→": "->", "…": "...", "×": "x", "–": "-", "·": "-"}
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
     _make_streams_lenient()
-    # Trees of decisions and expressions are read and written recursively; their depth is limited where they are read.
-    sys.setrecursionlimit(max(_RECURSION_LIMIT, sys.getrecursionlimit()))
     words = sys.argv[1:] if arguments is None else arguments
+    if arguments is None:
+        # Decisions and expressions are read and written recursively; their depth is limited where they are read.
+        sys.setrecursionlimit(max(_RECURSION_LIMIT, sys.getrecursionlimit()))
     # A command is parsed without the modules of the others, which are slow to import.
     parsed = _make_parser(words[:1] if words and words[0] in COMMANDS else COMMANDS).parse_args(words)
     if arguments is None and words[0] in _BATCH_COMMANDS:
