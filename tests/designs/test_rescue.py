@@ -1,6 +1,7 @@
 """The rescue robot of the thesis turns in its circle, and finds through the corridor."""
 
 import pytest
+from arena.bridge import RescueWorld
 from arena.world import Corridor
 from rescue.drive_circle import drive_circle
 from rescue.walk_corridor import walk_corridor
@@ -42,3 +43,26 @@ def test_the_robot_finds_through_the_corridor(seed: int) -> None:
 def test_nothing_is_sensed_that_is_not_there() -> None:
     with pytest.raises(AttributeError):
         _ = Corridor().laser_min_south
+
+
+def test_a_robot_without_distances_stands() -> None:
+    world = RescueWorld()
+
+    def drive_until(end: int, laser: bytes = b"") -> None:
+        while root.iteration < end:
+            clock.advance(PERIOD_NS)
+            if laser:
+                world.bridge.receive("LASER", laser, clock.now_ns())
+            world.bridge.begin_tick(clock.now_ns(), clock.now_ns())
+            root.step()
+            world.bridge.commands.end_tick(clock.now_ns())
+            commands.append(world.bridge.commands.take().get("DIFFERENTIALDRIVE"))
+
+    clock, commands = SimulatedClock(), list[object]()
+    with Root(walk_corridor, clock=clock, world=world, on_error="stop") as root:
+        drive_until(5)
+        assert commands == [(0, 0), None, None, None, None]
+        drive_until(12, b"1,1,1,5,1,1,1")
+        assert (0.4, 0) in commands
+        drive_until(20)
+        assert [each for each in commands if each][-1] == (0, 0)

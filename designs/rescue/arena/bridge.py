@@ -21,6 +21,7 @@ class RescueWorld(World):
         self._turned = 0.0
         self._yaw: float | None = None
         self._free_at = 0.0
+        self._reads_laser = False
 
     def advance(self, _now_ns: int) -> None:
         """Add the last change of heading, the short way round: from 179 to -179 degrees it is 2, not -358."""
@@ -38,6 +39,7 @@ class RescueWorld(World):
     @cached_per_tick
     def least_distances(self) -> dict[str, float]:
         """The least distance in each region."""
+        self._reads_laser = True
         laser, last = self.laser, len(REGIONS) - 1
         # The regions begin at the left, the distances at the right.
         edges = [round(number * (len(laser) - 1) / len(REGIONS)) for number in range(len(REGIONS) + 1)]
@@ -56,7 +58,10 @@ class RescueWorld(World):
         return max(self.least_distances.values())
 
     def differential_drive(self, *, speed: float, turning_speed: float) -> None:
-        if self.time >= self._free_at:
+        """Drive; a robot that steers by its laser stands while the distances are stale."""
+        if self._reads_laser and self.laser_is_stale:
+            self.drive(0.0, 0.0)
+        elif self.time >= self._free_at:
             self.drive(speed, turning_speed)
 
     def wait(self, *, time: float) -> None:
