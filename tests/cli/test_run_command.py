@@ -137,3 +137,8 @@ def test_a_class_that_differs_from_its_declaration_does_not_start(
 def test_control_needs_viewers(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert vicode("run", "lamps/lamp.yaml", "--control") == 2
     assert "--control has no effect without --watch" in capsys.readouterr().err
+
+
+def test_a_world_of_the_bridge_is_not_run_alone(capsys: pytest.CaptureFixture[str]) -> None:
+    assert vicode("run", f"{HOME}/designs/meeting/meet.yaml") == 2
+    assert "meet needs the world of a bridge; start it with: vicode bridge" in capsys.readouterr().err

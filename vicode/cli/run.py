@@ -16,6 +16,7 @@ from vicode.cli.root_selection import select_root
 
 if TYPE_CHECKING:
     from vicode.cli.trace_output import TracePrinter
+    from vicode.model.project import Project
 
 _DEFAULT_SECONDS = 60.0
 
@@ -67,6 +68,12 @@ def run(args: argparse.Namespace) -> int:
     if isinstance(selected, int):
         return selected
     opened, component = selected
+    if not args.world and _needs_bridge(opened.open_project.project, component):
+        print(
+            f"vicode: {component} needs the world of a bridge; start it with: vicode bridge {args.path}",
+            file=sys.stderr,
+        )
+        return 2
     with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
         class_path = generate_for_run(opened, component, Path(folder))
         if args.reload:
@@ -80,6 +87,17 @@ def run(args: argparse.Namespace) -> int:
             return _run_process(
                 _command(opened, (component, class_path), folder, args), is_plain=True, kept=(descriptor,)
             )
+
+
+def _needs_bridge(project: "Project", component: str) -> bool:
+    """Whether a component uses the world, and the project has one only for robots that connect."""
+    if project.world or not project.bridge.world:
+        return False
+    from vicode.generators import collect_components
+
+    designs = (project.design(name) for name in collect_components(project, {component}))
+    used = (project.interface(use.component) for design in designs if design for use in design.uses)
+    return any(interface and interface.implementation == "world" for interface in used)
 
 
 @contextlib.contextmanager
