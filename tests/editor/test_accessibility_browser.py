@@ -28,8 +28,12 @@ def complaints(page: Page, within: str | None = None) -> list[str]:
 def tabs(page: Page) -> Iterator[str]:
     """Every tab of the page in turn, opened."""
     for name in page.get_by_role("tab").all_inner_texts():
-        page.get_by_role("tab", name=name.strip(), exact=True).click()
-        expect(page.get_by_role("tab", name=name.strip(), exact=True)).to_have_attribute("aria-selected", "true")
+        tab = page.get_by_role("tab", name=name.strip(), exact=True)
+        # Tabs of the inspector are gone when another tab shows another element.
+        if not tab.is_visible():
+            continue
+        tab.click()
+        expect(tab).to_have_attribute("aria-selected", "true")
         yield name
 
 

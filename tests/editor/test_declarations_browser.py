@@ -1,5 +1,6 @@
 """What a design declares, in a browser: new names reach all that says them, in this design and in others."""
 
+import re
 from pathlib import Path
 
 from playwright.sync_api import Locator, Page, expect
@@ -23,7 +24,9 @@ def name_of(page: Page, group: str) -> Locator:
 
 def test_a_new_name_of_a_variable_is_one_step(editor: str, page: Page, project: Path) -> None:
     file = project / "forward" / "player.yaml"
-    before = file.read_text()
+    # A plain name in C++ may mean anything, and a dialog lists it.
+    before = re.sub(r"std::printf\(.*", "static_cast<void>(bearing);", file.read_text())
+    file.write_text(before)
     open_design(page, editor, "Player")
     name_of(page, "variable kick").fill("shot at")
     page.keyboard.press("Enter")

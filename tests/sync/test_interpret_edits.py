@@ -112,17 +112,17 @@ UNDERSTOOD = {
         ("ball at rest", "ball lies still"),
         "description of WatchBall → FollowBall: ball lies still",
     ),
-    "import": (("from typing import", "import math\nfrom typing import"), "module code: import math"),
+    "import": (("from typing import", "import math\nfrom typing import"), "module code: python: import math …"),
     "method": (
         (
             "        self._call(self.stand_up)\n",
             "        self._call(self.stand_up)\n\n    def helper(self) -> int:\n        return 3\n",
         ),
-        "class code: def helper(self) -> int: …",
+        "class code: python: def helper(self) -> int: …",
     ),
     "method between methods": (
         ("    def _in_kick(", "    def helper(self) -> int:\n        return 3\n\n    def _in_kick("),
-        "class code: def helper(self) -> int: …",
+        "class code: python: def helper(self) -> int: …",
     ),
     "constant of the module": (
         ("# </vicode>\n\n\nclass", "# </vicode>\nLIMIT = 3\n\n\nclass"),

@@ -41,6 +41,7 @@ def test_each_kind_of_element_has_its_menu(sketch: EditorDriver) -> None:
 
 
 def test_a_long_menu_is_shown_whole_over_the_panel_below(sketch: EditorDriver) -> None:
+    tab = sketch.page.locator('[role="tab"][aria-selected="true"]').first.inner_text().strip()
     sketch.page.set_viewport_size({"width": 1366, "height": 600})
     sketch.page.get_by_role("tab", name="Simulate").click()
     sketch.click(sketch.state("Go"), right=True)
@@ -48,6 +49,9 @@ def test_a_long_menu_is_shown_whole_over_the_panel_below(sketch: EditorDriver) -
     assert sketch.menu().evaluate("menu => menu.scrollHeight <= menu.clientHeight")
     sketch.choose("Toggle breakpoint")
     expect(sketch.menu()).to_be_hidden()
+    # The page is used by the next tests.
+    sketch.page.get_by_role("tab", name=tab, exact=True).click()
+    sketch.page.set_viewport_size({"width": 1366, "height": 768})
 
 
 def test_a_menu_works_by_keys_alone(sketch: EditorDriver) -> None:
