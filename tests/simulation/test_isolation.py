@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -110,6 +111,16 @@ def test_the_exit_code_is_that_of_the_program(tmp_path: Path, *, is_isolated: bo
     for code, expected in (("raise SystemExit(3)", 3), ("import os; os.abort()", -signal.SIGABRT)):
         with start(code, is_isolated=is_isolated, folder=tmp_path) as process:
             assert process.wait() == expected
+
+
+@isolated
+@pytest.mark.parametrize("code", [0, 3])
+def test_the_files_of_a_failed_program_stay(tmp_path: Path, code: int, *, is_isolated: bool) -> None:
+    temporary = make_temporary()
+    command = [sys.executable, "-c", f"raise SystemExit({code})"]
+    subprocess.run(launch_command(command, (), temporary, is_isolated=is_isolated), cwd=tmp_path, check=False)
+    assert temporary.exists() == bool(code)
+    shutil.rmtree(temporary, ignore_errors=True)
 
 
 def test_the_sandbox_contains_only_what_was_given(tmp_path: Path) -> None:

@@ -48,7 +48,8 @@ def launch_command(command: list[str], readable: tuple[str, ...], temporary: Pat
     Args:
         command: the program with its arguments.
         readable: the folders that an isolated program may read, besides Python.
-        temporary: the folder of `make_temporary`: it may write to `files`; removed when the program is terminated.
+        temporary: the folder of `make_temporary`: it may write to `files`; removed unless
+            the program fails.
         is_isolated: whether it runs in a sandbox.
     """
     paths = sorted({os.path.realpath(path) for path in (*readable, *_python_folders())} | {*readable})

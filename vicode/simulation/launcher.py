@@ -80,8 +80,9 @@ def main() -> int:
         # Only the program may hold the pipes, so that their ends are seen.
         os.dup2(os.open(os.devnull, os.O_RDWR), descriptor)
     status = _wait_for(child)
-    if os.getppid() != editor:
-        _end(config, 1)
+    # After an orderly end the files are not needed. The program may notice the end of the editor before this process.
+    if status == 0 or os.getppid() != editor:
+        _end(config, 0 if status == 0 else 1)
     _kill_descendants()
     return _exit_like(status)
 

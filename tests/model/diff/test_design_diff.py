@@ -22,7 +22,7 @@ from vicode.model.design import (
 )
 from vicode.model.diff import ChangeKind, describe_change, diff_designs, diff_projects
 from vicode.model.edits import add_state, remove_states, rename_state, rename_use, update_state
-from vicode.model.project import Enumeration, Interface, Project
+from vicode.model.project import BridgeSettings, Enumeration, Interface, Profile, ProfileClass, Project, RemoteReference
 
 BASE = Design(
     component="Player",
@@ -158,6 +158,26 @@ def test_declarations_of_a_project() -> None:
         "~ description of element Side.left: (none) → the left",
         "+ constant speed: 3 m/s",
         "~ unit of output angle of Head: (none) → rad",
+    ]
+
+
+def test_profiles_and_the_bridge_are_compared() -> None:
+    camera = ProfileClass(component="Camera", implementation="sim:Camera")
+    sim = Profile(name="sim", world="field:Field", components=(camera,))
+    old = Project(name="p", profiles=(sim, Profile(name="lab")))
+    remote = RemoteReference(component="Camera", remote="head/Camera")
+    slow = replace(remote, reliable=True, max_age=0.5)
+    new = replace(old, profiles=(replace(sim, world="", components=(remote,)),), bridge=BridgeSettings(port=7001))
+    assert [describe_change(change) for change in diff_projects(old, new)] == [
+        "- profile lab",
+        "~ world of profile sim: field:Field → (none)",
+        "~ profile sim, component Camera: sim:Camera → head/Camera",
+        "~ port of bridge: (none) → 7001",
+    ]
+    slower = replace(new, profiles=(replace(sim, world="", components=(slow,)),))
+    assert [describe_change(change) for change in diff_projects(new, slower)] == [
+        "~ reliable of profile sim, component Camera: (none) → yes",
+        "~ longest age of profile sim, component Camera: (none) → 0.5",
     ]
 
 

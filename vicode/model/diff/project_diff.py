@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from vicode.findings import DesignPath
 from vicode.model.diff.changes import Change, ChangeKind, describe_value
 from vicode.model.diff.item_diff import diff_attributes, diff_declarations, diff_keyed
-from vicode.model.project import Agent, Enumeration, Interface, Project
+from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, Project, RemoteReference
 
 _PROJECT_ATTRIBUTES = {
     "name": "project name",
@@ -26,6 +26,12 @@ _INTERFACE_ATTRIBUTES = {
     "xabsl_name": "XABSL name",
     "implementation": "implementation",
     "frequency_hz": "frequency",
+}
+_BRIDGE_ATTRIBUTES = {"world": "world", "tick_ms": "tick", "port": "port"}
+_REMOTE_ATTRIBUTES = {
+    "remote": "remote component",
+    "reliable": "reliable",
+    "max_age": "longest age",
 }
 _AGENT_ATTRIBUTES = {"root": "root", "title": "title", "doc": "description", "xabsl_name": "XABSL name"}
 
@@ -62,6 +68,15 @@ def _diff_content(old: Project, new: Project) -> Iterator[Change]:
         content=lambda agent: str(agent.root),
         compare=_diff_agent,
     )
+    yield from diff_keyed(
+        ("profiles",),
+        old.profiles,
+        new.profiles,
+        subject=lambda profile: f"profile {profile.name}",
+        content=lambda profile: str(profile.world),
+        compare=_diff_profile,
+    )
+    yield from diff_attributes(("bridge",), "bridge", old.bridge, new.bridge, _BRIDGE_ATTRIBUTES)
 
 
 def _enumeration_subject(enumeration: Enumeration) -> str:
@@ -104,3 +119,37 @@ def _diff_interface(path: DesignPath, old: Interface, new: Interface) -> Iterato
 
 def _diff_agent(path: DesignPath, old: Agent, new: Agent) -> Iterator[Change]:
     return diff_attributes(path, f"agent {new.name}", old, new, _AGENT_ATTRIBUTES)
+
+
+def _diff_profile(path: DesignPath, old: Profile, new: Profile) -> Iterator[Change]:
+    yield from diff_attributes(path, f"profile {new.name}", old, new, {"world": "world"})
+    yield from diff_keyed(
+        (*path, "components"),
+        old.components,
+        new.components,
+        subject=lambda replacement: f"profile {new.name}, component {replacement.component}",
+        content=_describe_replacement,
+        compare=lambda here, before, after: _diff_replacement(here, new.name, before, after),
+    )
+
+
+def _describe_replacement(replacement: ProfileClass | RemoteReference) -> str:
+    return replacement.implementation if isinstance(replacement, ProfileClass) else replacement.remote
+
+
+def _diff_replacement(
+    path: DesignPath, profile: str, old: ProfileClass | RemoteReference, new: ProfileClass | RemoteReference
+) -> Iterator[Change]:
+    subject = f"profile {profile}, component {new.component}"
+    if type(old) is not type(new):
+        yield Change(
+            kind=ChangeKind.CHANGED,
+            subject=subject,
+            path=path,
+            old=_describe_replacement(old),
+            new=_describe_replacement(new),
+        )
+    elif isinstance(new, ProfileClass):
+        yield from diff_attributes(path, subject, old, new, {"implementation": "class"})
+    else:
+        yield from diff_attributes(path, subject, old, new, _REMOTE_ATTRIBUTES)

@@ -8,7 +8,7 @@ from typing import Any
 
 from vicode.model.decisions import retarget
 from vicode.model.design import Call, Declaration, Design, DiagramFrame, DiagramNote, State, Transition, Use
-from vicode.model.project import Agent, Enumeration, Interface
+from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, RemoteReference
 
 Matches = dict[int, int]
 """Maps indices of the old list to indices of the new list."""
@@ -31,9 +31,9 @@ def item_key(item: Any) -> Hashable:
             return name
         case Use(alias=alias) | Call(alias=alias):
             return alias
-        case Enumeration(name=name) | Agent(name=name):
+        case Enumeration(name=name) | Agent(name=name) | Profile(name=name):
             return name
-        case Interface(component=component):
+        case Interface(component=component) | ProfileClass(component=component) | RemoteReference(component=component):
             return component
         case (name, _text):
             return str(name)
