@@ -118,7 +118,9 @@ def test_the_exit_code_is_that_of_the_program(tmp_path: Path, *, is_isolated: bo
 def test_the_files_of_a_failed_program_stay(tmp_path: Path, code: int, *, is_isolated: bool) -> None:
     temporary = make_temporary()
     command = [sys.executable, "-c", f"raise SystemExit({code})"]
-    subprocess.run(launch_command(command, (), temporary, is_isolated=is_isolated), cwd=tmp_path, check=False)
+    subprocess.run(
+        launch_command(command, (str(tmp_path),), temporary, is_isolated=is_isolated), cwd=tmp_path, check=False
+    )
     assert temporary.exists() == bool(code)
     shutil.rmtree(temporary, ignore_errors=True)
 
