@@ -9,6 +9,7 @@ from pathlib import Path
 from vicode.findings import Finding, Severity, render_text
 
 _MAX_BYTES = 2_000_000
+_XABSL_SUFFIXES = (".xabsl", ".yabsl")
 _COLOURS = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 
 
@@ -64,8 +65,21 @@ def _read_lines(file: str) -> tuple[str, ...]:
         if not path.is_file():
             return ()
         with path.open("rb") as stream:
-            text = stream.read(_MAX_BYTES).decode(errors="replace")
+            content = stream.read(_MAX_BYTES)
     except OSError:
         return ()
-    # The same line ends as the YAML reader; `splitlines` has more.
-    return tuple(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))
+    # Old behaviors are in Windows-1252, one byte per character: columns stay right.
+    text = content.decode(errors="replace") if _is_utf8(content) else content.decode("cp1252", errors="replace")
+    # The same line ends as the readers: XABSL has only line feeds, and `splitlines` has more than YAML.
+    if path.suffix not in _XABSL_SUFFIXES:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return tuple(text.split("\n"))
+
+
+def _is_utf8(content: bytes) -> bool:
+    try:
+        content.decode()
+    except UnicodeDecodeError as error:
+        # The limit may cut a character.
+        return error.start > _MAX_BYTES - 4
+    return True
