@@ -1,6 +1,7 @@
 """The engine with custom worlds: behavior that the traces of the original engine do not cover."""
 
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -23,7 +24,7 @@ from vicode.xabsl.engine import (
     read_code,
     read_symbols,
 )
-from vicode.xabsl.engine.replay import read_rows, replay_team
+from vicode.xabsl.engine.replay import ReplayError, read_rows, replay, replay_team
 
 SYMBOLS = """namespace symbols("Symbols") {
   enum side { left, right };
@@ -315,3 +316,22 @@ def test_names_in_the_code_are_never_executed() -> None:
 def test_invalid_symbol_lists_are_rejected(text: str) -> None:
     with pytest.raises(SymbolListError, match="line 1: "):
         read_symbols(text)
+
+
+@pytest.mark.parametrize(
+    ("column", "message"),
+    [
+        ("ball.seen", "column ball.seen is for none of the robots 0 to 1; name it 0:ball.seen"),
+        ("2:ball.seen", "column 2:ball.seen is for none of the robots 0 to 1; name it 0:ball.seen"),
+    ],
+)
+def test_columns_of_a_team_name_a_robot(column: str, message: str) -> None:
+    program, symbols = compiled(COOPERATIVE)
+    with pytest.raises(ReplayError, match=f"^{re.escape(message)}$"):
+        list(replay_team(program, symbols, read_rows([f"time,{column}", "0,1"]), 2, 0))
+
+
+def test_columns_of_a_team_need_a_team() -> None:
+    program, symbols = compiled(COOPERATIVE)
+    with pytest.raises(ReplayError, match="add --team"):
+        list(replay(program, symbols, read_rows(["time,0:ball.seen", "0,1"])))

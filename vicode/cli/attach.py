@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vicode.cli.edit import port_number
+from vicode.cli.ports import port_number
 
 if TYPE_CHECKING:
     from vicode.simulation.robots import Hello, RobotAddress, SocketTransport

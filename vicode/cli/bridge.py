@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from vicode.bica import options
 from vicode.cli.bridge_behaviors import LoadedBehaviors, load_behaviors, load_world
+from vicode.cli.ports import port_number
 
 if TYPE_CHECKING:
     from vicode.bridge import World
@@ -25,7 +26,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("path", metavar="PATH", help="a design, a folder with a project, or an XABSL file with agents")
     add("--behavior", metavar="NAME", default="", help="the behavior of robots that choose none")
-    add("--port", type=_port, metavar="N", help="port; 0 selects a free one (default: that of project.yaml, or 7001)")
+    add(
+        "--port",
+        type=port_number,
+        metavar="N",
+        help="port; 0 for a free one (default: that of project.yaml, or 7001)",
+    )
     add("--host", metavar="ADDRESS", default="127.0.0.1", help="address to listen at (default: %(default)s)")
     add("--token", metavar="TEXT", help="what robots must send first (default: VICODE_BRIDGE_TOKEN, or none)")
     add("--cert", metavar="FILE", type=Path, help="certificate in PEM format: robots connect with TLS")
@@ -151,10 +157,3 @@ def _load_certificate(args: argparse.Namespace) -> ssl.SSLContext | None:
     except ssl.SSLError as error:
         raise OSError(f"{args.cert} is no certificate in PEM format, or not that of the key: {error.reason}") from None
     return context
-
-
-def _port(text: str) -> int:
-    number = int(text)
-    if not 0 <= number < 65_536:
-        raise argparse.ArgumentTypeError(f"{text} is no port; write a number from 0 to 65535")
-    return number

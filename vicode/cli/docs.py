@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from vicode.cli.console import print_findings
-from vicode.cli.edit import port_number
+from vicode.cli.ports import port_number
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -5,6 +5,8 @@ import os
 import sys
 from pathlib import Path
 
+from vicode.cli.ports import port_number
+
 _ALLOCATOR = "PYTHONMALLOC"
 
 
@@ -25,12 +27,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--no-tour", action="store_true", help="do not start the tour for new users")
     parser.add_argument("--no-open", action="store_true", help="do not open a browser")
-
-
-def port_number(text: str) -> int:
-    if not text.isdecimal() or int(text) >= 2**16:
-        raise argparse.ArgumentTypeError(f"{text} is no port; write a number from 0 to 65535")
-    return int(text)
 
 
 def _command(text: str) -> tuple[str, ...]:

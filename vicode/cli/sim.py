@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from vicode.bica import options
 from vicode.cli.console import print_findings
-from vicode.cli.edit import port_number
+from vicode.cli.ports import port_number
 
 if TYPE_CHECKING:
     from vicode.simulated_robot.session import SimulationSession
@@ -42,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--jxi", action="store_true", help="send the lines of JXI instead of JSON lines")
     add(
         "--view",
-        type=int,
+        type=port_number,
         nargs="?",
         const=0,
         metavar="P",

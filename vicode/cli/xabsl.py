@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from vicode.bica import options
 from vicode.cli import xabsl_update
 from vicode.cli.console import count_findings, describe_os_error, print_findings
 from vicode.cli.xabsl_behavior import compile_behavior, print_behavior_findings, with_display_paths
@@ -104,13 +105,17 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--team",
         metavar="N",
-        type=int,
+        type=options.count,
         default=0,
         help="run N robots; prefix columns with the number of the robot, such as 0:",
     )
     parser.add_argument("--ticks", metavar="T", type=int, default=0, help="with --team: cycles to wait for answers")
     parser.add_argument(
-        "--bench", metavar="N", type=int, default=0, help="run all inputs N times and print the cycles per second"
+        "--bench",
+        metavar="N",
+        type=options.count,
+        default=0,
+        help="run all inputs N times and print the cycles per second",
     )
 
 

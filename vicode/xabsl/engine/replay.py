@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import re
 import time
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
@@ -16,6 +17,7 @@ TRACE_HEADER = '{"vicode-trace":1,"runtime":"xabsl"}'
 """The first line of a trace: the version of the form and the writer."""
 
 _NS_PER_MS = 1_000_000
+_ROBOT_PREFIX = re.compile(r"(\d{1,9}):")
 
 
 class ReplayError(ValueError):
@@ -137,9 +139,9 @@ class ReplayRobot:
             ReplayError: A column is not an input symbol, or a cell is not a number.
         """
         for column, cell in row.items():
-            name = column.removeprefix(prefix) if prefix and column.startswith(prefix) else column
-            if not cell or (":" in name and not prefix) or (prefix and column != "time" and name == column):
+            if not cell or not (column == "time" or column.startswith(prefix)):
                 continue
+            name = column.removeprefix(prefix)
             if name == "time":
                 self.now = int(_parse_number(name, cell))
             elif name == "agent":
@@ -226,6 +228,9 @@ def replay(program: Program, symbols: SymbolList, rows: list[dict[str, str]], *,
         ReplayError: The inputs do not match the symbols.
     """
     robot = ReplayRobot(program, symbols, strict=strict)
+    for column in rows[0] if rows else ():
+        if _ROBOT_PREFIX.match(column):
+            raise ReplayError(f"column {column} is for one of several robots; add --team with their number")
     yield TRACE_HEADER
     for cycle, row in enumerate(rows, start=1):
         robot.apply_row(row)
@@ -244,6 +249,11 @@ def replay_team(
         LoadError: The program does not match the symbols.
         ReplayError: The inputs do not match the symbols.
     """
+    for column in rows[0] if rows else ():
+        prefix = _ROBOT_PREFIX.match(column)
+        if column != "time" and (prefix is None or int(prefix[1]) >= robots):
+            symbol = column[prefix.end() if prefix else 0 :]
+            raise ReplayError(f"column {column} is for none of the robots 0 to {robots - 1}; name it 0:{symbol}")
     team = [ReplayRobot(program, symbols, strict=strict) for _ in range(robots)]
     for number, robot in enumerate(team):
         robot.engine.team.priority, robot.engine.team.ticks = number, ticks
