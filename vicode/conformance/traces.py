@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from itertools import zip_longest
 from typing import Any
 
-from vicode.generators.python.names import component_class_name
 from vicode.model.expressions import build_scope
 from vicode.model.project import INTERNAL, Project
 
@@ -97,11 +96,6 @@ class TraceNormalizer:
             for each in (*design.parameters, *design.outputs, *design.variables):
                 self.types[design.component, each.name] = scope.type_of(each)
 
-        self._names = {
-            component_class_name(each): each
-            for each in (*self._designs, *(item.component for item in project.components))
-        }
-
     def iteration(self, record: Mapping[str, Any], robot: int = 0) -> TraceIteration:
         """Convert a line of a trace."""
         inputs = record.get("inputs") or {}
@@ -111,18 +105,18 @@ class TraceNormalizer:
             steps=tuple(self._step(step) for step in record["tree"]),
             shared={
                 f"{name}.{key}": self._text(name, key, value)
-                for name, values in ((self._names.get(name, name), values) for name, values in inputs.items())
+                for name, values in inputs.items()
                 if name in self._shared
                 for key, value in values.items()
             },
-            errors=tuple(self._names.get(each["component"], each["component"]) for each in record.get("errors") or ()),
+            errors=tuple(each["component"] for each in record.get("errors") or ()),
             robot=robot,
         )
 
     def _step(self, step: Mapping[str, Any]) -> TraceStep:
-        component = self._names.get(step["component"], step["component"])
+        component = step["component"]
         fields = {
-            "by": self._names.get(step["by"], step["by"] or ""),
+            "by": step["by"] or "",
             "link": step["link"],
             "worked": _bool_text(step["worked"]),
         }

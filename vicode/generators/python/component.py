@@ -23,7 +23,7 @@ from vicode.generators.python.methods import (
     python_code,
     section_code,
 )
-from vicode.generators.python.names import component_class_name, names_in_code
+from vicode.generators.python.names import class_renaming, component_class_name, names_in_code
 from vicode.generators.python.parameters import modulate_method
 from vicode.generators.python.pretty_printer import (
     Doc,
@@ -70,6 +70,7 @@ class ComponentWriter:
             settings=self._list_settings(),
             methods=methods,
             members=_region_text(plan.members, " " * METHOD_INDENT),
+            renaming=class_renaming(plan.component),
         )
 
     @property

@@ -8,7 +8,7 @@ from vicode.generators.python.expression_doc import format_statement
 from vicode.generators.python.expression_printer import PythonExpressionPrinter, world_name
 from vicode.generators.python.imports import RUNTIME, Import, format_imports
 from vicode.generators.python.methods import BODY_INDENT
-from vicode.generators.python.names import component_class_name
+from vicode.generators.python.names import class_renaming, component_class_name
 from vicode.generators.python.parameters import keyword_signature, modulate_method, type_name
 from vicode.generators.python.pretty_printer import Doc, call_doc, concat, render_doc
 from vicode.generators.python.text import declaration_description, docstring, quoted, section
@@ -63,6 +63,7 @@ class _InterfaceWriter:
             base=_base_class(plan)[1],
             docstring=self._docstring(),
             methods=tuple(methods) or (_EMPTY_WORK,),
+            renaming=class_renaming(plan.component),
         )
 
     def _docstring(self) -> str:

@@ -70,6 +70,12 @@ def component_class_name(component: str) -> str:
     return _unique_name(component, _RESERVED_NAMES)
 
 
+def class_renaming(component: str) -> str:
+    """Return the statement that gives a class the name of its component, "" if it has it."""
+    name = component_class_name(component)
+    return "" if name == component else f'{name}.__name__ = "{component}"'
+
+
 def names_in_code(texts: Iterable[str]) -> frozenset[str]:
     """Return the names in pieces of Python code; every word of a piece that does not parse."""
     return frozenset(word for text in texts for word in _names_in(text))

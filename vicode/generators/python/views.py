@@ -13,7 +13,10 @@ class MethodView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentModuleView:
-    """A module with one component; `imports` are import sections, `settings` are class attributes."""
+    """A module with one component; `imports` are import sections, `settings` are class attributes.
+
+    `renaming` is a statement after a class that is not named as its component: traces have the name of the design.
+    """
 
     docstring: str
     imports: tuple[tuple[str, ...], ...]
@@ -25,6 +28,7 @@ class ComponentModuleView:
     settings: tuple[str, ...]
     methods: tuple[MethodView, ...]
     members: str
+    renaming: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +67,7 @@ class InterfaceClassView:
     base: str
     docstring: str
     methods: tuple[MethodView, ...]
+    renaming: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
