@@ -14,10 +14,10 @@ PYTHON = $(shell for name in python3 python3.14 python3.13 python3.12 python3.11
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help edit test fast check nightly versions bench gen pictures clean chromium gpp neovim
+.PHONY: help edit test fast check nightly versions bench gen pictures reference clean chromium gpp neovim
 
 help:  ## list these commands
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-8s  %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-9s  %s\n", $$1, $$2}' Makefile
 
 edit: $(VENV)/.ready  ## open the editor on designs/
 	@$(BIN)/vicode edit designs
@@ -54,6 +54,9 @@ gen: $(VENV)/.ready  ## write generated/ anew from designs/
 pictures: $(VENV)/.ready-test chromium  ## take docs/pictures anew
 	@$(BIN)/python -m tests.editor.take_pictures
 	@$(BIN)/python -m tests.experiments.take_pictures
+
+reference: $(VENV)/.ready-test  ## write docs/reference and the tables of docs/design-format.md anew from the code
+	@$(PYTEST) -q tests/manual/test_reference.py tests/store/test_format_page.py --accept
 
 clean:  ## remove the environment and all caches
 	rm -rf $(VENV) build dist .hypothesis .import_linter_cache .mypy_cache .nicegui .pytest_cache .ruff_cache test-results

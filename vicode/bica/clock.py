@@ -9,7 +9,7 @@ _LONGEST_SLEEP_S = 0.1
 
 
 class Clock(Protocol):
-    """A monotonic clock."""
+    """What a root needs of a clock."""
 
     def now_ns(self) -> int:
         """Return the nanoseconds since the start of the clock."""
@@ -23,6 +23,7 @@ class RealClock:
         self._start_ns = time.monotonic_ns()
 
     def now_ns(self) -> int:
+        """Return the nanoseconds since the clock was created."""
         return time.monotonic_ns() - self._start_ns
 
 
@@ -33,6 +34,7 @@ class SimulatedClock:
         self._now_ns = start_ns
 
     def now_ns(self) -> int:
+        """Return the time that `advance` has set."""
         return self._now_ns
 
     def advance(self, ns: int) -> None:
@@ -68,6 +70,7 @@ class PacedClock:
         self._start_ns = self._clock.now_ns()
 
     def now_ns(self) -> int:
+        """Return the time when the current iteration was due, in nanoseconds since `start`."""
         return self._now_ns
 
     def wait(self, tick_ns: int, *, end_ns: float = math.inf, is_cancelled: Callable[[], bool] = lambda: False) -> None:

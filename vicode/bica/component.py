@@ -38,11 +38,14 @@ RESERVED_NAMES = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """One state of a component.
+    """One state of a component, as generated classes declare it.
 
     Args:
+        name: The name of the state.
         run: Takes a transition, then runs the actions; `run(False)` only runs the actions.
         requires: Components that are stepped before the component works in this state.
+        enter: Called when the state is entered.
+        leave: Called when the state is left.
         final: Whether the component is done in this state.
         calls: Called components whose `is_done` the component reads.
         capacity: Maximum number of robots of a team that are in the state at the same time.
@@ -61,10 +64,18 @@ class State:
 
 
 class Component:
-    """A unit of functionality that works iteratively while other components step it (BICA paper, section IV).
+    """A unit of behavior that works while other components step it.
 
     A hand-written component overrides `work`, and `restart`, `modulate` and `close` if needed. Its outputs are plain
-    attributes, or methods if they have arguments. A component with states calls `_set_states` in its constructor.
+    attributes, or methods if they have arguments. Generated classes declare their states in the constructor.
+
+    Attributes:
+        root: The root that steps the component.
+        world: The world of the root, or None.
+        state: The name of the active state; "" without states.
+        frequency_hz: Maximum frequency of `work`, set in the class; None means in each step.
+        resume: Whether a new activation continues in the last state, set in the class.
+        design_file: The file of the design, set in generated classes.
     """
 
     design_file: ClassVar[str] = ""

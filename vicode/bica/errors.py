@@ -39,6 +39,14 @@ class ErrorRecord:
     """An exception in the code of a component, with its location.
 
     Attributes:
+        component: The name of its class.
+        design_file: The file of the design; "" for a hand-written component.
+        state: The active state.
+        method: The method that failed.
+        file: The file of the code.
+        message: The type and text of the exception.
+        iteration: The number of the iteration.
+        time_ns: The time of the iteration.
         body: The part of the design that failed: `state` (guards and actions in the method of the state), `enter`,
             `leave`, `guard`, `action`, `common transitions`, `common actions`, or the name of a method.
         region: The id of the region that contains the line, if any.
@@ -74,7 +82,7 @@ class ErrorRecord:
 
 
 class ComponentError(Exception):
-    """A component raised an exception and its root stops on errors; `record` holds the location."""
+    """A component raised an exception, and its root stops on errors; `record` is its `ErrorRecord`."""
 
     def __init__(self, record: ErrorRecord) -> None:
         super().__init__(str(record))

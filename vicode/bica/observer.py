@@ -32,7 +32,24 @@ ActivationLink = Literal["root", "requires", "modulates"]
 
 
 class StepRecord(TypedDict):
-    """One step of a component; `by` is the component that stepped it."""
+    """One step of a component.
+
+    Attributes:
+        component: The name of its class.
+        by: The component that stepped it; None for the root.
+        link: Why it was stepped: as the root, because a state requires it, or by a call.
+        worked: Whether it worked, because its period had elapsed.
+        state: The active state after the step.
+        state_time_ns: Time since the state was entered.
+        changed_from: The state before a change in this step.
+        transition: The id of the transition taken.
+        parameters: What the call set.
+        done: Whether it is done.
+        action_done: Whether a component that the state calls is done, if a guard reads that.
+        conflict: Whether other robots fill the capacity of the state, if it has one.
+        component_time_ns: Time since the restart.
+        values: Outputs, variables and parameters.
+    """
 
     component: str
     by: str | None
@@ -60,10 +77,17 @@ class CallRecord(TypedDict):
 
 
 class IterationRecord(TypedDict):
-    """One iteration; `tree` lists the steps in the order of their start, `errors` the first exceptions.
+    """One iteration.
 
-    `still_done` are components that are done although this iteration did not step them; `inputs` the values of
-    components that only provide values, before the iteration; `calls` what outputs with arguments returned.
+    Attributes:
+        iteration: Its number, from 1.
+        time_ns: Its time.
+        tree: The steps in the order of their start.
+        errors: The first exceptions.
+        still_done: Components that are done although this iteration did not step them.
+        inputs: The values of components that only provide values, before the iteration.
+        calls: What outputs with arguments returned.
+        dropped: Number of iterations before this one that were not recorded.
     """
 
     iteration: int

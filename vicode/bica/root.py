@@ -26,15 +26,26 @@ OnError = Literal["continue", "stop"] | Callable[[ErrorRecord], None]
 
 
 class Root:
-    """The top of an activation tree; as a context manager, it is closed at the end.
+    """Creates each component once, and steps the root component in each iteration; a context manager that closes them.
 
     Args:
+        component_class: The class of the root component.
         clock: Read once at the start of each iteration; default: real time.
         world: The `world` of hand-written components, which they sense and act on.
         on_error: `continue` prints each error location once, `stop` raises `ComponentError`; a function is called
             with the `ErrorRecord`, and may raise `ComponentError(record)` to stop.
         observer: Records the activation tree of each iteration.
         parameters: Passed once to `modulate` of the root component.
+
+    Attributes:
+        main: The root component.
+        clock: The clock.
+        world: The world, or None.
+        now_ns: The time of the iteration in nanoseconds.
+        iteration: The number of the iteration, from 1; 0 before the first step.
+        team: The states that the robots of a team coordinate.
+        errors: How often each error occurred, by component, method and line.
+        network: The connection to other robots, after `connect`, or else None.
     """
 
     def __init__(

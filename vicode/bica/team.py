@@ -93,7 +93,12 @@ class CooperativeState:
 
 @dataclass(slots=True, eq=False)
 class Team:
-    """The cooperative states of this robot; `ticks` is the number of iterations until the team answers a message."""
+    """The states of this robot that the robots of a team coordinate.
+
+    Attributes:
+        priority: Priority of this robot, where only one may enter a state.
+        ticks: Number of iterations until the other robots have answered a message.
+    """
 
     priority: int = 0
     ticks: int = 0

@@ -13,7 +13,16 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class CycleTimes:
-    """Durations of the steps in which a component worked, including the steps of components that it stepped."""
+    """Durations of the steps in which a component worked, including the steps of components that it stepped.
+
+    Attributes:
+        count: Number of steps.
+        total_ns: Sum of all durations.
+        min_ns: Shortest duration.
+        max_ns: Longest duration.
+        first_work_ns: Time of the iteration of the first step.
+        last_work_ns: Time of the iteration of the last step.
+    """
 
     count: int = 0
     total_ns: int = 0
@@ -35,6 +44,7 @@ class CycleTimes:
 
     @property
     def mean_ns(self) -> float:
+        """Mean duration of a step; 0 if there was none."""
         return self.total_ns / self.count if self.count else 0.0
 
     @property

@@ -52,7 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # Decisions and expressions are read and written recursively; their depth is limited where they are read.
         sys.setrecursionlimit(max(_RECURSION_LIMIT, sys.getrecursionlimit()))
     # A command is parsed without the modules of the others, which are slow to import.
-    parsed = _make_parser(words[:1] if words and words[0] in COMMANDS else COMMANDS).parse_args(words)
+    parsed = make_command_parser(words[:1] if words and words[0] in COMMANDS else COMMANDS).parse_args(words)
     if arguments is None and words[0] in _BATCH_COMMANDS:
         # The process ends after one pass over the designs; collections would only scan the live trees repeatedly.
         gc.disable()
@@ -88,7 +88,8 @@ def _replace_unencodable(error: UnicodeError) -> tuple[str, int]:
     return "".join(_ASCII.get(char) or char.encode("ascii", "backslashreplace").decode() for char in text), error.end
 
 
-def _make_parser(names: Sequence[str]) -> argparse.ArgumentParser:
+def make_command_parser(names: Sequence[str] = COMMANDS) -> argparse.ArgumentParser:
+    """Make the parser of some commands; the modules of the others are not imported."""
     parser = argparse.ArgumentParser(
         prog="vicode",
         description="Edit, check, and run state machines for robots, and generate code from them.",

@@ -1,0 +1,107 @@
+"""Every command, file and program of the documents is one that vicode accepts."""
+
+import argparse
+import re
+import shutil
+import textwrap
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tests.cli.command_runner import vicode
+from tests.manual.code_blocks import PAGES, ROOT, CodeBlock, all_blocks, vicode_commands
+from vicode.cli.entry_point import COMMANDS, make_command_parser
+from vicode.simulated_robot.map_file import read_world_map
+from vicode.store import read_design, read_project_file
+from vicode.store.format import DESIGN_RECORDS
+from vicode.store.project_format import PROJECT_RECORDS
+
+_SPAN = re.compile(r"`(?:\.venv/bin/)?vicode ([a-z][^`\n]*)`")
+_OPTION = re.compile(r"(?<![\w-])--?[a-z][a-z-]*")
+_PROJECT_KEYS = {key.name for record in PROJECT_RECORDS if record.name == "project" for key in record.keys}
+_DESIGN_KEYS = {key.name for record in DESIGN_RECORDS if record.name == "design" for key in record.keys}
+# Commands that end, write only where they are, and need nothing but the designs of the repository.
+_RUNNABLE = {"check", "docs", "export", "gen", "sample", "schema", "conform"}
+_ENDLESS = {"--watch", "--profile"}
+
+
+@pytest.mark.parametrize("block", all_blocks("sh", "console", "bash"), ids=str)
+def test_commands_are_accepted(block: CodeBlock) -> None:
+    for words in vicode_commands(block):
+        make_command_parser().parse_args(words)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_options_in_the_text_exist(page: Path) -> None:
+    options = _options_by_command()
+    for span in _SPAN.findall(page.read_text(encoding="utf-8")):
+        name = next(
+            name for name in (" ".join(span.split()[:2]), span.split()[0]) if name in options or " " not in name
+        )
+        given = set(_OPTION.findall(re.sub(r'"[^"]*"|\'[^\']*\'', "", span)))
+        assert given <= options[name], f"vicode {span}"
+
+
+@pytest.mark.parametrize("block", all_blocks("sh"), ids=str)
+def test_commands_run(block: CodeBlock, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    runnable = [words for words in vicode_commands(block) if _is_runnable(words)]
+    if runnable:
+        shutil.copytree(ROOT / "designs", tmp_path / "designs", ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.chdir(tmp_path)
+    for words in runnable:
+        assert vicode(*words) == 0, words
+
+
+@pytest.mark.parametrize("block", all_blocks("yaml"), ids=str)
+def test_files_are_valid(block: CodeBlock) -> None:
+    if block.page.name == "conformance.md":
+        return  # a case with an ellipsis; tests/conformance reads complete ones
+    keys = set(re.findall(r"^([\w-]+):", block.text, re.MULTILINE))
+    if {"project", "component"} & keys:
+        read = read_project_file if "project" in keys else read_design
+        assert read(block.text).findings == ()
+    elif keys <= _PROJECT_KEYS:
+        assert read_project_file(f"vicode: 1\nproject: Sample\n{block.text}").findings == ()
+    elif keys <= _DESIGN_KEYS:
+        start = "vicode: 1\ncomponent: Sample\n" + ("" if "states" in keys else "states: {A: {}}\n")
+        assert read_design(start + block.text).findings == ()
+    elif "walls" in keys:
+        assert read_world_map(block.text).findings == ()
+    else:
+        _check_workflow(yaml.safe_load(block.text))
+
+
+@pytest.mark.parametrize("block", all_blocks("python", "py"), ids=str)
+def test_programs_compile(block: CodeBlock) -> None:
+    compile(textwrap.dedent(block.text), str(block), "exec")
+
+
+def _check_workflow(content: object) -> None:
+    """The commands of a file for CI."""
+    texts = re.findall(r"'vicode ([^']*)'", str(content))
+    assert texts
+    for text in texts:
+        make_command_parser().parse_args(text.split())
+
+
+def _options_by_command() -> dict[str, set[str]]:
+    found: dict[str, set[str]] = {}
+
+    def collect(name: str, parser) -> None:
+        found[name] = {option for action in parser._actions for option in action.option_strings}
+        for action in parser._actions:
+            if isinstance(action, argparse._SubParsersAction):
+                for word, command in action.choices.items():
+                    collect(f"{name} {word}".strip(), command)
+
+    collect("", make_command_parser(COMMANDS))
+    return found
+
+
+def _is_runnable(words: list[str]) -> bool:
+    arguments = [word for word in words[1:] if not word.startswith("-")]
+    is_there = all((ROOT / word).exists() for word in arguments if word.startswith("designs"))
+    needs_others = any(word.endswith(".xabsl") for word in arguments)
+    has_path = any(word.startswith("designs/") for word in arguments) or words[0] in ("sample", "schema")
+    return words[0] in _RUNNABLE and is_there and has_path and not needs_others and not _ENDLESS & set(words)
