@@ -1,5 +1,6 @@
 """The site as a person opens it, from files: it complains of nothing, finds things, and its drawings can be moved."""
 
+import re
 from pathlib import Path
 from typing import Literal
 
@@ -81,6 +82,32 @@ def test_searching_by_keys(page: Page, site: Path) -> None:
     page.keyboard.press("/")
     page.keyboard.type("nobody says this")
     expect(page.locator("#search-results")).to_contain_text("No results.")
+
+
+def test_searching_with_typing_errors_and_parts_of_names(page: Page, site: Path) -> None:
+    page.goto((site / "index.html").as_uri())
+    results = page.get_by_role("option")
+    for text, name in (("lokforbal", "LookForBall"), ("FOLLOW_ball", "FollowBall"), ("lfb", "LookForBall")):
+        page.locator("#search").fill(text)
+        expect(results.first).to_contain_text(name)
+    page.locator("#search").fill("perceptoin")
+    expect(page.locator("#search-results")).to_contain_text("No exact match. Similar names:")
+    expect(results.first).to_contain_text("Perception")
+    page.locator("#search").fill("pérCeption")
+    expect(results.first.locator("mark")).to_have_text("Perception")
+
+
+def test_more_results_are_counted_and_shown(page: Page, site: Path) -> None:
+    page.goto((site / "index.html").as_uri())
+    page.keyboard.press("/")
+    page.keyboard.type("o")
+    results = page.get_by_role("option")
+    expect(results.last).to_have_text(re.compile(r"^30 of \d+ results. Show more$"))
+    expect(page.get_by_role("status").filter(has_text="results")).to_have_text(re.compile(r"^\d+ results$"))
+    page.keyboard.press("ArrowUp")
+    page.keyboard.press("Enter")
+    expect(page.locator("#search-result-30")).to_have_attribute("aria-selected", "true")
+    assert results.count() > 40
 
 
 def test_what_is_found_in_a_transition_shows_it(page: Page, site: Path) -> None:
@@ -260,6 +287,16 @@ def test_a_long_menu_shows_where_one_is(page: Page, behavior_site: Path) -> None
     assert page.evaluate("scrollY") == 0
     page.goto((behavior_site / "index.html").as_uri())
     expect(page.locator(".menu [aria-current]")).to_be_in_viewport()
+
+
+def test_the_menu_is_filtered(page: Page, behavior_site: Path) -> None:
+    page.goto((behavior_site / "index.html").as_uri())
+    menu = page.get_by_label("Pages")
+    menu.get_by_label("Filter state machines").fill("opt18")
+    expect(menu.locator(".menu-machines a:visible")).to_have_text(["opt18"])
+    expect(menu.get_by_role("status")).to_have_text("1 of 19")
+    page.keyboard.press("Escape")
+    expect(menu.locator(".menu-machines a:visible")).to_have_count(19)
 
 
 def test_fingers_find_every_link_on_a_telephone(page: Page, site: Path) -> None:

@@ -21,8 +21,10 @@ def write_svg(image: VectorImage, *, is_embedded: bool = False) -> str:
     role = "group" if any(group.href for group in image.groups) else "img"
     # A `<title>` of the whole image would be a tooltip everywhere in it.
     name = f" aria-label={quoteattr(_INVALID_XML.sub('', image.title))}" if is_embedded else ""
+    # What all shapes of an embedded image inherit; elsewhere each shape stands for itself.
+    style = ' stroke-linejoin="round" xml:space="preserve"' if is_embedded else ""
     lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" {position} font-family="{families}" role="{role}"{name}>',
+        f'<svg xmlns="http://www.w3.org/2000/svg" {position} font-family="{families}"{style} role="{role}"{name}>',
         *([] if is_embedded else [f"<title>{_text(image.title)}</title>"]),
         *([f"<desc>{_text(image.doc)}</desc>"] if image.doc else ()),
         f'<rect x="{left}" y="{top}" width="{width}" height="{height}" fill="{image.background}"/>',
@@ -33,7 +35,10 @@ def write_svg(image: VectorImage, *, is_embedded: bool = False) -> str:
 
 
 def _group_element(group: ShapeGroup, *, is_part: bool) -> list[str]:
-    shapes = [_path_element(shape) if isinstance(shape, PathShape) else _text_element(shape) for shape in group.shapes]
+    shapes = [
+        _path_element(shape, is_part=is_part) if isinstance(shape, PathShape) else _text_element(shape, is_part=is_part)
+        for shape in group.shapes
+    ]
     inner = [*([f"<title>{_text(group.title)}</title>"] if group.title else ()), *shapes]
     about = f'class="{group.css_class}"' + (_data_attributes(group) if is_part else "")
     if group.href:
@@ -48,18 +53,19 @@ def _data_attributes(group: ShapeGroup) -> str:
     return words + (' tabindex="-1" aria-hidden="true"' if group.is_decorative else "")
 
 
-def _path_element(path: PathShape) -> str:
+def _path_element(path: PathShape, *, is_part: bool) -> str:
     data = "".join(letter + " ".join(map(_number, numbers)) for letter, numbers in path.commands)
     paint = f' fill="{path.fill or "none"}"'
     if path.stroke:
-        paint += f' stroke="{path.stroke}" stroke-width="{_number(path.width)}" stroke-linejoin="round"'
+        paint += f' stroke="{path.stroke}" stroke-width="{_number(path.width)}"'
+        paint += "" if is_part else ' stroke-linejoin="round"'
         paint += ' stroke-linecap="round"' if not path.dash or path.dash[0] < path.width else ""
     if path.dash:
         paint += f' stroke-dasharray="{" ".join(map(_number, path.dash))}"'
     return f'<path d="{data}"{paint}/>'
 
 
-def _text_element(text: TextShape) -> str:
+def _text_element(text: TextShape, *, is_part: bool) -> str:
     letters = text.font
     # `dominant-baseline` is not supported everywhere; shifting the text is.
     foot = text.y + letters.size * _BASELINE_SHIFT
@@ -68,7 +74,8 @@ def _text_element(text: TextShape) -> str:
     strike = ' text-decoration="line-through"' if text.is_struck_through else ""
     look = f'font-size="{_number(letters.size)}"{weight}{anchor}{strike} fill={quoteattr(text.fill)}'
     position = f'x="{_number(text.x)}" y="{_number(foot)}"{_fixed_width(text)}'
-    return f'<text {position} {look} xml:space="preserve">{_text(text.text)}</text>'
+    space = "" if is_part else ' xml:space="preserve"'
+    return f"<text {position} {look}{space}>{_text(text.text)}</text>"
 
 
 def _fixed_width(text: TextShape) -> str:

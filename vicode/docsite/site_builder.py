@@ -28,7 +28,7 @@ from vicode.docsite.interfaces import (
 )
 from vicode.docsite.languages import GenerationErrors, find_generation_errors, language_views
 from vicode.docsite.markdown_pages import PageContent, markdown_files
-from vicode.docsite.natural_sort import sorted_designs
+from vicode.docsite.menu import MENU_SCRIPT, DesignFolder, fixed_links, group_by_folder, menu_script
 from vicode.docsite.overview import agent_view, home_view
 from vicode.docsite.page_inputs import restrict_to_component, strip_to_usage
 from vicode.docsite.site_input import SiteInput
@@ -54,7 +54,7 @@ _SCRIPT = """\
 {}}})();
 """
 # Concatenated in this order into one scope.
-_SCRIPT_FILES = ("search_box", "diagram_viewer", "decision_trees", "menu")
+_SCRIPT_FILES = ("elements", "text_matching", "search_box", "diagram_viewer", "decision_trees", "menu")
 
 
 def build_site(subject: SiteInput) -> tuple[OutputFile, ...]:
@@ -111,10 +111,9 @@ class _SitePlanner:
     code_files: CodeFiles
     generation_errors: GenerationErrors
     menu: tuple[TextSpan, ...]
-    state_machines: tuple[TextSpan, ...]
+    folders: tuple[DesignFolder, ...]
     shared_digest: str
     page_contents: list[PageContent] = field(default_factory=list)
-    _menus: list[str] = field(default_factory=list)
 
     def plan_files(self, only: str = "") -> Iterator[PlannedFile]:
         """Plan all files, or a subset that contains the path `only`."""
@@ -129,6 +128,7 @@ class _SitePlanner:
         yield _plain_file("site.css", read_asset("docsite/site.css"))
         parts = "\n".join(read_asset(f"docsite/js/{name}.js") for name in _SCRIPT_FILES)
         yield _plain_file("site.js", _SCRIPT.format(parts))
+        yield _plain_file(MENU_SCRIPT, menu_script(self.folders, self.urls))
 
     def _overview_pages(self, only: str = "") -> Iterator[PlannedFile]:
         """The pages about the whole project, and the search index."""
@@ -216,55 +216,27 @@ class _SitePlanner:
         self.page_contents.append(PageContent(head=head, template=template, site=name, views=views))
 
         def make() -> str:
-            menu, page = self._menu_html(head.menu_href), f"docsite/{template}.html.jinja"
-            return render(page, page=head, site=name, about=about, menu_html=menu, **views())
+            file = f"docsite/{template}.html.jinja"
+            text = render(file, page=head, site=name, about=about, menu=self.menu, **views())
+            # Many links of a page lead to the page itself.
+            return text.replace(f'href="{head.file}#', 'href="#')
 
         return PlannedFile(path=head.file, key=compute_digest(template, head, self.shared_digest, key), render=make)
-
-    def _menu_html(self, here: str) -> str:
-        """The menu, rendered once, with the entry of the current page marked."""
-        if not self._menus:
-            self._menus.append(render("docsite/menu.html.jinja", menu=self.menu, machines=self.state_machines))
-        # URLs contain no characters that need escaping.
-        return self._menus[0].replace(f'<a href="{here}"', f'<a href="{here}" aria-current="page"', 1)
 
 
 def _make_planner(subject: SiteInput, memory: BuildCache) -> _SitePlanner:
     project, generation_errors = subject.project, find_generation_errors(subject)
     addresses, texts = SiteUrls(project), CodeFiles(subject, generation_errors, memory)
-    menu, machines = (
-        tuple(_menu(project, addresses, has_file="" in texts.component_names)),
-        tuple(_state_machine_links(project, addresses)),
-    )
+    menu = tuple(fixed_links(subject, addresses, has_file="" in texts.component_names))
     return _SitePlanner(
         site_input=subject,
         urls=addresses,
         code_files=texts,
         generation_errors=generation_errors,
         menu=menu,
-        state_machines=machines,
-        shared_digest=compute_digest(subject.name, project.doc, menu, machines, addresses.key),
+        folders=group_by_folder(subject),
+        shared_digest=compute_digest(subject.name, project.doc, menu, addresses.key),
     )
-
-
-def _menu(project: Project, addresses: SiteUrls, *, has_file: bool) -> Iterator[TextSpan]:
-    yield TextSpan(text="Home", href=HOME)
-    if project.agents:
-        yield TextSpan(text="Agents", href=AGENTS)
-    if project.components:
-        yield TextSpan(text="Interfaces", href=INTERFACES)
-    if symbol_count(project):
-        yield TextSpan(text="Symbols", href=SYMBOLS)
-    if project.enumerations or project.constants:
-        yield TextSpan(text="Types and constants", href=TYPES)
-    yield TextSpan(text="Index", href=NAME_INDEX)
-    if has_file:
-        yield TextSpan(text="Project file", href=addresses.code("", "source"))
-
-
-def _state_machine_links(project: Project, addresses: SiteUrls) -> Iterator[TextSpan]:
-    for each in sorted_designs(project):
-        yield TextSpan(text=each.component, href=addresses.component(each.component), title=summarize(each.doc))
 
 
 def _plain_file(path: str, text: str) -> PlannedFile:

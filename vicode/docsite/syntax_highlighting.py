@@ -58,8 +58,7 @@ def code_row(number: int, html: str, href: str, title: str) -> str:
     about = escape(title)
     link = f'<a href="{escape(href)}" title="{about}" aria-label="{about}">↗</a>' if href else ""
     return (
-        f'<tr id="L{number}"><td class="line-number"><a href="#L{number}">{number}</a></td>'
-        f'<td class="origin">{link}</td><td class="code-line"><code>{html}</code></td></tr>'
+        f'<tr id="L{number}"><td><a href="#L{number}">{number}</a></td><td>{link}</td><td><code>{html}</code></td></tr>'
     )
 
 

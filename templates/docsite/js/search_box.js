@@ -1,10 +1,12 @@
 // The search over all pages of the site.
-const MAX_RESULTS = 30;
+const RESULTS_PER_STEP = 30;
 
 const box = document.querySelector(".search");
 const field = document.getElementById("search");
 const list = document.getElementById("search-results");
+const searchStatus = document.getElementById("search-status");
 let selectedIndex = 0;
+let resultLimit = RESULTS_PER_STEP;
 let indexPromise = null;
 
 function loadIndex() {
@@ -26,43 +28,65 @@ function unpackIndex({ kinds, places, pages, pieces, entries }) {
   });
 }
 
-// Lower is better: name, prefix, substring, kind or parent, doc, code; 6 if a word does not match.
-function rank(entry, words) {
-  let worst = 0;
-  const [name, kind, where, , doc, code] = entry.map((text) => text.toString().toLowerCase());
-  for (const word of words) {
-    let place = 6;
-    if (name === word) place = 0;
-    else if (name.startsWith(word)) place = 1;
-    else if (name.includes(word)) place = 2;
-    else if (kind === word || where.includes(word)) place = 3;
-    else if (doc.includes(word)) place = 4;
-    else if (code.includes(word)) place = 5;
-    worst = Math.max(worst, place);
+// The folded texts of an entry, made when it is first searched.
+const foldedTexts = new WeakMap();
+
+function foldEntry(entry) {
+  if (!foldedTexts.has(entry)) {
+    const [name, kind, where, , doc, code] = entry;
+    const parts = nameParts(name);
+    const texts = { name: foldText(name), parts, joined: parts.join(""), kind, where: foldText(where), doc: foldText(doc), code: foldText(code.join("\n")) };
+    foldedTexts.set(entry, texts);
   }
-  return worst;
+  return foldedTexts.get(entry);
 }
 
-function find(entries, text) {
-  const words = text.toLowerCase().split(/\s+/).filter(Boolean);
-  if (!words.length) return [];
-  return entries
-    .map((entry, index) => ({ entry, index, rank: rank(entry, words) }))
-    .filter((each) => each.rank < 6)
-    .sort((a, b) => a.rank - b.rank || a.index - b.index)
-    .slice(0, MAX_RESULTS)
+// Lower is better: name, prefix, parts of the name, substring, kind or parent, doc, code, similar name; NO_MATCH if none.
+const NO_MATCH = 8;
+
+function rankWord(texts, word, isLenient) {
+  if (texts.name === word || texts.joined === word) return 0;
+  if (texts.name.startsWith(word) || texts.joined.startsWith(word)) return 1;
+  if (matchesParts(word, texts.parts)) return 2;
+  if (texts.name.includes(word) || texts.joined.includes(word)) return 3;
+  if (texts.kind === word || texts.where.includes(word)) return 4;
+  if (texts.doc.includes(word)) return 5;
+  if (texts.code.includes(word)) return 6;
+  const limit = isLenient ? allowedErrors(word) : 0;
+  return limit && [texts.joined, ...texts.parts].some((part) => isSimilar(word, part, limit)) ? 7 : NO_MATCH;
+}
+
+function rankEntries(entries, words, isLenient) {
+  const ranked = entries.map((entry, index) => {
+    const ranks = words.map((word) => rankWord(foldEntry(entry), word, isLenient));
+    return { entry, index, worst: Math.max(...ranks), sum: ranks.reduce((sum, rank) => sum + rank, 0) };
+  });
+  return ranked
+    .filter((each) => each.worst < NO_MATCH)
+    .sort((a, b) => a.worst - b.worst || a.sum - b.sum || a.index - b.index)
     .map((each) => each.entry);
+}
+
+const searchWords = (text) => foldText(text).split(/\s+/).filter(Boolean);
+
+// All results, best first. Typing errors are forgiven if nothing is found otherwise.
+function find(entries, text) {
+  // Underscores in a search separate parts of names, as in names.
+  const words = searchWords(text).map((word) => word.replace(/(?<=.)_(?=.)/g, ""));
+  if (!words.length) return { found: [], isLenient: false };
+  const exact = rankEntries(entries, searchWords(text), false);
+  return exact.length ? { found: exact, isLenient: false } : { found: rankEntries(entries, words, true), isLenient: true };
 }
 
 // Returns the doc or code snippet that matches most words, cut around the first match, and whether it is code.
 function excerpt(entry, text) {
   const [name, kind, where, , doc, code] = entry;
-  const words = text.toLowerCase().split(/\s+/).filter((word) => word && !name.toLowerCase().includes(word));
-  const said = (body) => words.filter((word) => body.toLowerCase().includes(word));
+  const words = searchWords(text).filter((word) => !foldText(name).includes(word));
+  const said = (body) => words.filter((word) => foldText(body).includes(word));
   const best = [doc, ...code].reduce((one, other) => (said(other).length > said(one).length ? other : one));
   // The line above already names the parent of other kinds.
   if (!said(best).length) return [truncate(doc, 0) || (isTopLevel(kind) ? where : ""), false];
-  const at = Math.min(...said(best).map((word) => best.toLowerCase().indexOf(word)));
+  const at = findRanges(best, said(best))[0][0];
   const start = at > 60 || best.length > 140 ? Math.max(0, at - 40) : 0;
   return [(start ? "… " : "") + truncate(best, start), best !== doc];
 }
@@ -77,24 +101,19 @@ function truncate(text, start) {
 
 // Wraps the search words in <mark> elements.
 function highlightMatches(body, text) {
-  const words = text.split(/\s+/).filter(Boolean).map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
-  return body.split(new RegExp(`(${words.join("|")})`, "i")).map((part, at) => {
-    if (at % 2 === 0) return part;
-    const mark = document.createElement("mark");
-    mark.textContent = part;
-    return mark;
-  });
+  const nodes = [];
+  let last = 0;
+  for (const [start, end] of findRanges(body, searchWords(text))) {
+    nodes.push(body.slice(last, start), makeElement("mark", {}, body.slice(start, end)));
+    last = end;
+  }
+  return [...nodes, body.slice(last)];
 }
 
 function row(entry, index, text) {
-  const item = document.createElement("li");
-  item.id = `search-result-${index}`;
-  item.role = "option";
-  const name = document.createElement("bdi");
-  name.append(...highlightMatches(entry[0], text));
-  const kind = document.createElement("span");
-  kind.className = "kind";
-  kind.textContent = isTopLevel(entry[1]) ? entry[1] : `${entry[1]} of ${entry[2]}`;
+  const item = makeElement("li", { id: `search-result-${index}`, role: "option" });
+  const name = makeElement("bdi", {}, ...highlightMatches(entry[0], text));
+  const kind = makeElement("span", { className: "kind" }, isTopLevel(entry[1]) ? entry[1] : `${entry[1]} of ${entry[2]}`);
   const [said, isCode] = excerpt(entry, text);
   const about = document.createElement(isCode ? "code" : "span");
   about.className = "about";
@@ -113,6 +132,7 @@ function go(address) {
 
 function close() {
   list.hidden = true;
+  searchStatus.textContent = "";
   field.setAttribute("aria-expanded", "false");
   field.removeAttribute("aria-activedescendant");
 }
@@ -130,17 +150,36 @@ async function search() {
   const text = field.value;
   const entries = await loadIndex();
   if (text !== field.value) return;
-  const found = find(entries, text);
-  list.replaceChildren(...found.map((entry, index) => row(entry, index, text)));
-  if (text.trim() && !found.length) {
-    const item = document.createElement("li");
-    item.className = "no-results";
-    item.textContent = "No results.";
-    list.append(item);
-  }
-  list.hidden = !text.trim();
-  field.setAttribute("aria-expanded", String(!list.hidden));
+  resultLimit = RESULTS_PER_STEP;
+  showResults(find(entries, text), text);
   selectResult(0);
+}
+
+function showResults(results, text) {
+  const { found, isLenient } = results;
+  const items = found.slice(0, resultLimit).map((entry, index) => row(entry, index, text));
+  if (found.length > resultLimit) items.push(moreRow(results, text));
+  const count = `${found.length} result${found.length === 1 ? "" : "s"}`;
+  const hint = !found.length ? "No results." : isLenient ? "No exact match. Similar names:" : "";
+  if (hint && text.trim()) items.unshift(makeElement("li", { className: "no-results", role: "presentation" }, hint));
+  list.replaceChildren(...items);
+  list.hidden = !text.trim();
+  searchStatus.textContent = list.hidden ? "" : `${hint} ${found.length ? count : ""}`.trim();
+  field.setAttribute("aria-expanded", String(!list.hidden));
+}
+
+// The last row shows further results.
+function moreRow(results, text) {
+  const label = `${resultLimit} of ${results.found.length} results. Show more`;
+  const item = makeElement("li", { id: "search-more", role: "option", className: "more-results" }, label);
+  item.addEventListener("mousedown", (event) => event.preventDefault());
+  item.addEventListener("click", () => {
+    const first = resultLimit;
+    resultLimit += RESULTS_PER_STEP;
+    showResults(results, text);
+    selectResult(first);
+  });
+  return item;
 }
 
 function onSearchKey(event) {
