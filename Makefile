@@ -14,7 +14,7 @@ PYTHON = $(shell for name in python3 python3.14 python3.13 python3.12 python3.11
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help edit test fast check nightly versions bench gen pictures reference clean chromium gpp neovim
+.PHONY: help edit test fast check nightly versions bench gen pictures reference vscode clean chromium gpp neovim
 
 help:  ## list these commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-9s  %s\n", $$1, $$2}' Makefile
@@ -57,6 +57,16 @@ pictures: $(VENV)/.ready-test chromium  ## take docs/pictures anew
 
 reference: $(VENV)/.ready-test  ## write docs/reference and the tables of docs/design-format.md anew from the code
 	@$(PYTEST) -q tests/manual/test_reference.py tests/store/test_format_page.py --accept
+
+# In build/, because vsce packages what npm installs beside package.json. The grammar and the version come from vicode.
+vscode: $(VENV)/.ready  ## package the extension for VS Code as dist/vicode.vsix (needs npm)
+	rm -rf build/vscode
+	mkdir -p build dist
+	cp -r vicode/vscode build/vscode
+	cp LICENSE build/vscode
+	$(BIN)/vicode xabsl lsp --grammar > build/vscode/xabsl.tmLanguage.json
+	cd build/vscode && npm version --no-git-tag-version "$$(../../$(BIN)/vicode --version | cut -d ' ' -f 2)" && npm install --omit=dev
+	cd build/vscode && npx --yes @vscode/vsce package --allow-missing-repository --out ../../dist/vicode.vsix
 
 clean:  ## remove the environment and all caches
 	rm -rf $(VENV) build dist .hypothesis .import_linter_cache .mypy_cache .nicegui .pytest_cache .ruff_cache test-results

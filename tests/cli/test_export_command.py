@@ -35,3 +35,16 @@ def test_a_broken_design(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
     assert main(["export", str(file)]) == 1
     assert "Y101" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == [file]
+
+
+MEETING = Path(__file__).parents[2] / "generated" / "xabsl" / "meeting"
+
+
+def test_an_option_of_xabsl(capfdbinary: pytest.CaptureFixture[bytes]) -> None:
+    assert main(["export", str(MEETING / "Options" / "pass_door.xabsl"), "--format", "plantuml", "-o", "-"]) == 0
+    assert "@startuml" in capfdbinary.readouterr().out.decode()
+
+
+def test_an_xabsl_file_without_an_option(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["export", str(MEETING / "Symbols" / "Robot.xabsl"), "-o", "-"]) == 1
+    assert capsys.readouterr().err == "vicode: Robot.xabsl defines no option\n"

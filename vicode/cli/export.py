@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", metavar="FILE", help="design file")
+    parser.add_argument("file", metavar="FILE", help="design file, or XABSL file of an option")
     parser.add_argument(
         "--format", choices=[*EXPORT_FORMATS, "scxml"], help="output format (default: by the suffix of OUT, else svg)"
     )
@@ -75,11 +75,37 @@ def _export_scxml(args: argparse.Namespace, design: "Design") -> int:
 
 def _read(file: Path) -> "Design | None":
     from vicode.store import read_design
+    from vicode.xabsl.source_loader import EXTENSIONS
 
+    if file.suffix in EXTENSIONS:
+        return _read_option(file)
     read = read_design(file.read_bytes(), file.as_posix())
     if read.design is None:
         print_findings(read.findings, to_stderr=True)
     return read.design
+
+
+def _read_option(file: Path) -> "Design | None":
+    """The option of an XABSL file as a design; its behavior is searched in the folders above."""
+    from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings
+    from vicode.findings import Severity
+    from vicode.importers import import_behavior
+    from vicode.xabsl.compiler import compile_source
+    from vicode.xabsl.source_loader import find_main_file
+
+    file = file.resolve(strict=True)
+    main = find_main_file(file)
+    source = load_behavior(main)
+    compiled = compile_source(source)
+    if compiled.program is None:
+        print_behavior_findings([each for each in compiled.findings if each.severity is Severity.ERROR], main)
+        return None
+    imported = import_behavior(source, compiled, "behavior")
+    component = next((about.component for about in imported.designs if about.file == file), None)
+    design = imported.project.design(component) if component else None
+    if design is None:
+        print(f"vicode: {file.name} defines no option", file=sys.stderr)
+    return design
 
 
 def _states(text: str | None) -> frozenset[str] | None:

@@ -12,7 +12,8 @@ from vicode.xabsl.tree import AgentNode
 
 ReadText = Callable[[Path], str]
 ParseText = Callable[[str, str], ParsedFile]
-_EXTENSIONS = (".xabsl", ".yabsl")
+EXTENSIONS = (".xabsl", ".yabsl")
+_MAX_FOLDERS = 8
 _UNDEFINED = (0x81, 0x8D, 0x8F, 0x90, 0x9D)
 _WINDOWS_1252 = {byte: bytes([byte]).decode("cp1252") for byte in range(0x80, 0xA0) if byte not in _UNDEFINED}
 """The characters of Windows-1252 by their bytes, where it differs from latin-1."""
@@ -81,8 +82,18 @@ def encode_text(text: str, old: bytes) -> bytes:
 def find_agent_files(folder: Path, *, recursive: bool = True) -> Iterator[Path]:
     """Yield the files of a folder that appear to declare agents: the main files of behaviors."""
     for path in sorted(folder.rglob("*") if recursive else folder.glob("*")):
-        if path.suffix in _EXTENSIONS and path.is_file() and _AGENT.search(read_text(path)):
+        if path.suffix in EXTENSIONS and path.is_file() and _AGENT.search(read_text(path)):
             yield path
+
+
+def find_main_file(path: Path) -> Path:
+    """Find the file with the agents of the behavior that includes a file; the file itself if there is none."""
+    for folder in [path.parent, *path.parent.parents][:_MAX_FOLDERS]:
+        candidates = sorted(find_agent_files(folder, recursive=False), key=lambda each: each.name != "agents.xabsl")
+        for candidate in candidates:
+            if path in load_source(candidate).files:
+                return candidate.resolve()
+    return path
 
 
 def load_source(main: Path, read: ReadText = read_text, parse_text: ParseText = parse) -> ProgramSource:
@@ -146,7 +157,7 @@ def _resolve_includes(
 def _read(source: ProgramSource, path: Path, location: SourceLocation | None, shown: str, read: ReadText) -> str | None:
     if path in source.files:
         return None
-    if path.suffix.lower() not in _EXTENSIONS:
+    if path.suffix.lower() not in EXTENSIONS:
         _add_finding(
             source, location, "X607", f"{shown} does not end in .xabsl", "rename the file", shown=source.main.name
         )
@@ -176,7 +187,7 @@ def _parse(source: ProgramSource, path: Path, text: str, parse_text: ParseText) 
 
 def _sibling_files(path: Path) -> list[str]:
     try:
-        return [sibling.name for sibling in path.parent.iterdir() if sibling.suffix in _EXTENSIONS]
+        return [sibling.name for sibling in path.parent.iterdir() if sibling.suffix in EXTENSIONS]
     except OSError:
         return []
 

@@ -9,9 +9,9 @@ from pygls.lsp.server import LanguageServer
 
 from vicode.findings import Finding, Severity, SourceLocation
 from vicode.xabsl import tree
-from vicode.xabsl.server.open_behavior import OpenBehavior, SymbolOccurrence, find_main_file
+from vicode.xabsl.server.open_behavior import OpenBehavior, SymbolOccurrence
 from vicode.xabsl.server.positions import offset_at, path_of, range_at, uri_of
-from vicode.xabsl.source_loader import find_agent_files
+from vicode.xabsl.source_loader import find_agent_files, find_main_file
 
 _SEVERITIES = {
     Severity.ERROR: lsp.DiagnosticSeverity.Error,

@@ -13,8 +13,6 @@ from vicode.xabsl.source_loader import ProgramSource, load_source, read_text
 from vicode.xabsl.symbol_table import Definition
 from vicode.xabsl.tokens import KEYWORDS
 
-_AGENT = re.compile(r"^\s*agent\s+\w", re.MULTILINE)
-_MAX_FOLDERS = 8
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.]*")
 
 
@@ -203,21 +201,3 @@ def token_at(tokens: Tokens, offset: int) -> int:
         if tokens.starts[previous] + len(tokens.texts[previous]) == offset:
             return previous
     return max(number, 0)
-
-
-def find_main_file(path: Path) -> Path:
-    """Find the file with the agents of the behavior that includes a file; the file itself if there is none."""
-    for folder in [path.parent, *path.parent.parents][:_MAX_FOLDERS]:
-        candidates = [candidate for candidate in sorted(folder.glob("*.xabsl")) if _has_agents(candidate)]
-        candidates.sort(key=lambda candidate: candidate.name != "agents.xabsl")
-        for candidate in candidates:
-            if path in load_source(candidate).files:
-                return candidate.resolve()
-    return path
-
-
-def _has_agents(path: Path) -> bool:
-    try:
-        return bool(_AGENT.search(read_text(path)))
-    except OSError:
-        return False
