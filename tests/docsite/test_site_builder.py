@@ -166,7 +166,7 @@ def test_a_state_says_what_it_does(forward: tuple[OutputFile, ...]) -> None:
     words = " ".join(read_page(section).text.split())
     for expected in (
         "Kick, with the eyes on the ball.",
-        "AlignFront, AlignDiagonal, AlignLateral",
+        "AlignFront (1), AlignDiagonal (1), AlignLateral (1)",
         "Requires",
         "kicks = kicks + 1",
         "log.info(",

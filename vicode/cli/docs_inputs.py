@@ -1,6 +1,6 @@
 """Loads the inputs of sites: projects of designs and XABSL behaviors."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from vicode.docsite import SiteInput, SourceText
     from vicode.findings import DesignPath as ThingPath
     from vicode.importers import ImportResult
+    from vicode.model.design import Design
     from vicode.xabsl.compiler import CompileResult
     from vicode.xabsl.parser import ParsedFile
     from vicode.xabsl.source_loader import ProgramSource
@@ -149,17 +150,39 @@ def _sources(source: "ProgramSource", imported: "ImportResult") -> "dict[str, So
     from vicode.docsite import SourceText, iter_documented_paths
     from vicode.xabsl.source_loader import read_text
 
-    def text_of(path: Path, lines: "dict[ThingPath, int]") -> SourceText:
+    def text_of(path: Path, lines: "dict[ThingPath, int]", action_lines: "dict[ThingPath, int]") -> SourceText:
         folder = source.main.parent
         shown = path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
-        return SourceText(path=shown, text=read_text(path), language="xabsl", line_numbers=lines)
+        return SourceText(
+            path=shown, text=read_text(path), language="xabsl", line_numbers=lines, action_lines=action_lines
+        )
 
-    sources = {"": text_of(source.main, {})}
+    sources = {"": text_of(source.main, {}, {})}
     for made, design in zip(imported.designs, imported.project.designs, strict=True):
         tokens, described = source.files[made.file].tokens, set(iter_documented_paths(design))
         lines: dict[ThingPath, int] = {}
+        action_lines: dict[ThingPath, int] = {}
+        assignments = _assignment_paths(design)
         for token, path in made.anchors:
+            line = tokens.line_at(tokens.starts[token])
             if path in described:
-                lines.setdefault(path, tokens.line_at(tokens.starts[token]))
-        sources[made.component] = text_of(made.file, lines)
+                lines.setdefault(path, line)
+            elif path in assignments:
+                # One action in the design, but several statements in XABSL.
+                action_lines.setdefault(path, line)
+                action_lines[next(assignments[path], path)] = line
+            else:
+                action_lines.setdefault(path, line)
+        sources[made.component] = text_of(made.file, lines, action_lines)
     return sources
+
+
+def _assignment_paths(design: "Design") -> "dict[ThingPath, Iterator[ThingPath]]":
+    """The paths of the assignments of each action that assigns, in order."""
+    from vicode.docsite import iter_action_paths
+
+    found: dict[ThingPath, list[ThingPath]] = {}
+    for path in iter_action_paths(design):
+        if len(path) > 1 and path[-2] == "set":
+            found.setdefault(path[:-2], []).append(path)
+    return {path: iter(paths) for path, paths in found.items()}

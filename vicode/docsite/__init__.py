@@ -3,7 +3,14 @@
 from vicode.docsite.not_found import not_found_page
 from vicode.docsite.site_builder import SiteBuilder, build_site
 from vicode.docsite.site_index import plan_site_index
-from vicode.docsite.site_input import ComponentFinding, SiteInput, SourceText, iter_documented_paths, make_site_input
+from vicode.docsite.site_input import (
+    ComponentFinding,
+    SiteInput,
+    SourceText,
+    iter_action_paths,
+    iter_documented_paths,
+    make_site_input,
+)
 from vicode.docsite.site_writer import (
     Manifest,
     PlannedFile,
@@ -23,6 +30,7 @@ __all__ = [
     "SiteUrls",
     "SourceText",
     "build_site",
+    "iter_action_paths",
     "iter_documented_paths",
     "load_manifest",
     "make_site_input",

@@ -100,8 +100,9 @@ def code_links_by_path(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> dict
     return places
 
 
-def code_page_title(text: CodeFile) -> str:
-    return f"{text.component or 'Project'}: {text.title}"
+def code_page_title(text: CodeFile, component: str) -> str:
+    """The title of the page of a file; `component` is the shown name of its component."""
+    return f"{component or 'Project'}: {text.title}"
 
 
 def code_view(text: CodeFile, links: tuple[TextSpan, ...], addresses: SiteUrls, component: TextSpan) -> CodeView:
@@ -116,7 +117,7 @@ def code_view(text: CodeFile, links: tuple[TextSpan, ...], addresses: SiteUrls, 
         href = addresses.design_path(text.component, path) if path and text.component else ""
         rows.append(code_row(number, html, href, _path_label(path)))
     return CodeView(
-        title=code_page_title(text),
+        title=code_page_title(text, component.text if text.component else ""),
         path=text.path,
         component=component,
         code_pages=links,

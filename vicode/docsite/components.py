@@ -1,29 +1,30 @@
 """The page of a state machine: diagram, transitions, states, users and declarations."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from vicode.docsite.decisions import CodeLinks, code_blocks, pseudocode_lines, transition_rows
-from vicode.docsite.declarations import declaration_tables
+from vicode.docsite.decisions import CodeLinks, code_blocks, numbered_decisions, pseudocode_lines, transition_rows
 from vicode.docsite.diagrams import draw_decision_tree, draw_design, draw_neighbourhood
 from vicode.docsite.doc_text import render_doc
 from vicode.docsite.findings import finding_rows
 from vicode.docsite.name_linker import NameLinker, join_spans, plain_text
 from vicode.docsite.site_input import SiteInput
+from vicode.docsite.time_limit import find_time_limit
 from vicode.docsite.urls import SiteUrls, path_anchor, state_anchor
-from vicode.docsite.uses import use_rows, user_rows
+from vicode.docsite.uses import use_rows
 from vicode.docsite.views import (
     ActionPhaseView,
     ActionView,
     ComponentPageView,
+    DeclarationTable,
     LanguageView,
     RichText,
     StateView,
     TextSpan,
+    UseRow,
 )
-from vicode.model.design import COMMON, Action, Assign, Call, Design, RunCode, State
-from vicode.model.traversal import iter_transitions
+from vicode.model.design import COMMON, Action, Assign, Call, Design, RunCode, State, Transition
 
 _PHASES = (("enter", "On entry"), ("actions", "In each iteration"), ("leave", "On exit"))
 
@@ -34,6 +35,9 @@ class ComponentInputs:
 
     site_input: SiteInput
     urls: SiteUrls
+    tables: tuple[DeclarationTable, ...]
+    used_by: tuple[UseRow, ...]
+    agents: RichText
     code_links: CodeLinks
     code_pages: tuple[TextSpan, ...]
     languages: tuple[LanguageView, ...]
@@ -47,9 +51,9 @@ def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView
     transitions = tuple(transition_rows(design, linker, addresses))
     codes = (("Module", design.module), ("Members", design.members))
     return ComponentPageView(
-        name=design.component,
+        name=addresses.names.component(design.component),
         doc_html=render_doc(design.doc),
-        facts=tuple(_facts(design)),
+        facts=tuple(_facts(design, inputs)),
         svg=draw_design(design, addresses),
         legend=(),
         transitions=tuple(tuple(rows) for _source, rows in groupby(transitions, key=lambda row: row.source)),
@@ -58,13 +62,14 @@ def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView
         states=tuple(_state(design, state, linker, inputs) for state in design.states),
         neighbourhood_svg=draw_neighbourhood(design, project, addresses),
         uses=tuple(use_rows(design, linker)),
-        used_by=tuple(user_rows(project, design.component, addresses)),
-        agents=join_spans(
+        used_by=inputs.used_by,
+        root_of=join_spans(
             TextSpan(text=agent.title or agent.name, href=addresses.agent(agent.name))
             for agent in project.agents
             if agent.root == design.component
         ),
-        tables=tuple(declaration_tables(design, linker)),
+        agents=inputs.agents,
+        tables=inputs.tables,
         custom_code=tuple((title, code_blocks(code)) for title, code in codes if code.texts),
         findings=finding_rows(inputs.site_input, addresses, design.component),
         code_pages=inputs.code_pages,
@@ -72,16 +77,22 @@ def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView
     )
 
 
-def _facts(design: Design) -> Iterator[RichText]:
+def _facts(design: Design, inputs: ComponentInputs) -> Iterator[RichText]:
+    source = inputs.site_input.sources.get(design.component)
+    is_xabsl = inputs.urls.names.is_xabsl
+    if source:
+        line = source.nearest_line(("component",))
+        href = inputs.urls.code(design.component, "source") + (f"#L{line}" if line else "")
+        yield (TextSpan(text=f"{source.path}:{line}" if line else source.path, href=href, css_class="code"),)
     count = len(design.states)
     yield plain_text(f"{count} state{'s' * (count != 1)}")
     if design.frequency_hz is not None:
         yield plain_text(f"runs at {design.frequency_hz:g} Hz")
-    else:
+    elif not is_xabsl:
         yield plain_text("runs on every step")
     if design.resume:
         yield plain_text("resumes where it left off")
-    if design.xabsl_name:
+    if design.xabsl_name and not is_xabsl:
         yield (TextSpan(text="in XABSL "), TextSpan(text=design.xabsl_name, css_class="code"))
 
 
@@ -100,7 +111,7 @@ def _state(design: Design, state: State, linker: NameLinker, made: ComponentInpu
     phases.insert(2, ActionPhaseView(title="Modulates", actions=tuple(_actions(state.modulates, linker))))
     return StateView(
         anchor=state_anchor(state.name),
-        name=state.name,
+        name=linker.state_name(state),
         badges=tuple(words),
         doc_html=render_doc(state.doc, parent_level=3),
         facts=tuple((title, parts) for title, parts in _state_facts(design, state, linker) if parts),
@@ -113,12 +124,40 @@ def _state(design: Design, state: State, linker: NameLinker, made: ComponentInpu
 
 
 def _state_facts(design: Design, state: State, linker: NameLinker) -> Iterator[tuple[str, RichText]]:
-    common = TextSpan(text="every state", href="#common")
-    sources = dict.fromkeys(each.source for each in iter_transitions(design) if _leads(each.decision, state.name))
-    yield "Entered from", join_spans(common if source == COMMON else linker.state(source) for source in sources)
+    every_state = TextSpan(text="every state", href="#common")
+    entries: dict[str, list[TextSpan]] = {}
+    exits: dict[str, list[TextSpan]] = {}
+    for order, located in numbered_decisions(design):
+        if isinstance(located.decision, Transition):
+            link = TextSpan(text=str(order), href=f"#{path_anchor(located.path)}")
+            if located.decision.to == state.name:
+                entries.setdefault(located.source, []).append(link)
+            if located.source == state.name and located.decision.to != state.name:
+                exits.setdefault(located.decision.to, []).append(link)
+    if state.name == design.initial:
+        yield "Entered", (TextSpan(text="when the option starts" if linker.is_xabsl else "when the component starts"),)
+    yield (
+        "Entered from",
+        _numbered_links(
+            (every_state if each == COMMON else linker.state(each), found) for each, found in entries.items()
+        ),
+    )
+    yield "Leads to", _numbered_links((linker.state(each), found) for each, found in exits.items())
     if design.common.transitions:
         yield "Tested first", (TextSpan(text="common transitions", href="#common"),)
+    bound = find_time_limit(state)
+    if bound:
+        yield "Lasts at most", linker.duration(bound)
     yield "Requires", join_spans(linker.alias(alias) for alias in state.requires)
+
+
+def _numbered_links(found: Iterable[tuple[TextSpan, Sequence[TextSpan]]]) -> RichText:
+    """States, each with links to its transitions."""
+    parts: list[TextSpan] = []
+    for state, links in found:
+        parts += [TextSpan(text=", ")] if parts else []
+        parts += [state, TextSpan(text=" ("), *join_spans(links), TextSpan(text=")")]
+    return tuple(parts)
 
 
 def _common(design: Design, linker: NameLinker, made: ComponentInputs) -> StateView:
@@ -140,16 +179,13 @@ def _common(design: Design, linker: NameLinker, made: ComponentInputs) -> StateV
     )
 
 
-def _leads(decision: object, name: str) -> bool:
-    return getattr(decision, "to", None) == name
-
-
 def _actions(actions: Sequence[Action], linker: NameLinker) -> Iterator[ActionView]:
     for action in actions:
         match action:
             case Assign(values=values):
                 for name, text in values:
-                    yield ActionView(text=(*linker.expression(name), TextSpan(text=" = "), *linker.expression(text)))
+                    value = linker.expression(text, linker.symbol_type(name))
+                    yield ActionView(text=(*linker.symbol(name), TextSpan(text=" = "), *value))
             case Call():
                 yield ActionView(text=call_text(action, linker))
             case RunCode(code=code):
@@ -160,5 +196,6 @@ def call_text(call: Call, linker: NameLinker) -> RichText:
     parts: list[TextSpan] = [linker.alias(call.alias), TextSpan(text="(")]
     for index, (name, text) in enumerate(call.arguments):
         parts += [TextSpan(text=", ")] if index else []
-        parts += [linker.parameter(call.alias, name), TextSpan(text="="), *linker.expression(text)]
+        value = linker.expression(text, linker.parameter_type(call.alias, name))
+        parts += [linker.parameter(call.alias, name), TextSpan(text=" = " if linker.is_xabsl else "="), *value]
     return (*parts, TextSpan(text=")"))

@@ -18,7 +18,7 @@ from vicode.model.traversal import LocatedDecision, is_exhaustive, iter_decision
 CodeLinks = Mapping[DesignPath, tuple[TextSpan, ...]]
 """Links into the code pages of a component, by the path of the node."""
 
-_AND = TextSpan(text=" and ", css_class="k")
+_AND, _XABSL_AND = TextSpan(text=" and ", css_class="k"), TextSpan(text=" && ", css_class="k")
 
 
 def code_blocks(code: Code) -> tuple[CodeBlock, ...]:
@@ -32,32 +32,38 @@ def code_blocks(code: Code) -> tuple[CodeBlock, ...]:
 def guard_text(guard: Guard, linker: NameLinker) -> RichText:
     """A guard as text; empty if it always holds."""
     parts: list[TextSpan] = []
+    joint = _XABSL_AND if linker.is_xabsl else _AND
     if guard.when:
         parts += linker.expression(guard.when)
     if guard.after:
-        parts += [_AND] if parts else []
-        parts += [TextSpan(text="after ", css_class="k"), *linker.duration(guard.after)]
+        parts += [joint] if parts else []
+        parts += linker.timer(guard.after)
     if guard.code is not None:
-        parts += [_AND] if parts else []
+        parts += [joint] if parts else []
         parts.append(TextSpan(text="custom code", css_class="code-guard", title="Condition in code"))
     return tuple(parts)
 
 
+def numbered_decisions(design: Design) -> Iterator[tuple[int, LocatedDecision]]:
+    """All transitions and stay decisions with their order in their source."""
+    orders: Counter[str] = Counter()
+    for located in iter_decisions(design):
+        if not isinstance(located.decision, DecisionGroup):
+            orders[located.source] += 1
+            yield orders[located.source], located
+
+
 def transition_rows(design: Design, linker: NameLinker, addresses: SiteUrls) -> Iterator[TransitionRow]:
     """All transitions and stay decisions, in the order in which they are tested."""
-    orders: Counter[str] = Counter()
     off = disabled_states(design)
-    for located in iter_decisions(design):
-        if isinstance(located.decision, DecisionGroup):
-            continue
-        orders[located.source] += 1
+    for order, located in numbered_decisions(design):
         is_common = located.source == COMMON
         common = TextSpan(text="every state", href=addresses.design_path(design.component, ("common",)))
         source = common if is_common else linker.state(located.source)
         guard = located.decision.guard
         timer = linker.duration(guard.after) if guard.after else ()
         yield TransitionRow(
-            order=TextSpan(text=str(orders[located.source]), href=f"#{path_anchor(located.path)}"),
+            order=TextSpan(text=str(order), href=f"#{path_anchor(located.path)}"),
             source=source,
             guards=tuple(_guard_texts(located, linker)),
             timer=timer,
@@ -89,7 +95,8 @@ def _guard_texts(located: LocatedDecision, linker: NameLinker) -> Iterator[RichT
         if line and is_then:
             yield line
         elif line:
-            yield (TextSpan(text="not ", css_class="k"), TextSpan(text="("), *line, TextSpan(text=")"))
+            negation = "!" if linker.is_xabsl else "not "
+            yield (TextSpan(text=negation, css_class="k"), TextSpan(text="("), *line, TextSpan(text=")"))
     own = located.decision.guard
     rest = Guard(when=own.when, code=own.code)
     if not rest.is_empty:
@@ -138,5 +145,8 @@ def _ends_evaluation(item: Decision) -> bool:
 
 def _outcome(decision: Decision, linker: NameLinker, before: str) -> RichText:
     if isinstance(decision, Transition):
-        return (TextSpan(text=f"{before}go to ", css_class="k"), linker.state(decision.to))
+        return (
+            TextSpan(text=f"{before}{'goto' if linker.is_xabsl else 'go to'} ", css_class="k"),
+            linker.state(decision.to),
+        )
     return (TextSpan(text=f"{before}stay", css_class="k"),)

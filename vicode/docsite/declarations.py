@@ -1,9 +1,11 @@
 """Tables of declarations."""
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from vicode.docsite.doc_text import render_inline_doc
 from vicode.docsite.name_linker import NameLinker
+from vicode.docsite.reference_lists import ReferenceIndex
 from vicode.docsite.urls import slug
 from vicode.docsite.views import DeclarationRow, DeclarationTable, RichText, TextSpan
 from vicode.model.design import Declaration, Design
@@ -17,12 +19,16 @@ _TITLES = {
 _COLUMNS = ("type", "initial", "unit", "range", "doc_html", "arguments", "read_in", "set_in")
 
 
-def declaration_tables(owner: Design | Interface, linker: NameLinker, prefix: str = "") -> Iterator[DeclarationTable]:
-    """The tables of a component; `prefix` is the prefix of the anchors."""
+def declaration_tables(
+    owner: Design | Interface, linker: NameLinker, references: ReferenceIndex
+) -> Iterator[DeclarationTable]:
+    """The tables of a component, with all places that set and read each declaration."""
     for section, (title, initial) in _TITLES.items():
-        declarations = getattr(owner, section)
-        if declarations:
-            rows = tuple(declaration_rows(declarations, linker, prefix + section.removesuffix("s") + "-"))
+        rows = tuple(
+            replace(row, references=references.of_member(owner.component, section, declaration))
+            for declaration, row in declaration_rows(owner, section, linker)
+        )
+        if rows:
             yield make_declaration_table(title, initial, rows)
 
 
@@ -36,23 +42,39 @@ def used_columns(rows: Iterable[DeclarationRow]) -> frozenset[str]:
     return frozenset(name for row in rows for name in _COLUMNS if getattr(row, name))
 
 
-def declaration_rows(declarations: Iterable[Declaration], linker: NameLinker, prefix: str) -> Iterator[DeclarationRow]:
-    for declaration in declarations:
-        yield DeclarationRow(
-            anchor=prefix + slug(declaration.name),
-            name=declaration.name,
-            arguments=tuple(_argument(argument, linker) for argument in declaration.arguments or ()),
-            type=linker.declared_type(declaration),
-            initial=linker.expression(declaration.initial),
-            unit=declaration.unit,
-            range=f"{declaration.range[0]:g} … {declaration.range[1]:g}" if declaration.range else "",
-            doc_html=render_inline_doc(declaration.doc),
-        )
+def declaration_rows(
+    owner: Design | Interface, section: str, linker: NameLinker
+) -> Iterator[tuple[Declaration, DeclarationRow]]:
+    """The declarations of a section of a component with their rows."""
+    declarations: tuple[Declaration, ...] = getattr(owner, section)
+    for each in declarations:
+        yield each, _row(each, linker.declaration_name(owner, section, each), section.removesuffix("s"), linker)
+
+
+def constant_rows(constants: Iterable[Declaration], linker: NameLinker) -> Iterator[tuple[Declaration, DeclarationRow]]:
+    for each in constants:
+        yield each, _row(each, linker.declaration_name(None, "", each), "constant", linker)
+
+
+def _row(declaration: Declaration, name: str, prefix: str, linker: NameLinker) -> DeclarationRow:
+    return DeclarationRow(
+        anchor=f"{prefix}-{slug(declaration.name)}",
+        name=name,
+        arguments=tuple(_argument(argument, linker) for argument in declaration.arguments or ()),
+        type=linker.declared_type(declaration),
+        initial=linker.expression(declaration.initial, declaration.type),
+        unit=declaration.unit,
+        range=f"{declaration.range[0]:g} … {declaration.range[1]:g}" if declaration.range else "",
+        doc_html=render_inline_doc(declaration.doc),
+    )
 
 
 def _argument(argument: Declaration, linker: NameLinker) -> RichText:
     words = [argument.unit, f"{argument.range[0]:g} … {argument.range[1]:g}" if argument.range else "", argument.doc]
     about = ", ".join(word for word in words if word)
     type_ = linker.declared_type(argument)
-    line = (TextSpan(text=argument.name, css_class="code"), *((TextSpan(text=" "), *type_) if type_ else ()))
+    line = (
+        TextSpan(text=linker.argument_name(argument), css_class="code"),
+        *((TextSpan(text=" "), *type_) if type_ else ()),
+    )
     return (*line, TextSpan(text=f" · {about}")) if about else line

@@ -13,6 +13,7 @@ from vicode.diagram.palettes import css_variable_palette
 from vicode.diagram.render import render_diagram
 from vicode.diagram.svg import write_svg
 from vicode.docsite.build_cache import BuildCache
+from vicode.docsite.shown_design import with_shown_names, with_shown_targets
 from vicode.docsite.urls import SiteUrls, path_anchor
 from vicode.findings import DesignPath
 from vicode.model.design import Decision, Design
@@ -35,11 +36,12 @@ def add_missing_layouts(project: Project, service: LayoutService, memory: BuildC
 
 def draw_design(design: Design, addresses: SiteUrls) -> str:
     """The state machine; nodes and edges link to their descriptions, used components to their pages."""
-    figure = build_diagram(design)
-    components = {use.alias: use.component for use in design.uses}
+    shown = with_shown_names(design, addresses.names)
+    figure = build_diagram(shown.design)
+    components = {use.alias: use.component for use in shown.design.uses}
     things = {
-        f"t:{'/'.join(map(str, located.path))}": addresses.design_path(design.component, located.path)
-        for located in iter_transitions(design)
+        f"t:{'/'.join(map(str, drawn.path))}": addresses.design_path(design.component, located.path)
+        for drawn, located in zip(iter_transitions(shown.design), iter_transitions(design), strict=True)
     }
 
     def linked_node(node: DiagramNode) -> DiagramNode:
@@ -48,38 +50,44 @@ def draw_design(design: Design, addresses: SiteUrls) -> str:
             return replace(node, href=addresses.component(components[name]))
         if kind == "n":
             return node
-        path = ("states", name) if kind == "s" else ("common",)
+        path = ("states", shown.states[name]) if kind == "s" else ("common",)
         return replace(node, href=addresses.design_path(design.component, path))
 
     def linked_arrow(arrow: DiagramEdge) -> DiagramEdge:
         if arrow.edge_type == "transition":
             return replace(arrow, href=things.get(arrow.key, ""))
         state = arrow.target if arrow.edge_type == "requires" else arrow.source
-        return replace(arrow, href=addresses.design_path(design.component, ("states", state.partition(":")[2])))
+        name = shown.states.get(state.partition(":")[2], "")
+        return replace(arrow, href=addresses.design_path(design.component, ("states", name)))
 
     # Components without edges are only in the table of uses.
     ends = {end for arrow in figure.edges for end in (arrow.source, arrow.target)}
     nodes = tuple(linked_node(node) for node in figure.nodes if node.node_type != "component" or node.key in ends)
     arrows = tuple(map(linked_arrow, figure.edges))
-    return _render_svg(replace(figure, nodes=nodes, edges=arrows), f"State machine of {design.component}")
+    return _render_svg(
+        replace(figure, nodes=nodes, edges=arrows), f"State machine of {addresses.names.component(design.component)}"
+    )
 
 
 def draw_decision_tree(
     items: Sequence[Decision], path: DesignPath, design: Design, addresses: SiteUrls
 ) -> tuple[str, bool]:
     """The decision tree of a state or of the common transitions, "" without decisions, and whether parts are folded."""
-    is_common = path[0] == "common"
+    is_common, shown = path[0] == "common", with_shown_names(design, addresses.names)
     links = TreeLinks(
         condition_href=lambda path: addresses.design_path(design.component, path),
         target_href=lambda name: (
-            addresses.design_path(design.component, ("states", name)) if design.state(name) else ""
+            addresses.design_path(design.component, ("states", shown.states[name])) if name in shown.states else ""
         ),
         fallthrough_label="transitions of the state" if is_common else "stay",
         decision_key=path_anchor,
         time_unit=design.time_unit,
     )
-    title = "Decision tree of the common transitions" if is_common else f"Decision tree of {path[1]}"
-    drawing = render_decision_tree(items, path, title=title, links=links, palette=css_variable_palette())
+    names = {name: drawn for drawn, name in shown.states.items()}
+    title = "Decision tree of the common transitions" if is_common else f"Decision tree of {names.get(str(path[1]))}"
+    drawing = render_decision_tree(
+        with_shown_targets(items, names), path, title=title, links=links, palette=css_variable_palette()
+    )
     if drawing is None:
         return "", False
     return write_svg(drawing, is_embedded=True), any(group.css_class == "folded" for group in drawing.groups)
@@ -88,7 +96,7 @@ def draw_decision_tree(
 def draw_dependencies(project: Project, addresses: SiteUrls, title: str) -> str:
     """The dependency diagram of a project or a part of it; edges link to the user."""
     figure = dependency_diagram(project, sparse=True)
-    nodes = tuple(replace(node, href=addresses.component(node.key)) for node in figure.nodes)
+    nodes = tuple(_linked_component(node, addresses, addresses.component(node.key)) for node in figure.nodes)
     return _render_svg(Diagram(nodes=nodes, edges=_linked_dependencies(figure, addresses)), title) if nodes else ""
 
 
@@ -100,10 +108,22 @@ def draw_neighbourhood(design: Design, project: Project, addresses: SiteUrls) ->
         return ""
     rest = {MORE_USERS: "#used-by", MORE_USED: "#uses"}
     nodes = tuple(
-        node if node.key == name else replace(node, href=rest.get(node.key) or addresses.component(node.key))
+        _linked_component(
+            node, addresses, "" if node.key == name else rest.get(node.key) or addresses.component(node.key)
+        )
         for node in figure.nodes
     )
-    return _render_svg(Diagram(nodes=nodes, edges=_linked_dependencies(figure, addresses)), f"Neighbors of {name}")
+    return _render_svg(
+        Diagram(nodes=nodes, edges=_linked_dependencies(figure, addresses)),
+        f"Neighbors of {addresses.names.component(name)}",
+    )
+
+
+def _linked_component(node: DiagramNode, addresses: SiteUrls, href: str) -> DiagramNode:
+    shown = addresses.names.component(node.key)
+    if shown == node.key:
+        return replace(node, href=href)
+    return replace(node, href=href, label=shown, title=node.title.replace(node.key, shown, 1))
 
 
 def _linked_dependencies(figure: Diagram, addresses: SiteUrls) -> tuple[DiagramEdge, ...]:

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable
 
-from vicode.docsite.site_input import ComponentFinding, SiteInput, SourceText
+from vicode.docsite.site_input import ComponentFinding, SiteInput
 from vicode.docsite.urls import SiteUrls
 from vicode.docsite.views import FindingGroup, FindingRow, TextSpan
-from vicode.findings import DesignPath, Severity
+from vicode.findings import Severity
 
 
 def finding_rows(subject: SiteInput, addresses: SiteUrls, component: str | None = None) -> tuple[FindingRow, ...]:
@@ -30,12 +30,12 @@ def finding_groups(rows: Iterable[FindingRow]) -> tuple[FindingGroup, ...]:
 def finding_row(component_finding: ComponentFinding, subject: SiteInput, addresses: SiteUrls) -> FindingRow:
     """The row of a finding; without a line, it gets the line of its subject."""
     finding = component_finding.finding
-    name = component_finding.component or subject.name
+    name = addresses.names.component(component_finding.component) or subject.name
     path = finding.subject.path if finding.subject else ()
     href = addresses.design_path(component_finding.component, path) if component_finding.component else ""
     place = TextSpan(text="")
     source = subject.sources.get(component_finding.component)
-    line = component_finding.line or (_nearest_line(source, path) if source else 0)
+    line = component_finding.line or (source.nearest_line(path) if source else 0)
     if component_finding.file:
         place = TextSpan(text=f"{component_finding.file}:{line}")
     elif source and line:
@@ -49,11 +49,4 @@ def finding_row(component_finding: ComponentFinding, subject: SiteInput, address
         fix=finding.fix,
         component=TextSpan(text=name, href=href),
         location=place,
-    )
-
-
-def _nearest_line(source: SourceText, path: DesignPath) -> int:
-    """The line of the innermost node at or above a path that has one, else 0."""
-    return next(
-        (source.line_numbers[path[:end]] for end in range(len(path), 0, -1) if path[:end] in source.line_numbers), 0
     )

@@ -3,18 +3,26 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from vicode.docsite.declarations import declaration_rows, declaration_tables, make_declaration_table, used_columns
+from vicode.docsite.declarations import (
+    constant_rows,
+    declaration_rows,
+    declaration_tables,
+    make_declaration_table,
+    used_columns,
+)
 from vicode.docsite.doc_text import render_doc, render_inline_doc, summarize
 from vicode.docsite.findings import finding_rows
 from vicode.docsite.name_linker import NameLinker, join_spans, plain_text
 from vicode.docsite.natural_sort import natural_sort_key, sorted_designs
-from vicode.docsite.references import READ, SET, SymbolReferences, find_symbol_references
+from vicode.docsite.reference_lists import ReferenceIndex
+from vicode.docsite.references import READ, SET
 from vicode.docsite.site_input import SiteInput
 from vicode.docsite.urls import SiteUrls, slug
 from vicode.docsite.uses import user_rows
 from vicode.docsite.views import (
     DeclarationRow,
     DeclarationTable,
+    ElementRow,
     EnumerationView,
     InterfaceRow,
     InterfaceView,
@@ -35,36 +43,29 @@ class InterfaceInputs:
 
     site_input: SiteInput
     urls: SiteUrls
-    references: SymbolReferences
+    references: ReferenceIndex
+    agents_by_component: Mapping[str, RichText]
 
     @property
     def project(self) -> Project:
         return self.site_input.project
 
 
-def make_interface_inputs(subject: SiteInput, addresses: SiteUrls) -> InterfaceInputs:
-    """Collect all references once for all pages."""
-    return InterfaceInputs(site_input=subject, urls=addresses, references=find_symbol_references(subject.project))
-
-
 def interface_views(known: InterfaceInputs) -> Iterator[InterfaceView]:
     """One page per component without a design, by name."""
     project, addresses = known.project, known.urls
-    linker = NameLinker(project, addresses)
+    linker, agents = NameLinker(project, addresses), known.agents_by_component
     for interface in _sorted_interfaces(project):
-        tables = (
-            _add_references_to_table(table, interface.component, known)
-            for table in declaration_tables(interface, linker)
-        )
         yield InterfaceView(
             file=addresses.component(interface.component),
-            name=interface.component,
+            name=addresses.names.component(interface.component),
             kind=BASIC_BEHAVIOR if is_basic_behavior(interface) else "interface",
             title=interface.title,
             doc_html=render_doc(interface.doc),
-            facts=tuple(_facts(interface)),
-            tables=tuple(tables),
-            used_by=tuple(user_rows(project, interface.component, addresses)),
+            facts=tuple(_facts(interface, is_xabsl=linker.is_xabsl)),
+            agents=agents.get(interface.component, ()),
+            tables=tuple(declaration_tables(interface, linker, known.references)),
+            used_by=tuple(user_rows(project, interface.component, addresses, known.references)),
             findings=finding_rows(known.site_input, addresses, interface.component),
         )
 
@@ -84,13 +85,12 @@ def symbol_groups(known: InterfaceInputs) -> Iterator[SymbolGroup]:
     owners: list[Interface | Design] = [each for each in _sorted_interfaces(project) if each.readable]
     owners += [design for design in sorted_designs(project) if symbol_declarations(design)]
     for owner in owners:
-        linker = NameLinker(project, addresses, owner if isinstance(owner, Design) else None)
         name = owner.component
-        symbols = (row for kind, section in _symbol_kinds(owner) for row in _symbol_rows(owner, section, kind, linker))
-        rows = tuple(_add_references_to_row(row, name, known, addresses) for row in symbols)
+        symbols = (row for kind, section in _symbol_kinds(owner) for row in _symbol_rows(owner, section, kind, known))
+        rows = tuple(symbols)
         yield SymbolGroup(
             anchor=addresses.symbols(name).partition("#")[2],
-            component=linker.component(name),
+            component=NameLinker(project, addresses).component(name),
             title=owner.title if isinstance(owner, Interface) else "",
             rows=rows,
             columns=used_columns(rows),
@@ -108,22 +108,27 @@ def enumeration_views(known: InterfaceInputs) -> Iterator[EnumerationView]:
         anchor = f"enum-{slug(enumeration.name)}"
         yield EnumerationView(
             anchor=anchor,
-            name=enumeration.name,
+            name=known.urls.names.enumeration(enumeration.name),
             doc_html=render_doc(enumeration.doc, parent_level=2),
             elements=tuple(
-                (f"{anchor}-{slug(name)}", name, render_inline_doc(doc)) for name, doc in enumeration.elements
+                ElementRow(
+                    anchor=f"{anchor}-{slug(name)}",
+                    name=known.urls.names.element(enumeration, name),
+                    doc_html=render_inline_doc(doc),
+                    references=known.references.of_element(enumeration, name),
+                )
+                for name, doc in enumeration.elements
             ),
-            facts=tuple(_facts_of_type(enumeration)),
+            facts=tuple(_facts_of_type(enumeration, is_xabsl=known.urls.names.is_xabsl)),
             declarations=join_spans(_declarations_of_type(enumeration.name, known)),
-            used_by=user_links(known.references.users(READ, "", enumeration.name), known),
         )
 
 
 def constant_table(known: InterfaceInputs) -> DeclarationTable:
     linker = NameLinker(known.project, known.urls)
     rows = (
-        replace(row, read_in=user_links(known.references.users(READ, "", row.name), known))
-        for row in declaration_rows(known.project.constants, linker, "constant-")
+        replace(row, references=known.references.of_constant(constant.name))
+        for constant, row in constant_rows(known.project.constants, linker)
     )
     return make_declaration_table("Constants", "Value", tuple(rows))
 
@@ -133,12 +138,15 @@ def user_links(users: Mapping[str, tuple[str, ...]], known: InterfaceInputs) -> 
     parts = []
     for name in sorted(users, key=natural_sort_key):
         states = [state for state in users[name] if state]
-        words = ["every state" if state == COMMON else state for state in states]
+        design, names = known.project.design(name), known.urls.names
+        words = [
+            "every state" if state == COMMON else names.state_of(design, state) if design else state for state in states
+        ]
         href = known.urls.component(name)
         if len(states) == 1:
             path = ("common",) if states[0] == COMMON else ("states", states[0])
             href = known.urls.design_path(name, path)
-        parts.append(TextSpan(text=name, href=href, title=f"in {', '.join(words)}" if words else ""))
+        parts.append(TextSpan(text=names.component(name), href=href, title=f"in {', '.join(words)}" if words else ""))
     return join_spans(parts)
 
 
@@ -150,36 +158,20 @@ def _row(interface: Interface, known: InterfaceInputs) -> InterfaceRow:
     addresses, name = known.urls, interface.component
     count = len(interface.readable)
     parameters = (
-        TextSpan(text=each.name, href=addresses.member(name, "parameters", each.name), title=each.doc)
+        TextSpan(
+            text=addresses.names.argument(each),
+            href=addresses.member(name, "parameters", each.name),
+            title=each.doc,
+        )
         for each in interface.parameters
     )
     return InterfaceRow(
-        component=TextSpan(text=name, href=addresses.component(name), title=interface.title),
+        component=TextSpan(text=addresses.names.component(name), href=addresses.component(name), title=interface.title),
         parameters=join_spans(parameters),
         symbol_count=TextSpan(text=str(count), href=addresses.symbols(name)) if count else TextSpan(text="–"),
         user_count=sum(1 for design in known.project.designs if any(use.component == name for use in design.uses)),
         summary=summarize(interface.doc) or interface.title,
     )
-
-
-def _add_references_to_table(table: DeclarationTable, component: str, known: InterfaceInputs) -> DeclarationTable:
-    is_parameter = table.title == "Parameters"
-    rows = (
-        replace(row, set_in=user_links(known.references.users(SET, component, f"{row.name}()"), known))
-        if is_parameter
-        else _add_references_to_row(row, component, known)
-        for row in table.rows
-    )
-    return make_declaration_table(table.title, table.initial_heading, tuple(rows))
-
-
-def _add_references_to_row(
-    row: DeclarationRow, component: str, known: InterfaceInputs, addresses: SiteUrls | None = None
-) -> DeclarationRow:
-    read, set_ = (user_links(known.references.users(how, component, row.name), known) for how in (READ, SET))
-    section = "variables" if row.anchor.startswith("variable-") else "outputs"
-    href = addresses.member(component, section, row.name) if addresses else ""
-    return replace(row, read_in=read, set_in=set_, href=href)
 
 
 def _symbol_kinds(owner: Interface | Design) -> tuple[tuple[str, str], ...]:
@@ -188,10 +180,15 @@ def _symbol_kinds(owner: Interface | Design) -> tuple[tuple[str, str], ...]:
     return ((("internal" if is_kept else "input"), "outputs"), (("internal" if is_kept else "output"), "variables"))
 
 
-def _symbol_rows(owner: Interface | Design, section: str, kind: str, linker: NameLinker) -> Iterator[DeclarationRow]:
-    declarations: tuple[Declaration, ...] = getattr(owner, section)
-    for row in declaration_rows(declarations, linker, f"{section.removesuffix('s')}-"):
-        yield replace(row, kind=kind)
+def _symbol_rows(
+    owner: Interface | Design, section: str, kind: str, known: InterfaceInputs
+) -> Iterator[DeclarationRow]:
+    name, references = owner.component, known.references.references
+    linker = NameLinker(known.project, known.urls, owner if isinstance(owner, Design) else None)
+    for declaration, row in declaration_rows(owner, section, linker):
+        read, set_ = (user_links(references.users(how, name, declaration.name), known) for how in (READ, SET))
+        href = known.urls.member(name, section, declaration.name)
+        yield replace(row, kind=kind, read_in=read, set_in=set_, href=href)
 
 
 def _declarations_of_type(enumeration: str, known: InterfaceInputs) -> Iterator[TextSpan]:
@@ -201,28 +198,34 @@ def _declarations_of_type(enumeration: str, known: InterfaceInputs) -> Iterator[
             for declaration in getattr(owner, section):
                 if declaration.type == enumeration:
                     href = known.urls.member(owner.component, section, declaration.name)
-                    yield TextSpan(
-                        text=f"{owner.component}.{declaration.name}", href=href, title=summarize(declaration.doc)
-                    )
+                    yield TextSpan(text=_qualified_name(owner, section, declaration, known), href=href)
 
 
-def _facts_of_type(enumeration: Enumeration) -> Iterator[RichText]:
+def _qualified_name(owner: Interface | Design, section: str, declaration: Declaration, known: InterfaceInputs) -> str:
+    """The name of a declaration outside its component; symbols of XABSL are unique."""
+    names = known.urls.names
+    if names.is_xabsl and section != "parameters":
+        return names.declaration(owner, section, declaration)
+    return f"{names.component(owner.component)}.{names.argument(declaration)}"
+
+
+def _facts_of_type(enumeration: Enumeration, *, is_xabsl: bool) -> Iterator[RichText]:
     count = len(enumeration.elements)
     yield plain_text(f"{count} element{'s' * (count != 1)}")
     if enumeration.internal:
         yield plain_text("stored by vicode")
-    if enumeration.xabsl_name:
+    if enumeration.xabsl_name and not is_xabsl:
         yield (TextSpan(text="in XABSL "), TextSpan(text=enumeration.xabsl_name, css_class="code"))
 
 
-def _facts(interface: Interface) -> Iterator[RichText]:
+def _facts(interface: Interface, *, is_xabsl: bool) -> Iterator[RichText]:
     if interface.is_generated:
         yield plain_text(_ORIGINS[interface.implementation])
     else:
         yield (TextSpan(text="implemented by "), TextSpan(text=interface.implementation, css_class="code"))
     if interface.frequency_hz is not None:
         yield plain_text(f"runs at {interface.frequency_hz:g} Hz")
-    if interface.xabsl_name:
+    if interface.xabsl_name and not is_xabsl:
         yield (TextSpan(text="in XABSL "), TextSpan(text=interface.xabsl_name, css_class="code"))
 
 

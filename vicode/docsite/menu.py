@@ -61,7 +61,11 @@ def menu_script(folders: Iterable[DesignFolder], addresses: SiteUrls) -> str:
         [
             folder.name,
             [
-                [design.component, addresses.component(design.component), summarize(design.doc)]
+                [
+                    addresses.names.component(design.component),
+                    addresses.component(design.component),
+                    summarize(design.doc),
+                ]
                 for design in folder.designs
             ],
         ]

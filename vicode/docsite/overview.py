@@ -1,6 +1,6 @@
 """The pages about the whole project: home and agents."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from vicode.diagram.dependency_graph import has_omitted_uses
@@ -12,7 +12,7 @@ from vicode.docsite.name_linker import NameLinker, join_spans
 from vicode.docsite.natural_sort import natural_sort_key, sorted_designs
 from vicode.docsite.site_input import SiteInput
 from vicode.docsite.urls import AGENTS, INTERFACES, NAME_INDEX, SYMBOLS, TYPES, SiteUrls
-from vicode.docsite.views import AgentRow, AgentView, ComponentRow, HomeView, ReachableComponentRow, TextSpan
+from vicode.docsite.views import AgentRow, AgentView, ComponentRow, HomeView, ReachableComponentRow, RichText, TextSpan
 from vicode.generators import collect_components
 from vicode.model.design import Design
 from vicode.model.project import Agent, Project
@@ -68,6 +68,18 @@ def agent_view(project: Project, agent: Agent, addresses: SiteUrls) -> AgentView
         svg=draw_dependencies(part, addresses, f"Components that {agent.name} can activate"),
         is_partial=has_omitted_uses(part) and symbol_count(project) > 0,
     )
+
+
+def agent_links(project: Project, addresses: SiteUrls) -> Mapping[str, RichText]:
+    """Links to the agents that can activate a component, by component."""
+    found: dict[str, list[TextSpan]] = {}
+    for agent in project.agents:
+        link = TextSpan(text=agent.title or agent.name, href=addresses.agent(agent.name), title=agent.name)
+        designs = _reachable_designs(project, agent)
+        used = {use.component for design in designs for use in design.uses}
+        for name in used | {design.component for design in designs}:
+            found.setdefault(name, []).append(link)
+    return {name: join_spans(links) for name, links in found.items()}
 
 
 def _reachable_designs(project: Project, agent: Agent) -> tuple[Design, ...]:

@@ -1,6 +1,6 @@
 """Builds all files of a site: a pure function of its input."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache, partial
 
@@ -15,27 +15,33 @@ from vicode.docsite.code_pages import (
     code_view,
 )
 from vicode.docsite.components import ComponentInputs, component_view
+from vicode.docsite.declarations import declaration_tables
 from vicode.docsite.diagrams import add_missing_layouts, draw_dependencies
 from vicode.docsite.doc_text import summarize
 from vicode.docsite.interfaces import (
+    InterfaceInputs,
     constant_table,
     enumeration_views,
     interface_rows,
     interface_views,
-    make_interface_inputs,
     symbol_count,
     symbol_groups,
 )
 from vicode.docsite.languages import GenerationErrors, find_generation_errors, language_views
 from vicode.docsite.markdown_pages import PageContent, markdown_files
 from vicode.docsite.menu import MENU_SCRIPT, DesignFolder, fixed_links, group_by_folder, menu_script
-from vicode.docsite.overview import agent_view, home_view
+from vicode.docsite.name_linker import NameLinker
+from vicode.docsite.overview import agent_links, agent_view, home_view
 from vicode.docsite.page_inputs import restrict_to_component, strip_to_usage
+from vicode.docsite.reference_lists import ReferenceIndex
+from vicode.docsite.references import find_symbol_references
 from vicode.docsite.site_input import SiteInput
+from vicode.docsite.site_names import is_from_xabsl
 from vicode.docsite.site_search import search_entries, search_script
 from vicode.docsite.site_writer import PlannedFile
 from vicode.docsite.urls import AGENTS, HOME, INTERFACES, NAME_INDEX, SYMBOLS, TYPES, SiteUrls
-from vicode.docsite.views import PageHead, TextSpan
+from vicode.docsite.uses import user_rows
+from vicode.docsite.views import PageHead, RichText, TextSpan
 from vicode.generators import GENERATORS
 from vicode.model.design import Design
 from vicode.model.project import Agent, Project
@@ -108,6 +114,8 @@ class _SitePlanner:
 
     site_input: SiteInput
     urls: SiteUrls
+    references: ReferenceIndex
+    agents_by_component: Mapping[str, RichText]
     code_files: CodeFiles
     generation_errors: GenerationErrors
     menu: tuple[TextSpan, ...]
@@ -158,7 +166,12 @@ class _SitePlanner:
         pages = {self.urls.component(each.component) for each in self.site_input.project.components}
         if only and only not in {INTERFACES, SYMBOLS, TYPES, *pages}:
             return
-        known = make_interface_inputs(self.site_input, self.urls)
+        known = InterfaceInputs(
+            site_input=self.site_input,
+            urls=self.urls,
+            references=self.references,
+            agents_by_component=self.agents_by_component,
+        )
         project = known.project
         if project.components:
             behaviors, others = interface_rows(known)
@@ -177,7 +190,8 @@ class _SitePlanner:
             )
 
     def _component_pages(self, only: str = "") -> Iterator[PlannedFile]:
-        for design in self.site_input.project.designs:
+        project = self.site_input.project
+        for design in project.designs:
             name = design.component
             if only not in ("", self.urls.component(name)):
                 continue
@@ -186,12 +200,16 @@ class _SitePlanner:
             made = ComponentInputs(
                 site_input=restrict_to_component(self.site_input, design),
                 urls=self.urls,
+                tables=tuple(declaration_tables(design, NameLinker(project, self.urls, design), self.references)),
+                used_by=tuple(user_rows(project, name, self.urls, self.references)),
+                agents=self.agents_by_component.get(name, ()),
                 code_links=code_links_by_path(texts, self.urls),
                 code_pages=code_page_links(texts, self.urls),
                 languages=tuple(language_views(self.site_input, name, written, self.generation_errors, self.urls)),
             )
-            key = (made.site_input, made.code_links, made.code_pages, made.languages)
-            head = _head(self.urls.component(name), name)
+            lists = (made.tables, made.used_by, made.agents)
+            key = (made.site_input, lists, made.code_links, made.code_pages, made.languages)
+            head = _head(self.urls.component(name), self.urls.names.component(name))
             yield self._page(head, "component", key, partial(_component, design, made))
 
     def _code_pages(self, only: str = "") -> Iterator[PlannedFile]:
@@ -199,11 +217,12 @@ class _SitePlanner:
             if only and only not in {self.urls.code(name, form) for form in ("source", *GENERATORS)}:
                 continue
             texts = self.code_files.files_of(name)
-            component = TextSpan(text=name or self.site_input.name, href=self.urls.component(name) or HOME)
+            shown = self.urls.names.component(name)
+            component = TextSpan(text=shown or self.site_input.name, href=self.urls.component(name) or HOME)
             links = code_page_links(texts, self.urls)
             for text in texts:
                 crumbs = (component,) if name else ()
-                head = _head(self.urls.code(name, text.variant), code_page_title(text), *crumbs)
+                head = _head(self.urls.code(name, text.variant), code_page_title(text, shown), *crumbs)
                 views = partial(_code, text, links, self.urls, component)
                 yield self._page(head, "code", (text, links, component), views)
 
@@ -216,8 +235,8 @@ class _SitePlanner:
         self.page_contents.append(PageContent(head=head, template=template, site=name, views=views))
 
         def make() -> str:
-            file = f"docsite/{template}.html.jinja"
-            text = render(file, page=head, site=name, about=about, menu=self.menu, **views())
+            file, is_xabsl = f"docsite/{template}.html.jinja", self.urls.names.is_xabsl
+            text = render(file, page=head, site=name, about=about, menu=self.menu, is_xabsl=is_xabsl, **views())
             # Many links of a page lead to the page itself.
             return text.replace(f'href="{head.file}#', 'href="#')
 
@@ -225,18 +244,33 @@ class _SitePlanner:
 
 
 def _make_planner(subject: SiteInput, memory: BuildCache) -> _SitePlanner:
-    project, generation_errors = subject.project, find_generation_errors(subject)
-    addresses, texts = SiteUrls(project), CodeFiles(subject, generation_errors, memory)
+    generation_errors = find_generation_errors(subject)
+    texts = CodeFiles(subject, generation_errors, memory)
+    project = _with_shown_expressions(subject.project, memory)
+    shown, addresses = replace(subject, project=project), SiteUrls(project)
     menu = tuple(fixed_links(subject, addresses, has_file="" in texts.component_names))
     return _SitePlanner(
-        site_input=subject,
+        site_input=shown,
         urls=addresses,
+        references=ReferenceIndex(
+            site_input=shown, urls=addresses, references=find_symbol_references(subject.project, project)
+        ),
+        agents_by_component=agent_links(project, addresses),
         code_files=texts,
         generation_errors=generation_errors,
         menu=menu,
         folders=group_by_folder(subject),
         shared_digest=compute_digest(subject.name, project.doc, menu, addresses.key),
     )
+
+
+def _with_shown_expressions(project: Project, memory: BuildCache) -> Project:
+    if not is_from_xabsl(project):
+        return project
+    # The generator of XABSL is slow to import, and most projects do not come from XABSL.
+    from vicode.docsite.xabsl_wording import with_xabsl_expressions  # noqa: PLC0415
+
+    return with_xabsl_expressions(project, memory)
 
 
 def _plain_file(path: str, text: str) -> PlannedFile:

@@ -5,20 +5,32 @@ from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 
 from vicode.findings import DesignPath, Finding
-from vicode.model.design import Design
+from vicode.model.design import Assign, Design
 from vicode.model.project import Project
-from vicode.model.traversal import iter_decisions
+from vicode.model.traversal import iter_actions, iter_decisions
 from vicode.store import OpenProject, SourceMap
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourceText:
-    """A source file: `path` is for display, `line_numbers` are 1-based lines of nodes."""
+    """A source file: `path` is for display, `line_numbers` are 1-based lines of nodes.
+
+    `action_lines` are those of the actions and assignments in states.
+    """
 
     path: str
     text: str
     language: str
     line_numbers: Mapping[DesignPath, int] = field(default_factory=dict)
+    action_lines: Mapping[DesignPath, int] = field(default_factory=dict)
+
+    def nearest_line(self, path: DesignPath) -> int:
+        """The line of the innermost node at or above a path that has one, else 0."""
+        for end in range(len(path), 0, -1):
+            line = self.action_lines.get(path[:end]) or self.line_numbers.get(path[:end])
+            if line:
+                return line
+        return 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,7 +78,10 @@ def make_site_input(
             continue
         lines = _line_numbers(design, source) if design else {}
         shown = _display_path(opened.files[name], folder)
-        sources[name] = SourceText(path=shown, text=opened.texts[name], language="yaml", line_numbers=lines)
+        actions = _action_lines(design, source) if design else {}
+        sources[name] = SourceText(
+            path=shown, text=opened.texts[name], language="yaml", line_numbers=lines, action_lines=actions
+        )
     owners = {source.file: name for name, source in opened.sources.items()}
     own = (_component_finding(finding, owners, folder) for finding in findings)
     kept = tuple(each for each in own if not each.component or project.design(each.component))
@@ -93,6 +108,22 @@ def iter_documented_paths(design: Design) -> Iterator[DesignPath]:
     yield from (("states", state.name) for state in design.states)
     yield from ((section, declaration.name) for section, declaration in design.declarations())
     yield from (located.path for located in iter_decisions(design))
+
+
+def iter_action_paths(design: Design) -> Iterator[DesignPath]:
+    """The paths of all actions, each followed by those of its assignments."""
+    for located in iter_actions(design):
+        yield located.path
+        if isinstance(located.action, Assign):
+            yield from ((*located.path, "set", name) for name, _value in located.action.values)
+
+
+def _action_lines(design: Design, source: SourceMap) -> dict[DesignPath, int]:
+    return {
+        path: source.locate(path, of_key=not isinstance(path[-1], int)).line
+        for path in iter_action_paths(design)
+        if source.contains(path)
+    }
 
 
 def _line_numbers(design: Design, source: SourceMap) -> dict[DesignPath, int]:

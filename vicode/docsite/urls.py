@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable
 
+from vicode.docsite.site_names import SiteNames
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON
 from vicode.model.project import Project
@@ -50,10 +51,14 @@ def _decision_steps(path: DesignPath) -> str:
 
 
 class SiteUrls:
-    """The URLs of a project; file names are unique on case-insensitive file systems, too."""
+    """The URLs of a project, and the names that links show.
+
+    File names are unique on case-insensitive file systems, too.
+    """
 
     def __init__(self, project: Project) -> None:
         self._project = project
+        self.names = SiteNames(project)
         self._stems = _stems(design.component for design in project.designs)
         self._interfaces = _stems(each.component for each in project.components)
         self._agents = _stems(each.name for each in project.agents)
@@ -62,8 +67,9 @@ class SiteUrls:
             tuple(self._interfaces),
             tuple(each.name for each in project.enumerations),
             tuple(self._agents),
+            self.names.key,
         )
-        """The inputs of all URLs."""
+        """The inputs of all URLs and names."""
 
     def component(self, name: str) -> str:
         """The page of a component; "" for an unknown one."""

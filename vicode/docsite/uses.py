@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from vicode.docsite.doc_text import render_inline_doc, summarize
 from vicode.docsite.name_linker import NameLinker, join_spans
+from vicode.docsite.reference_lists import ReferenceIndex
 from vicode.docsite.urls import SiteUrls
 from vicode.docsite.views import RichText, TextSpan, UseRow
 from vicode.model.design import COMMON, Call, Design
@@ -24,7 +25,7 @@ def use_rows(design: Design, linker: NameLinker) -> Iterator[UseRow]:
         )
 
 
-def user_rows(project: Project, component: str, addresses: SiteUrls) -> Iterator[UseRow]:
+def user_rows(project: Project, component: str, addresses: SiteUrls, references: ReferenceIndex) -> Iterator[UseRow]:
     """The designs that use a component, with the states."""
     for design in project.designs:
         linker = NameLinker(project, addresses, design)
@@ -32,13 +33,13 @@ def user_rows(project: Project, component: str, addresses: SiteUrls) -> Iterator
             if use.component == component:
                 yield UseRow(
                     component=TextSpan(
-                        text=design.component,
+                        text=addresses.names.component(design.component),
                         href=addresses.component(design.component),
                         title=summarize(design.doc),
                     ),
                     alias=use.alias,
                     required_in=required_in(design, use.alias, linker),
-                    modulated_in=modulated_in(design, use.alias, linker),
+                    modulated_in=references.calls(design.component, component),
                     doc_html="",
                 )
 

@@ -25,10 +25,20 @@ class CodeBlock:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ReferenceList:
+    """The places that read or set something: one line per component, or per value that is set."""
+
+    title: str
+    place_count: int
+    lines: tuple[RichText, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class DeclarationRow:
     """A parameter, output, variable or constant.
 
-    `read_in` and `set_in` link to the components that read and set it, with the states as tooltips.
+    `references` are all places that read or set it. On the page of all symbols, `read_in` and `set_in` link to the
+    components instead, with the states as tooltips.
     """
 
     anchor: str
@@ -41,6 +51,7 @@ class DeclarationRow:
     doc_html: str
     href: str = ""
     kind: str = ""
+    references: tuple[ReferenceList, ...] = ()
     read_in: RichText = ()
     set_in: RichText = ()
 
@@ -167,7 +178,10 @@ class LanguageView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentPageView:
-    """The page of a design; `transitions` are grouped by source, `columns` are the non-empty columns."""
+    """The page of a design; `transitions` are grouped by source, `columns` are the non-empty columns.
+
+    `root_of` are the agents with this root, `agents` those that can activate it.
+    """
 
     name: str
     doc_html: str
@@ -181,6 +195,7 @@ class ComponentPageView:
     neighbourhood_svg: str
     uses: tuple[UseRow, ...]
     used_by: tuple[UseRow, ...]
+    root_of: RichText
     agents: RichText
     tables: tuple[DeclarationTable, ...]
     custom_code: tuple[tuple[str, tuple[CodeBlock, ...]], ...]
@@ -199,6 +214,7 @@ class InterfaceView:
     title: str
     doc_html: str
     facts: tuple[RichText, ...]
+    agents: RichText
     tables: tuple[DeclarationTable, ...]
     used_by: tuple[UseRow, ...]
     findings: tuple[FindingRow, ...]
@@ -227,16 +243,25 @@ class SymbolGroup:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class EnumerationView:
-    """An enumeration; `elements` are (anchor, name, description), `declarations` have this type."""
+class ElementRow:
+    """An element of an enumeration with the places that use it."""
 
     anchor: str
     name: str
     doc_html: str
-    elements: tuple[tuple[str, str, str], ...]
+    references: tuple[ReferenceList, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EnumerationView:
+    """An enumeration; `declarations` have this type."""
+
+    anchor: str
+    name: str
+    doc_html: str
+    elements: tuple[ElementRow, ...]
     facts: tuple[RichText, ...]
     declarations: RichText
-    used_by: RichText
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
