@@ -20,7 +20,7 @@ from vicode.conformance.cpp import COMPILER_MISSING, CppProgram, find_compiler
 from vicode.conformance.inputs import ConformanceRun
 from vicode.conformance.python import run_python, run_simulator
 from vicode.conformance.random_inputs import random_run
-from vicode.conformance.report import describe
+from vicode.conformance.report import describe, explain
 from vicode.conformance.traces import EXPECTED_DIFFERENCES, TraceIteration, first_difference, reduce_for
 from vicode.conformance.xabsl import run_xabsl
 
@@ -80,7 +80,7 @@ def differences(session: Session, name: str, language: str) -> str:
     expected = reduce_for(language, session.traces["python"][name])
     got = reduce_for(language, session.traces[language][name])
     found = first_difference(expected, got)
-    return "" if found is None else describe(found, {"python": expected, language: got})
+    return "" if found is None else describe(explain(found, {"python": expected, language: got}))
 
 
 def test_there_is_a_compiler() -> None:

@@ -10,9 +10,9 @@ from vicode.bica import options
 from vicode.cli.root_selection import select_root
 
 if TYPE_CHECKING:
-    from vicode.conformance.comparison import LanguageComparison
     from vicode.conformance.inputs import ConformanceRun
     from vicode.model.project import Project
+    from vicode.simulation.language_comparison import LanguageComparison
 
 _MAX_ITERATIONS = 20_000
 
@@ -31,10 +31,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Compare; return 1 if traces differ, 2 if the design cannot be run."""
+    """Compare; return 1 if traces differ or code fails, 2 if there is nothing to compare."""
     from vicode.conformance.comparison import compare_languages
-    from vicode.conformance.cpp import CompileError
-    from vicode.conformance.python import CodeRunError
 
     selected = select_root(args.design, "", "compare")
     if isinstance(selected, int):
@@ -42,13 +40,7 @@ def run(args: argparse.Namespace) -> int:
     opened, component = selected
     inputs = _make_run(args, opened.open_project.project, component)
     with tempfile.TemporaryDirectory(prefix="vicode-conform-") as folder:
-        try:
-            comparison = compare_languages(inputs, Path(folder), opened.open_project.folder.resolve())
-        except CompileError as error:
-            print(f"{component}: the generated C++ does not compile\n{error}")
-            return 1
-        except CodeRunError as error:
-            raise OSError(str(error)) from error
+        comparison = compare_languages((inputs,), Path(folder), opened.open_project.folder.resolve())
     return _report(args, component, comparison)
 
 
@@ -69,16 +61,20 @@ def _make_run(args: argparse.Namespace, project: "Project", component: str) -> "
 
 
 def _report(args: argparse.Namespace, component: str, comparison: "LanguageComparison") -> int:
-    from vicode.conformance.comparison import verdict
-    from vicode.conformance.report import TITLES
+    from vicode.conformance.report import describe
+    from vicode.simulation.language_comparison import LANGUAGE_TITLES, verdict
 
     source = f"seed {args.seed}" if args.inputs == "random" else args.inputs
     print(f"{component}: {verdict(comparison)} ({source})")
-    for language, reason in comparison.absent.items():
-        print(f"{TITLES[language]} is not compared: {reason}")
+    for absent in comparison.absent:
+        print(f"{LANGUAGE_TITLES[absent.language]} is not compared: {absent.reason}")
+    for failed in comparison.failed:
+        print(f"{LANGUAGE_TITLES[failed.language]} fails: {failed.reason}")
     for difference in comparison.differences:
-        print(difference)
+        print(describe(difference))
+    if comparison.failed or comparison.differences:
+        return 1
     if len(comparison.languages) < 2:
         print("vicode: there is nothing to compare", file=sys.stderr)
         return 2
-    return int(bool(comparison.differences))
+    return 0

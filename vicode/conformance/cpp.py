@@ -20,7 +20,11 @@ _FLAGS = ("-std=c++17", "-O0", "-ffp-contract=off", "-w")
 
 
 class CompileError(Exception):
-    """The generated code does not compile; the message is that of the compiler."""
+    """The generated code does not compile; the message contains that of the compiler."""
+
+
+class ProgramError(Exception):
+    """A compiled program crashed."""
 
 
 def find_compiler() -> str | None:
@@ -69,23 +73,27 @@ class CppProgram:
         command = [compiler, *_FLAGS, "-I", str(self._folder / "cpp"), "-o", str(program), str(source)]
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
         if done.returncode:
-            raise CompileError("\n".join(done.stderr.splitlines()[:20]))
+            raise CompileError("\n".join(["the generated C++ does not compile", *done.stderr.splitlines()[:20]]))
 
-    def run(self) -> dict[str, list[TraceIteration]]:
-        """Run everything; returns the iterations by name.
+    def run(self, others: Mapping[str, ConformanceRun] | None = None) -> dict[str, list[TraceIteration]]:
+        """Run everything, or other runs of the same designs; returns the iterations by name.
 
         Raises:
-            subprocess.CalledProcessError: A program crashed.
+            ProgramError: A program crashed.
         """
+        runs = others or self._runs
         for index, names in enumerate(self._groups):
             arguments: list[str] = []
             for name in names:
-                run, inputs = self._runs[name], self._folder / f"{name}.inputs"
+                run, inputs = runs[name], self._folder / f"{name}.inputs"
                 inputs.write_text(_format_inputs(run), encoding="ascii")
                 traces = str(self._folder / f"{name}.trace")
                 arguments += [name, str(inputs), str(run.team_ticks), str(run.robots), traces]
-            subprocess.run([self._folder / f"program{index}", *arguments], check=True, capture_output=True)
-        return {name: self._read(name, run) for name, run in self._runs.items()}
+            done = subprocess.run([self._folder / f"program{index}", *arguments], capture_output=True, check=False)
+            if done.returncode:
+                message = done.stderr.decode(errors="replace").strip()[-2000:]
+                raise ProgramError(f"the program ended with exit code {done.returncode}\n{message}".strip())
+        return {name: self._read(name, run) for name, run in runs.items()}
 
     def _read(self, name: str, run: ConformanceRun) -> list[TraceIteration]:
         normalizer = TraceNormalizer(run.project)

@@ -14,6 +14,7 @@ from vicode.editor.panels.tabs import Tabs
 from vicode.editor.panels.window_context import WindowContext
 
 if TYPE_CHECKING:
+    from vicode.editor.panels.comparison_dialog import ComparisonDialog
     from vicode.editor.panels.search_panel import SearchPanel
     from vicode.editor.panels.simulation.controller import SimulationController
     from vicode.editor.panels.simulation.panel import SimulationPanel
@@ -55,6 +56,7 @@ class SidePanels:
         self._context, self._canvas, self._finding_navigator = context, canvas, findings
         self._tabs, self._dock, self._side = tabs, tabs.dock, tabs.side
         self._simulator: SimulationController | None = None
+        self._comparison: ComparisonDialog | None = None
 
     def build(self) -> None:
         from vicode.editor.panels.code_panel import CodePanel
@@ -69,7 +71,7 @@ class SidePanels:
             if not self._tabs.has_shown_robot:
                 self._tabs.has_shown_robot = True
                 self._dock.show(_SIMULATE)
-        self._side.build({_INSPECT: lambda: Inspector(context), _CODE: lambda: CodePanel(context)})
+        self._side.build({_INSPECT: lambda: Inspector(context), _CODE: lambda: CodePanel(context, self._compare)})
         self._dock.build(
             {
                 _FINDINGS: lambda: FindingsPanel(context, self._finding_navigator),
@@ -82,6 +84,13 @@ class SidePanels:
     def commands(self) -> tuple[Command, ...]:
         return (
             *simulation_commands(self._simulate, lambda: self._dock.show(_SIMULATE)),
+            Command(
+                "compare-languages",
+                "Compare languages…",
+                self._compare,
+                MenuGroup.DESIGN,
+                icon="compare_arrows",
+            ),
             Command(
                 "search",
                 "Search and replace in all texts",
@@ -100,6 +109,13 @@ class SidePanels:
     def refresh(self) -> None:
         self._dock.refresh()
         self._side.refresh()
+
+    def _compare(self) -> None:
+        from vicode.editor.panels.comparison_dialog import ComparisonDialog
+
+        if self._comparison is None:
+            self._comparison = ComparisonDialog(self._context)
+        self._comparison.open()
 
     def _open_search(self) -> None:
         self._dock.show(_SEARCH)

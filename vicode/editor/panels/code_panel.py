@@ -7,6 +7,7 @@ from nicegui import run, ui
 
 from vicode.editor.code import CodeAssist
 from vicode.editor.panels.missing_edits import MissingEdits
+from vicode.editor.panels.widgets import ClickHandler, icon_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import code_preview
 from vicode.editor.session.code_preview import CodePreview, PreviewFile
@@ -15,19 +16,21 @@ from vicode.languages import LANGUAGES
 
 
 class CodePanel:
-    """A read-only view of the files generated for the design."""
+    """A read-only view of the files generated for the design; `compare` compares its languages."""
 
-    def __init__(self, context: WindowContext) -> None:
+    def __init__(self, context: WindowContext, compare: ClickHandler) -> None:
         self.context = context
         self.shown_rev = -1
         self.is_busy = False
         self.preview = CodePreview()
         self.highlighted: object = None
         with ui.column().classes("code-panel"):
-            self.file_select = ui.select([], on_change=self._show_file).props(
-                'outlined dense options-dense aria-label="Generated file"'
-            )
-            self.file_select.classes("code-choice mono")
+            with ui.row().classes("code-bar"):
+                self.file_select = ui.select([], on_change=self._show_file).props(
+                    'outlined dense options-dense aria-label="Generated file"'
+                )
+                self.file_select.classes("code-choice mono")
+                icon_button("compare_arrows", "Compare languages", compare)
             self.edits = MissingEdits(context)
             self.note = ui.label().classes("code-note").props('role="status"')
             self.editor = context.code_editors.create().classes("preview")

@@ -23,9 +23,16 @@ TRUST_QUESTION = (
     "Simulate runs the Python code of this folder. Trust it only if you know where it comes from; "
     "the answer is remembered for this user."
 )
+TRUST_TO_COMPARE = (
+    "Comparing languages runs the Python and C++ code of this folder. Trust it only if you know where it comes from; "
+    "the answer is remembered for this user."
+)
 SANDBOXED = "It runs in a sandbox: it can read this folder, write nothing but temporary files, and has no network."
 TRUST_NOT_REMEMBERED = "The folder is trusted until the editor ends: the state folder cannot be written"
 NOT_TRUSTED = "The folder is not trusted, so its code does not run. Restart to be asked again."
+NOT_TRUSTED_TO_COMPARE = "The folder is not trusted, so its code does not run. Compare again to be asked again."
+COMPARING_IN_BACKGROUND = "Edits made from now on are not part of this comparison."
+COMPARISON_OUTDATED = "The design has changed since this comparison."
 ALSO_OPEN_ELSEWHERE = " · Open in another editor"
 
 INTERNAL_ERROR = "Internal error; the change may not be saved. See the server log."
@@ -226,6 +233,24 @@ def discarded(component: str) -> str:
 
 def invalid_event(reason: str) -> str:
     return f"The page sent an invalid event ({reason}). Reload the page."
+
+
+def comparing(language: str, number: int, count: int) -> str:
+    return f"{language} ({number} of {count})…" if language else "Starting…"
+
+
+def comparison_failed(reason: str) -> str:
+    return f"The languages were not compared: {reason}"
+
+
+def comparison_inputs(first_seed: int, runs: int, iterations: int) -> str:
+    """What the runs have read."""
+    return f"Random inputs with the seeds {first_seed} to {first_seed + runs - 1}, {iterations} iterations each"
+
+
+def traces_differ(languages: Sequence[str], run: int, iteration: int, time_ns: int) -> str:
+    place = f"iteration {iteration}, {time_ns / 1e9:.3f} s" if iteration else "the end"
+    return f"{' and '.join(languages)} differ in run {run + 1}, {place}"
 
 
 def not_sandboxed(problem: str) -> str:

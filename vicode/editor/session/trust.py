@@ -1,5 +1,6 @@
 """The folders whose Python code the user trusts, remembered in the user's state folder."""
 
+from collections.abc import Collection
 from pathlib import Path
 
 from vicode.model.project import Project
@@ -26,10 +27,12 @@ def trust_folder(state: Path, folder: Path) -> None:
     write_atomically(state / _FILE, "".join(f"{path}\n" for path in sorted(folders)))
 
 
-def contains_code(folder: Path, project: Project) -> bool:
-    """Whether a simulation may run Python code that stands in the folder."""
+def contains_code(folder: Path, project: Project, languages: Collection[str] = ("python",)) -> bool:
+    """Whether a run may execute code that stands in the folder; by default a simulation, which runs Python."""
     in_designs = (located for design in project.designs for located in iter_code(design))
-    return any(located.code.in_language("python") for located in in_designs) or any(folder.rglob("*.py"))
+    return any(located.code.in_language(each) for located in in_designs for each in languages) or any(
+        folder.rglob("*.py")
+    )
 
 
 def _trusted(state: Path) -> frozenset[Path]:

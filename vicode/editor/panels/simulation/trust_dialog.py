@@ -1,4 +1,6 @@
-"""Asks once for each folder before a simulation runs its Python code."""
+"""Asks once for each folder before a simulation or a comparison of languages runs its code."""
+
+from dataclasses import dataclass
 
 from nicegui import run, ui
 
@@ -11,13 +13,26 @@ from vicode.editor.session.trust import contains_code, is_trusted, trust_folder
 from vicode.simulation.isolation import isolation_problem
 
 
-async def ask_for_trust(context: WindowContext) -> bool:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrustPurpose:
+    """What code is run for: the languages it runs, the question, and the label of the button that accepts."""
+
+    languages: tuple[str, ...]
+    question: str
+    accept: str
+
+
+SIMULATE = TrustPurpose(languages=("python",), question=texts.TRUST_QUESTION, accept="Trust and simulate")
+COMPARE = TrustPurpose(languages=("python", "cpp"), question=texts.TRUST_TO_COMPARE, accept="Trust and compare")
+
+
+async def ask_for_trust(context: WindowContext, purpose: TrustPurpose = SIMULATE) -> bool:
     """Return whether the code of the project may run, after asking the user if that is not known."""
     workspace = context.workspace
-    if workspace.is_trusted or not contains_code(workspace.folder, workspace.project):
+    if workspace.is_trusted or not contains_code(workspace.folder, workspace.project, purpose.languages):
         return True
     workspace.is_trusted = is_trusted(state_folder(), workspace.folder)
-    if not workspace.is_trusted and await _ask(context):
+    if not workspace.is_trusted and await _ask(context, purpose):
         workspace.is_trusted = True
         try:
             trust_folder(state_folder(), workspace.folder)
@@ -26,13 +41,13 @@ async def ask_for_trust(context: WindowContext) -> bool:
     return workspace.is_trusted
 
 
-async def _ask(context: WindowContext) -> bool:
+async def _ask(context: WindowContext, purpose: TrustPurpose) -> bool:
     problem = await run.io_bound(isolation_problem)
     with context.client, titled_dialog(texts.TRUST_TITLE) as dialog:
         ui.label(str(context.workspace.folder.resolve())).classes("mono")
-        ui.label(texts.TRUST_QUESTION)
+        ui.label(purpose.question)
         ui.label(texts.not_sandboxed(problem) if problem else texts.SANDBOXED)
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=lambda: dialog.submit(False)).props("flat no-caps")
-            primary_button("Trust and simulate", lambda: dialog.submit(True))
+            primary_button(purpose.accept, lambda: dialog.submit(True))
     return bool(await dialog)

@@ -111,24 +111,8 @@ async def start_process(prepared: PreparedRun, cwd: Path) -> RunClient:
     whole = make_temporary()
     folder = whole / "files"
     await asyncio.to_thread(lambda: apply_diffs(compare_files(prepared.files, folder), folder))
-    is_isolated = not await asyncio.to_thread(isolation_problem)
-    # -P: modules in the current folder must not shadow others. The hash seed determines the order of sets.
-    process = await asyncio.create_subprocess_exec(
-        *launch_command(
-            [sys.executable, "-P", "-m", "vicode.simulation"],
-            (*prepared.setup.path, str(cwd.resolve())),
-            whole,
-            is_isolated=is_isolated,
-        ),
-        stdin=asyncio.subprocess.PIPE,
-        stdout=asyncio.subprocess.PIPE,
-        stderr=asyncio.subprocess.PIPE,
-        limit=2 * MAX_MESSAGE_BYTES,
-        cwd=cwd,
-        env=fresh_environment(PYTHONDONTWRITEBYTECODE="1", PYTHONHASHSEED="0"),
-        start_new_session=True,
-    )
-    client = RunClient(ProcessTransport(process, whole), prepared.setup.limit_s)
+    transport = await launch_module("vicode.simulation", whole, prepared.setup.path, cwd)
+    client = RunClient(transport, prepared.setup.limit_s)
     try:
         path = (str(folder / "python"), *prepared.setup.path)
         await client.set_up(replace(prepared.setup, path=path, folder=str(folder)))
@@ -137,3 +121,35 @@ async def start_process(prepared: PreparedRun, cwd: Path) -> RunClient:
         await client.wait_closed()
         raise
     return client
+
+
+async def launch_module(
+    module: str, whole: Path, readable: tuple[str, ...], cwd: Path, **environment: str
+) -> ProcessTransport:
+    """Start a module that runs user code, in a sandbox where the system has one.
+
+    Args:
+        module: The module of vicode.
+        whole: The folder of `make_temporary`.
+        readable: The folders that it may read, besides `cwd`.
+        cwd: The current folder.
+        environment: Variables to set.
+
+    Raises:
+        OSError: The process cannot be started.
+    """
+    is_isolated = not await asyncio.to_thread(isolation_problem)
+    # -P: modules in the current folder must not shadow others. The hash seed determines the order of sets.
+    process = await asyncio.create_subprocess_exec(
+        *launch_command(
+            [sys.executable, "-P", "-m", module], (*readable, str(cwd.resolve())), whole, is_isolated=is_isolated
+        ),
+        stdin=asyncio.subprocess.PIPE,
+        stdout=asyncio.subprocess.PIPE,
+        stderr=asyncio.subprocess.PIPE,
+        limit=2 * MAX_MESSAGE_BYTES,
+        cwd=cwd,
+        env=fresh_environment(PYTHONDONTWRITEBYTECODE="1", PYTHONHASHSEED="0", **environment),
+        start_new_session=True,
+    )
+    return ProcessTransport(process, whole)
