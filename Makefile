@@ -52,7 +52,7 @@ gen: $(VENV)/.ready  ## write generated/ anew from designs/
 	@$(BIN)/vicode gen designs
 
 pictures: $(VENV)/.ready-test chromium  ## take docs/pictures anew
-	@$(BIN)/python -m tests.editor.take_pictures
+	@$(BIN)/python -m tests.manual.take_pictures
 	@$(BIN)/python -m tests.experiments.take_pictures
 
 reference: $(VENV)/.ready-test  ## write docs/reference and the tables of docs/design-format.md anew from the code

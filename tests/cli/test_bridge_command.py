@@ -92,7 +92,7 @@ def test_viewers_see_the_robots_by_their_names() -> None:
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         assert process.stderr is not None
-        watched = re.search(r"attach 127\.0\.0\.1:(\d+), token (\S+)", process.stderr.readline())
+        watched = re.search(r"attach 127\.0\.0\.1:(\d+) --token (\S+)", process.stderr.readline())
         port = re.search(r"127\.0\.0\.1:(\d+)", process.stdout.readline())
         assert watched is not None
         assert port is not None

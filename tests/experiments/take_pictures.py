@@ -8,9 +8,9 @@ from pathlib import Path
 from playwright.sync_api import Browser, sync_playwright
 
 from tests.conftest import CHROMIUM_ARGUMENTS, find_chromium
+from tests.manual.pictures import FOLDER, take
 
 ROOT = Path(__file__).parents[2]
-PICTURES = ROOT / "docs/pictures"
 
 
 def main() -> None:
@@ -19,7 +19,7 @@ def main() -> None:
         run("experiment", "meeting", "--out", folder, "--seeds", "4", "--no-real-time")
         page = browser.new_page(viewport={"width": 1160, "height": 1280})
         page.goto(Path(folder, "meeting.html").as_uri())
-        page.screenshot(path=PICTURES / "experiment.png")
+        take(page, FOLDER / "experiment.png")
         take_view(browser)
         browser.close()
 
@@ -34,7 +34,7 @@ def take_view(browser: Browser) -> None:
         page = browser.new_page(viewport={"width": 1160, "height": 640})
         page.goto(robots.stdout.readline().split()[-1])
         page.get_by_text("to_meeting").first.wait_for()
-        page.screenshot(path=PICTURES / "simulated-robot.png")
+        take(page, FOLDER / "simulated-robot.png")
     finally:
         for process in (robots, bridge):
             process.terminate()

@@ -1,8 +1,10 @@
 """Every command, file and program of the documents is one that vicode accepts."""
 
 import argparse
+import json
 import re
 import shutil
+import subprocess
 import textwrap
 from pathlib import Path
 
@@ -75,6 +77,25 @@ def test_files_are_valid(block: CodeBlock) -> None:
 @pytest.mark.parametrize("block", all_blocks("python", "py"), ids=str)
 def test_programs_compile(block: CodeBlock) -> None:
     compile(textwrap.dedent(block.text), str(block), "exec")
+
+
+@pytest.mark.parametrize("block", all_blocks("json"), ids=str)
+def test_json_can_be_read(block: CodeBlock) -> None:
+    rest = "\n".join(line for line in block.text.strip().splitlines() if "…" not in line)
+    while rest:  # one value, or one per line
+        _, end = json.JSONDecoder().raw_decode(rest)
+        rest = rest[end:].strip()
+
+
+@pytest.mark.parametrize("block", all_blocks("lua"), ids=str)
+def test_settings_of_neovim_can_be_read(block: CodeBlock, tmp_path: Path) -> None:
+    program = shutil.which("nvim")
+    if program is None:
+        pytest.skip("Neovim is missing: run .ci/neovim, or 'sudo apt install neovim'")
+    (tmp_path / "init.lua").write_text(block.text, encoding="utf-8")
+    command = [program, "--headless", "-u", "NONE", "-i", "NONE", "+lua assert(loadfile('init.lua'))", "+qa"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 def _check_workflow(content: object) -> None:

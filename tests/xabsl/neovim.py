@@ -12,19 +12,22 @@ from typing import Any
 
 import pytest
 
-_INIT = """
+_OPTIONS = """
 vim.opt.swapfile = false
 vim.ui.select = function(items, _, choose) choose(items[1]) end
 vim.opt.completeopt = "menuone,noselect"
-vim.cmd("autocmd BufRead,BufNewFile *.xabsl setlocal filetype=xabsl")
-vim.api.nvim_create_autocmd("FileType", { pattern = "xabsl", callback = function()
-  if not server then
-    server = vim.lsp.start_client({ name = "xabsl", cmd = %s, root_dir = vim.fn.getcwd() })
-  end
-  vim.lsp.buf_attach_client(0, server)
-  vim.bo.omnifunc = "v:lua.vim.lsp.omnifunc"
-end })
 """
+_PAGE = Path(__file__).parents[2] / "docs/xabsl.md"
+_COMMAND = '{ "vicode", "xabsl", "lsp" }'
+
+
+def _configuration() -> str:
+    """What docs/xabsl.md tells users of this version to write."""
+    text = _PAGE.read_text(encoding="utf-8").partition("In Neovim 0.7 to 0.10:")[2]
+    block = text.partition("```lua\n")[2].partition("```")[0]
+    assert _COMMAND in block
+    command = ", ".join(json.dumps(part) for part in (sys.executable, "-m", "vicode", "xabsl", "lsp"))
+    return _OPTIONS + block.replace(_COMMAND, f"{{ {command} }}")
 
 
 class Neovim:
@@ -90,9 +93,8 @@ def start_neovim(folder: Path, scratch: Path) -> Iterator[Neovim]:
     program = shutil.which("nvim")
     if program is None:
         pytest.skip("Neovim is missing: run .ci/neovim, or 'sudo apt install neovim'")
-    command = ", ".join(json.dumps(part) for part in (sys.executable, "-m", "vicode", "xabsl", "lsp"))
     init, socket = scratch / "init.lua", scratch / "nvim.sock"
-    init.write_text(_INIT % f"{{ {command} }}", encoding="utf-8")
+    init.write_text(_configuration(), encoding="utf-8")
     editor = subprocess.Popen(
         [program, "--headless", "-u", str(init), "-i", "NONE", "--listen", str(socket)],
         cwd=folder,

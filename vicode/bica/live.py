@@ -31,7 +31,7 @@ def watch_root(
     if server is None:
         server = LiveServer(address, token=token, control=control)
         _servers[:] = [*(each for each in _servers if not each.is_closed), server]
-        access = f", token {server.token}" if server.token else ""
+        access = f" --token {server.token}" if server.token else ""
         print_error(f"vicode attach {server.address}{access}", kind="watch")
     elif server.control != control or token not in ("", server.token):
         raise OSError(f"{server.address} is open with another token or permission to control")

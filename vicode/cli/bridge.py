@@ -136,7 +136,7 @@ def _let_viewers_connect(server: "BridgeServer", address: str) -> None:
         raise OSError("--watch shows designs only; 'vicode import' converts an XABSL behavior to designs")
     viewers = LiveServer(address, token=os.environ.get("VICODE_WATCH_TOKEN", ""), stays_open=True)
     print(
-        f"watch: vicode attach {viewers.address}{f', token {viewers.token}' if viewers.token else ''}", file=sys.stderr
+        f"watch: vicode attach {viewers.address}{f' --token {viewers.token}' if viewers.token else ''}", file=sys.stderr
     )
 
     def show(robot: "Robot") -> None:

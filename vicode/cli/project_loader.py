@@ -77,16 +77,18 @@ def load_projects(paths: Sequence[str], profile: str = "") -> tuple[LoadedProjec
             if files is not None:
                 files.add(path)
     if not wanted:
-        raise OSError(f"no designs in {', '.join(paths)}{_import_hint(paths)}")
+        raise OSError(f"no designs in {', '.join(paths)}{_hint(paths)}")
     return tuple(_load_project(folder, files, profile) for folder, files in wanted.items())
 
 
-def _import_hint(paths: Sequence[str]) -> str:
-    """A hint for paths that contain XABSL behaviors instead of designs."""
+def _hint(paths: Sequence[str]) -> str:
+    """How to get designs from what the paths contain."""
     from vicode.xabsl.source_loader import find_agent_files
 
     found = next((file for path in paths for file in find_agent_files(Path(path))), None)
-    return f"; 'vicode import {found}' converts an XABSL behavior to designs" if found else ""
+    if found:
+        return f"; 'vicode import {found}' converts an XABSL behavior to designs"
+    return f"; create one with 'vicode edit {paths[0]}', or copy a sample with 'vicode sample'"
 
 
 def require_design_file(path: Path) -> None:

@@ -160,7 +160,9 @@ class GlobalNames:
 
     @classmethod
     def of_project(cls, plan: ProjectPlan) -> "GlobalNames":
-        classes = {name: escape(name, _GLOBAL_NAMES | _members(plan, name)) for name in plan.project.interfaces()}
+        # A namespace `world` of XABSL becomes a component `world_`.
+        taken = _GLOBAL_NAMES | {f"{name}_" for name in _STORED}
+        classes = {name: escape(name, taken | _members(plan, name)) for name in plan.project.interfaces()}
         names = {}
         taken = _GLOBAL_NAMES | _MEMBERS | set(classes.values())
         for declared in [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]:
