@@ -34,12 +34,20 @@
 #undef round
 #endif
 
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
 #define BICA_INLINE inline __attribute__((always_inline))
 #define BICA_INLINE_LAMBDA __attribute__((always_inline))
 #else
 #define BICA_INLINE inline
 #define BICA_INLINE_LAMBDA
+#endif
+
+#if defined(__GNUC__)
+#define BICA_NO_INLINE __attribute__((noinline))
+#define BICA_UNLIKELY(condition) __builtin_expect(condition, false)
+#else
+#define BICA_NO_INLINE
+#define BICA_UNLIKELY(condition) (condition)
 #endif
 
 namespace bica {
@@ -354,7 +362,7 @@ public:
     virtual void step() {
         begin_observed_step();
         attempt(*this, [this] {
-            if (is_restarting(false)) {
+            if (count_step(false)) {
                 restart_times();
                 restart();
             }
@@ -402,15 +410,15 @@ protected:
     /// Runs one step of a generated component.
     template <class Machine>
     BICA_INLINE static void step_machine(Machine& machine, bool resume) {
-        if (machine.root.observer == nullptr) {
-            run_step(machine, resume);
-        } else {
+        if (BICA_UNLIKELY(machine.root.observer != nullptr)) {
             step_observed(machine, resume);
+        } else {
+            run_step(machine, resume);
         }
     }
 
     template <class Machine>
-    static void step_observed(Machine& machine, bool resume) {
+    BICA_NO_INLINE static void step_observed(Machine& machine, bool resume) {
         machine.begin_observed_step(resume);
         run_step(machine, resume);
         machine.end_observed_step();
@@ -433,16 +441,16 @@ protected:
         step_modulated(target);
     }
 
-    void step_modulated(Component& target) {
+    template <class Target>
+    void step_modulated(Target& target) {
         root.modulated_ = &target;
         target.step();
     }
 
     /// Starts the time of the new state; tells observers which one was left.
     BICA_INLINE void change_state(const char* transition) {
-        if (root.observer != nullptr) {
-            left_ = state_name();
-            transition_ = transition;
+        if (BICA_UNLIKELY(root.observer != nullptr)) {
+            record_change(transition);
         }
         entered_ns_ = root.now_ns_;
     }
@@ -455,11 +463,17 @@ protected:
     Nanoseconds period_ns() const { return period_ns_; }
     Nanoseconds entered_ns() const { return entered_ns_; }
 
-    /// Counts the step; whether the component was inactive before, and does not resume.
-    BICA_INLINE bool is_restarting(bool resume) {
+    /// Whether the component was inactive before this step, and does not resume.
+    bool is_restarting(bool resume) const {
         const std::int64_t missed = root.iteration_ - stepped_in_;
-        stepped_in_ = root.iteration_;
         return missed > 1 && (!resume || missed > root.iteration_);
+    }
+
+    /// Remembers that the component is stepped; returns whether it restarts.
+    bool count_step(bool resume) {
+        const bool restarts = is_restarting(resume);
+        stepped_in_ = root.iteration_;
+        return restarts;
     }
 
     void restart_times() {
@@ -472,16 +486,19 @@ protected:
 private:
     friend class Root;
 
+    BICA_NO_INLINE void record_change(const char* transition) {
+        left_ = state_name();
+        transition_ = transition;
+    }
+
     static Nanoseconds period(double hertz) { return hertz == 0.0 ? 0 : bica::round(1e9 / hertz); }
 
     bool will_work(bool resume) const {
-        const std::int64_t missed = root.iteration_ - stepped_in_;
-        const bool restarts = missed > 1 && (missed > root.iteration_ || !resume);
-        return period_ns_ == 0 || restarts || root.now_ns_ - worked_ns_ >= period_ns_;
+        return is_restarting(resume) || root.now_ns_ - worked_ns_ >= period_ns_;
     }
 
     BICA_INLINE bool must_work() {
-        if (period_ns_ != 0 && root.now_ns_ - worked_ns_ < period_ns_) {
+        if (root.now_ns_ - worked_ns_ < period_ns_) {
             return false;
         }
         worked_ns_ = root.now_ns_;
@@ -490,10 +507,10 @@ private:
 
     template <class Machine>
     BICA_INLINE static void run_step(Machine& machine, bool resume) {
-        attempt(machine, [&machine, resume]() BICA_INLINE_LAMBDA {
-            if (machine.is_restarting(resume)) {
-                machine.restart_times();
-                machine.start();
+        const bool restarts = machine.count_step(resume);
+        attempt(machine, [&machine, restarts]() BICA_INLINE_LAMBDA {
+            if (BICA_UNLIKELY(restarts)) {
+                restart_machine(machine);
             }
             machine.require(0);
             if (machine.must_work()) {
@@ -504,6 +521,13 @@ private:
                 machine.repeat_calls();
             }
         });
+    }
+
+    /// A separate function, because compilers store both times at once, and then read the time of the root in a slow way.
+    template <class Machine>
+    BICA_NO_INLINE static void restart_machine(Machine& machine) {
+        machine.restart_times();
+        machine.start();
     }
 
     void begin_observed_step(bool resume = false) {

@@ -65,7 +65,7 @@ BICA_INLINE void drive_circle::act() {
     }
 }
 
-void drive_circle::change_to(State next, const char* transition) {
+BICA_INLINE void drive_circle::change_to(State next, const char* transition) {
     if (next == state_) {
         return;
     }

@@ -144,7 +144,7 @@ BICA_INLINE void walk_corridor::act() {
     }
 }
 
-void walk_corridor::change_to(State next, const char* transition) {
+BICA_INLINE void walk_corridor::change_to(State next, const char* transition) {
     if (next == state_) {
         return;
     }

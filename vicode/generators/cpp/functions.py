@@ -78,7 +78,7 @@ class FunctionWriter:
         ):
             if any(getattr(state, phase) for state in plan.states):
                 body = self._switch(partial(self._phase_steps, phase))
-                yield self._function("void", phase, "", body, doc, is_inline=phase == "leave")
+                yield self._function("void", phase, "", body, doc, inline="BICA_INLINE " if phase == "leave" else "")
         yield self._change_to()
         yield from self._code_functions()
 
@@ -91,12 +91,12 @@ class FunctionWriter:
             body += ["    if (decide_common()) {", "        return;", "    }"]
         body += self._switch(lambda state: self._decisions(state.decisions, 3 * INDENT))
         doc = "Takes the first transition whose guard holds."
-        return self._function("void", "decide", "", body, doc, is_inline=True)
+        return self._function("void", "decide", "", body, doc, inline="BICA_INLINE ")
 
     def _act(self) -> FunctionView:
         body = ["    act_common();"] if self.component.common_actions else []
         body += self._switch(lambda state: self._steps(state.actions, 3 * INDENT))
-        return self._function("void", "act", "", body, "Runs the actions of the active state.", is_inline=True)
+        return self._function("void", "act", "", body, "Runs the actions of the active state.", inline="BICA_INLINE ")
 
     def _change_to(self) -> FunctionView:
         plan = self.component
@@ -113,7 +113,9 @@ class FunctionWriter:
             body.append("    enter();")
         if requires:
             body.append("    require(required);")
-        return self._function("void", "change_to", "State next, const char* transition", body, "")
+        return self._function(
+            "void", "change_to", "State next, const char* transition", body, "", inline="BICA_INLINE "
+        )
 
     def _switch(self, write: Callable[[StatePlan], list[str]]) -> list[str]:
         """A switch over the active state; states with the same lines share them, those without are the default."""
@@ -315,10 +317,8 @@ class FunctionWriter:
                         return [*lines, f"{margin}}} else {{", *rest, f"{margin}}}"]
 
     def _function(
-        self, type_: str, name: str, parameters: str, body: Sequence[str], doc: str, *, is_inline: bool = False
+        self, type_: str, name: str, parameters: str, body: Sequence[str], doc: str, *, inline: str = ""
     ) -> FunctionView:
-        """A function; one that only `step` calls is inlined into it."""
-        inline = "BICA_INLINE " if is_inline else ""
         defaulted = parameters.replace("const char* transition", "const char* transition = nullptr")
         return FunctionView(
             declaration=f"{type_} {name}({defaulted});",
