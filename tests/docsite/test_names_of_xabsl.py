@@ -1,5 +1,6 @@
 """A site of a behavior in XABSL shows the names, operators and calls of its sources, with all places that use them."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -108,3 +109,17 @@ def test_all_links_lead_somewhere(name: str, request: pytest.FixtureRequest) -> 
     assert not find_broken_links(
         tuple(OutputFile(path=each.name, text=each.read_text()) for each in sorted(site.iterdir()) if each.is_file())
     )
+
+
+def search_rows(site: Path) -> list[list[object]]:
+    text = (site / "search.js").read_text()
+    rows: list[list[object]] = json.loads(text[text.index("= ") + 2 : text.rindex(";")])["entries"]
+    return rows
+
+
+def test_the_search_knows_the_names_of_the_team(site: Path) -> None:
+    names = {str(row[0]) for row in search_rows(site)}
+    assert {"ball.radius", "Field Player", "shoot.now", "head.control_mode", "@speed", "motion.kind"} <= names
+    text = (site / "search.js").read_text()
+    for words in ("ball_radius", "field_player", "motion.type = walk", "state_time >= 700, after 700 ms → walk"):
+        assert f'"{words}"' in text

@@ -11,11 +11,8 @@ from vicode.docsite.views import DeclarationRow, DeclarationTable, RichText, Tex
 from vicode.model.design import Declaration, Design
 from vicode.model.project import Interface
 
-_TITLES = {
-    "parameters": ("Parameters", "Default"),
-    "outputs": ("Outputs", "Initial value"),
-    "variables": ("Variables", "Initial value"),
-}
+_SECTIONS = {"parameters": "Default", "outputs": "Initial value", "variables": "Initial value"}
+"""The sections with the titles of their values."""
 _COLUMNS = ("type", "initial", "unit", "range", "doc_html", "arguments", "read_in", "set_in")
 
 
@@ -23,13 +20,14 @@ def declaration_tables(
     owner: Design | Interface, linker: NameLinker, references: ReferenceIndex
 ) -> Iterator[DeclarationTable]:
     """The tables of a component, with all places that set and read each declaration."""
-    for section, (title, initial) in _TITLES.items():
+    for section, initial in _SECTIONS.items():
         rows = tuple(
             replace(row, references=references.of_member(owner.component, section, declaration))
             for declaration, row in declaration_rows(owner, section, linker)
         )
         if rows:
-            yield make_declaration_table(title, initial, rows)
+            title = f"{linker.declaration_kind(owner, section)}s"
+            yield make_declaration_table(title.capitalize(), initial, rows)
 
 
 def make_declaration_table(title: str, initial: str, rows: tuple[DeclarationRow, ...]) -> DeclarationTable:

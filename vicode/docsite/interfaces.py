@@ -34,8 +34,6 @@ from vicode.model.design import COMMON, Declaration, Design
 from vicode.model.project import INTERNAL, MISSING, WORLD, Enumeration, Interface, Project
 from vicode.model.xabsl.names import is_basic_behavior, symbol_declarations
 
-BASIC_BEHAVIOR = "basic behavior"
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfaceInputs:
@@ -59,7 +57,7 @@ def interface_views(known: InterfaceInputs) -> Iterator[InterfaceView]:
         yield InterfaceView(
             file=addresses.component(interface.component),
             name=addresses.names.component(interface.component),
-            kind=BASIC_BEHAVIOR if is_basic_behavior(interface) else "interface",
+            kind=addresses.names.interface_kind(interface),
             title=interface.title,
             doc_html=render_doc(interface.doc),
             facts=tuple(_facts(interface, is_xabsl=linker.is_xabsl)),

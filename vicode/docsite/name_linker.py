@@ -116,6 +116,9 @@ class NameLinker:
     def declaration_name(self, owner: Design | Interface | None, section: str, declaration: Declaration) -> str:
         return self._names.declaration(owner, section, declaration)
 
+    def declaration_kind(self, owner: Design | Interface, section: str) -> str:
+        return self._names.declaration_kind(owner, section)
+
     def argument_name(self, declaration: Declaration) -> str:
         return self._names.argument(declaration)
 

@@ -25,7 +25,7 @@ def home_view(subject: SiteInput, addresses: SiteUrls, svg: str = "") -> HomeVie
     linker = NameLinker(project, addresses)
     return HomeView(
         doc_html=render_doc(project.doc),
-        counts=tuple(_number(count, word, href) for count, word, href in _numbers(subject) if count),
+        counts=tuple(_number(count, word, href) for count, word, href in _numbers(subject, addresses) if count),
         svg=svg,
         is_partial=has_omitted_uses(project) and symbol_count(project) > 0,
         agents=tuple(agent_rows(project, addresses)),
@@ -87,12 +87,12 @@ def _reachable_designs(project: Project, agent: Agent) -> tuple[Design, ...]:
     return tuple(each for each in project.designs if each.component in names)
 
 
-def _numbers(subject: SiteInput) -> Iterator[tuple[int, str, str]]:
+def _numbers(subject: SiteInput, addresses: SiteUrls) -> Iterator[tuple[int, str, str]]:
     project, designs = subject.project, subject.project.designs
     states = sum(len(design.states) for design in designs)
     transitions = sum(1 for design in designs for _each in iter_transitions(design))
     yield len(project.agents), "agent", AGENTS
-    yield len(designs), "state machine", "#components"
+    yield len(designs), addresses.names.design_kind, "#components"
     yield states, "state", NAME_INDEX
     yield transitions, "transition", NAME_INDEX
     yield len(project.components), "interface", INTERFACES

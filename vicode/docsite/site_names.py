@@ -5,7 +5,16 @@ from dataclasses import dataclass
 
 from vicode.model.design import Declaration, Design, State
 from vicode.model.project import Enumeration, Interface, Project
-from vicode.model.xabsl.names import component_name, element_name, symbol_name, unqualified_name
+from vicode.model.xabsl.names import (
+    INTERNAL_SYMBOL,
+    component_name,
+    element_name,
+    is_basic_behavior,
+    output_role,
+    symbol_name,
+    unqualified_name,
+    variable_role,
+)
 
 
 def is_from_xabsl(project: Project) -> bool:
@@ -41,6 +50,25 @@ class SiteNames:
                         self._elements.setdefault(each, []).append((enumeration, element))
         self.key = (tuple(self._components.values()), tuple(self._symbols), tuple(self._elements))
         """The inputs of all names."""
+
+    @property
+    def design_kind(self) -> str:
+        """What a design is called."""
+        return "option" if self.is_xabsl else "state machine"
+
+    def interface_kind(self, interface: Interface) -> str:
+        """What a component without a design is called."""
+        if is_basic_behavior(interface):
+            return "basic behavior"
+        return "namespace" if self.is_xabsl else "interface"
+
+    def declaration_kind(self, owner: Design | Interface, section: str) -> str:
+        """What a declaration in a section of a component is called."""
+        if section == "parameters" or not self.is_xabsl:
+            return section.removesuffix("s")
+        if isinstance(owner, Design):
+            return f"{INTERNAL_SYMBOL} symbol"
+        return f"{output_role(owner) if section == 'outputs' else variable_role(owner)} symbol"
 
     def component(self, name: str) -> str:
         """The shown name of a component."""

@@ -4,19 +4,21 @@ import json
 from collections.abc import Iterable, Iterator
 
 from vicode.docsite.doc_text import summarize
+from vicode.docsite.site_names import SiteNames
 from vicode.docsite.urls import SiteUrls
 from vicode.docsite.views import SiteEntry
 from vicode.findings import DesignPath
 from vicode.model.design import Design, Transition
 from vicode.model.project import Interface, Project
-from vicode.model.texts import TextKind, iter_texts
+from vicode.model.texts import LocatedText, TextKind, iter_texts
 from vicode.model.traversal import iter_decisions
-
-_KINDS = {"parameters": "parameter", "outputs": "output", "variables": "variable"}
 
 
 def search_entries(project: Project, addresses: SiteUrls, title: str) -> tuple[SiteEntry, ...]:
-    """List all named elements, sorted by name; `title` is the title of the project."""
+    """List all named elements, sorted by name; `title` is the title of the project.
+
+    The names are those that the pages show. If the design has another name, it is searched, too.
+    """
     entries = [*_project_entries(project, addresses, title)]
     for design in project.designs:
         entries += _design_entries(design, addresses)
@@ -78,58 +80,87 @@ class _StringTable:
 def _project_entries(project: Project, addresses: SiteUrls, title: str) -> Iterator[SiteEntry]:
     for agent in project.agents:
         href = addresses.agent(agent.name)
-        yield SiteEntry(name=agent.name, kind="agent", context=title, href=href, doc=agent.doc)
-    for each in project.enumerations:
-        href = addresses.enumeration(each.name)
-        yield SiteEntry(name=each.name, kind="type", context=title, href=href, doc=each.doc)
-        for name, doc in each.elements:
-            href = addresses.enumeration(each.name, name)
-            yield SiteEntry(name=name, kind="element", context=each.name, href=href, doc=doc)
-    for constant in project.constants:
-        href = addresses.constant(constant.name)
-        words = constant.initial
+        name = agent.title or agent.name
         yield SiteEntry(
-            name=constant.name, kind="constant", context=title, href=href, doc=constant.doc, search_text=words
+            name=name, kind="agent", context=title, href=href, doc=agent.doc, search_text=_other_name(agent.name, name)
         )
+    names = addresses.names
+    for each in project.enumerations:
+        href, shown = addresses.enumeration(each.name), names.enumeration(each.name)
+        other = _other_name(each.name, shown)
+        yield SiteEntry(name=shown, kind="type", context=title, href=href, doc=each.doc, search_text=other)
+        for element, doc in each.elements:
+            href, name = addresses.enumeration(each.name, element), names.element(each, element)
+            other = _other_name(element, name)
+            yield SiteEntry(name=name, kind="element", context=shown, href=href, doc=doc, search_text=other)
+    for constant in project.constants:
+        href, name = addresses.constant(constant.name), names.declaration(None, "", constant)
+        words = "\n".join(filter(None, (constant.initial, _other_name(constant.name, name))))
+        yield SiteEntry(name=name, kind="constant", context=title, href=href, doc=constant.doc, search_text=words)
 
 
 def _design_entries(design: Design, addresses: SiteUrls) -> Iterator[SiteEntry]:
-    name = design.component
-    words = _search_texts(design)
+    names = addresses.names
+    name, words = names.component(design.component), _search_texts(design, names)
     yield SiteEntry(
         name=name,
-        kind="component",
+        kind="option" if names.is_xabsl else "component",
         context=summarize(design.doc),
-        href=addresses.component(name),
+        href=addresses.component(design.component),
         doc=" ".join(design.doc.split()),
-        search_text=words.get((), ""),
+        search_text="\n".join(filter(None, (words.get((), ""), _other_name(design.component, name)))),
     )
-    for section, each in design.declarations():
-        href = addresses.member(name, section, each.name)
-        yield SiteEntry(name=each.name, kind=_KINDS[section], context=name, href=href, doc=each.doc)
+    yield from _declaration_entries(design, addresses)
     for state in design.states:
         path = ("states", state.name)
-        href = addresses.design_path(name, path)
-        doc = " ".join(state.doc.split())
+        shown = names.state(state)
         yield SiteEntry(
-            name=state.name, kind="state", context=name, href=href, doc=doc, search_text=words.get(path, "")
+            name=shown,
+            kind="state",
+            context=name,
+            href=addresses.design_path(design.component, path),
+            doc=" ".join(state.doc.split()),
+            search_text="\n".join(filter(None, (words.get(path, ""), _other_name(state.name, shown)))),
         )
 
 
 def _interface_entries(interface: Interface, addresses: SiteUrls) -> Iterator[SiteEntry]:
-    name = interface.component
-    href = addresses.component(name)
-    yield SiteEntry(name=name, kind="interface", context=summarize(interface.doc), href=href, doc=interface.doc)
-    for section, kind in _KINDS.items():
-        for each in getattr(interface, section):
-            href = addresses.member(name, section, each.name)
-            yield SiteEntry(name=each.name, kind=kind, context=name, href=href, doc=each.doc)
+    name = addresses.names.component(interface.component)
+    yield SiteEntry(
+        name=name,
+        kind=addresses.names.interface_kind(interface) if addresses.names.is_xabsl else "interface",
+        context=summarize(interface.doc),
+        href=addresses.component(interface.component),
+        doc=interface.doc,
+        search_text=_other_name(interface.component, name),
+    )
+    yield from _declaration_entries(interface, addresses)
 
 
-def _search_texts(design: Design) -> dict[DesignPath, str]:
+def _declaration_entries(owner: Design | Interface, addresses: SiteUrls) -> Iterator[SiteEntry]:
+    names = addresses.names
+    for section in ("parameters", "outputs", "variables"):
+        for each in getattr(owner, section):
+            name = names.declaration(owner, section, each)
+            yield SiteEntry(
+                name=name,
+                kind=names.declaration_kind(owner, section),
+                context=names.component(owner.component),
+                href=addresses.member(owner.component, section, each.name),
+                doc=each.doc,
+                search_text=_other_name(each.name, name),
+            )
+
+
+def _other_name(name: str, shown: str) -> str:
+    """The name in the design if it differs from the shown one."""
+    return "" if name == shown else name
+
+
+def _search_texts(design: Design, names: SiteNames) -> dict[DesignPath, str]:
     """Expressions, code and descriptions of decisions, one per line, by the path of their state, or () outside states.
 
-    The guard of a transition is followed by its target.
+    The guard of a transition is followed by its target, a value by the name that it is assigned to.
     """
     found = ((each.path, each.decision) for each in iter_decisions(design))
     targets = {path: decision.to for path, decision in found if isinstance(decision, Transition)}
@@ -139,6 +170,20 @@ def _search_texts(design: Design) -> dict[DesignPath, str]:
         is_own_doc = placed.kind is TextKind.DOC and len(placed.path) <= 3
         if not is_own_doc:
             target = targets.get(placed.path[:-1], "")
-            text = " ".join(placed.text.split())
-            words.setdefault(path, []).append(f"{text} → {target}" if target else text)
+            text = _described_text(placed, design.time_unit or "s", is_xabsl=names.is_xabsl)
+            words.setdefault(path, []).append(f"{text} → {names.state_of(design, target)}" if target else text)
     return {path: "\n".join(lines) for path, lines in words.items()}
+
+
+def _described_text(placed: LocatedText, time_unit: str, *, is_xabsl: bool) -> str:
+    text = " ".join(placed.text.split())
+    if placed.kind is TextKind.EXPRESSION:
+        match placed.path:
+            case (*_rest, "after"):
+                timer = f"after {text} {time_unit}"
+                return f"state_time >= {text}, {timer}" if is_xabsl else timer
+            case (*_rest, "set" | "with", str(name)):
+                return f"{name} = {text}"
+            case _:
+                pass
+    return text

@@ -58,9 +58,10 @@ function makeFilter(label, area, entrySelector, groupSelector) {
 function addStateMachines(groups) {
   const total = groups.reduce((sum, [, machines]) => sum + machines.length, 0);
   if (!total) return;
+  const { title } = menu.dataset;
   const box = makeElement("div", { className: "menu-machines" }, ...groups.map((group) => menuGroup(group, total <= MAX_OPEN_GROUPS)));
-  const tools = total > MAX_UNFILTERED ? makeFilter("Filter state machines", box, "li", ".menu-group") : [];
-  menu.querySelector("details").append(makeElement("h2", {}, "State machines"), ...tools, box);
+  const tools = total > MAX_UNFILTERED ? makeFilter(`Filter ${title.toLowerCase()}`, box, "li", ".menu-group") : [];
+  menu.querySelector("details").append(makeElement("h2", {}, title), ...tools, box);
 }
 
 if (menu && window.vicodeMenu) addStateMachines(window.vicodeMenu);

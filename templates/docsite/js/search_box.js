@@ -91,7 +91,7 @@ function excerpt(entry, text) {
   return [(start ? "… " : "") + truncate(best, start), best !== doc];
 }
 
-const isTopLevel = (kind) => ["component", "interface"].includes(kind);
+const isTopLevel = (kind) => ["component", "interface", "option", "basic behavior", "namespace"].includes(kind);
 
 // Cuts the text after the last word that fits.
 function truncate(text, start) {
