@@ -158,3 +158,27 @@ def test_a_failing_modulate_is_an_error_of_the_caller(records: list[ErrorRecord]
     Root(Caller, clock=SimulatedClock(), on_error=records.append).step()
     [record] = records
     assert (record.component, record.body, record.line) == ("Caller", "work", 1)
+
+
+class Slope:
+    """A world that fails where the class of a component calls it."""
+
+    def wheels(self, speed: float) -> None:
+        fail()
+
+
+class Wheels(Component):
+    """As generated for a component of the world."""
+
+    world: Slope
+
+    def work(self) -> None:
+        self.world.wheels(1.0)
+
+
+def test_an_error_of_the_world_has_its_line_there() -> None:
+    records: list[ErrorRecord] = []
+    Root(Wheels, clock=SimulatedClock(), world=Slope(), on_error=records.append).step()
+    (record,) = records
+    assert (record.component, record.method, record.line) == ("Wheels", "wheels", 1)
+    assert record.file_line == inspect.getsourcelines(Slope.wheels)[1] + 1

@@ -171,14 +171,19 @@ def find_region(file: str, file_line: int, first_line: int = 0) -> tuple[str, in
 
 
 def _find_component_frame(component: Component, error: Exception) -> tuple[FrameType, int]:
-    """Return the innermost frame of a method of `component` outside the runtime, or else the innermost frame."""
+    """Return the innermost frame of a method of `component` outside the runtime, or else the innermost frame.
+
+    The generated class of a component of the world only calls the world, so without a design its methods count, too.
+    """
+    owners = (component,) if component.design_file or component.world is None else (component, component.world)
     traceback = error.__traceback__
     assert traceback is not None
     innermost = (traceback.tb_frame, traceback.tb_lineno)
     component_frame = None
     while traceback is not None:
         innermost = (traceback.tb_frame, traceback.tb_lineno)
-        is_method = traceback.tb_frame.f_locals.get("self") is component
+        owner = traceback.tb_frame.f_locals.get("self")
+        is_method = any(owner is each for each in owners)
         if is_method and traceback.tb_frame.f_globals.get("__package__") != __package__:
             component_frame = innermost
         traceback = traceback.tb_next
