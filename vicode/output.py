@@ -6,13 +6,15 @@ import os
 import re
 import shutil
 import stat
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from difflib import unified_diff
 from enum import StrEnum
+from hashlib import sha256
 from pathlib import Path
 
+CACHE_VARIABLE = "VICODE_CACHE"
 _TEMPORARY = re.compile(r"\..+\.[0-9a-f]{8}\.tmp")
 
 
@@ -23,6 +25,14 @@ class OutputFile:
     path: str
     text: str
     component: str = ""
+
+
+def cache_path(out: Path, kind: str, environment: Mapping[str, str] = os.environ) -> Path:
+    """The path of a JSON file about an output folder; it is outside that folder, because readers do not need it."""
+    given, home = environment.get(CACHE_VARIABLE), environment.get("XDG_CACHE_HOME")
+    folder = Path(given) if given else (Path(home) if home else Path.home() / ".cache") / "vicode"
+    name = sha256(str(out.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
+    return folder / kind / f"{name}.json"
 
 
 class FileStatus(StrEnum):

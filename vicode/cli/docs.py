@@ -3,12 +3,15 @@
 import argparse
 import gc
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from vicode.cli.console import print_findings
+from vicode.cli.docs_record import find_unchanged_build, save_record
 from vicode.cli.ports import port_number
+from vicode.output import cache_path
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,10 +50,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the sites; return 1 if a design or behavior cannot be read and, with --strict, for findings."""
-    from vicode.cli.docs_build import DocsBuilder, describe_build
-    from vicode.cli.docs_inputs import load_site_inputs
-    from vicode.cli.progress import progress_bar
-
     is_markdown = args.format == "markdown"
     if args.watch and is_markdown:
         print(
@@ -59,10 +58,21 @@ def run(args: argparse.Namespace) -> int:
         )
         return 2
     if args.watch:
+        from vicode.cli.docs_build import DocsBuilder
         from vicode.cli.docs_watch import watch_docs
 
         sites = DocsBuilder(out=args.out, ignores_cache=args.fresh, title=args.title)
         return watch_docs(args.path, sites, port=args.port, open_browser=not args.no_open)
+    options = (args.format, args.title)
+    record_file, started_s = cache_path(args.out, "docs-builds"), time.time()
+    record = None if args.fresh else find_unchanged_build(record_file, options, args.path, args.out)
+    if record:
+        print(record.summary)
+        return int(args.strict and record.has_findings)
+    from vicode.cli.docs_build import DocsBuilder, describe_build, record_build
+    from vicode.cli.docs_inputs import load_site_inputs
+    from vicode.cli.progress import progress_bar
+
     sites = DocsBuilder(out=args.out, ignores_cache=args.fresh, is_markdown=is_markdown, title=args.title)
     with _gc_disabled(), sites, progress_bar() as step:
         readings = load_site_inputs(args.path)
@@ -74,6 +84,9 @@ def run(args: argparse.Namespace) -> int:
         return 2
     if built.files:
         print(describe_build(built, readings, args.out))
+        record = record_build(built, readings, options=options, paths=args.path, out=args.out, started_s=started_s)
+        if record:
+            save_record(record, record_file)
     has_findings = any(reading.site_input.findings for reading in readings if reading.site_input)
     return int(any(reading.is_incomplete for reading in readings) or (args.strict and has_findings))
 

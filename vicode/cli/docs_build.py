@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from vicode.cli.console import count_findings
 from vicode.cli.docs_inputs import LoadedSiteInput
+from vicode.cli.docs_record import BuildRecord, digest_files, digest_inputs
 
 if TYPE_CHECKING:
     from vicode.docsite import PlannedFile, SiteBuilder
@@ -115,6 +116,34 @@ def _assign_folders(readings: Sequence[LoadedSiteInput]) -> Mapping[str, LoadedS
 
 def _merge_results(one: DocsBuildResult, other: DocsBuildResult) -> DocsBuildResult:
     return DocsBuildResult(files=one.files + other.files, changed=one.changed + other.changed, foreign=other.foreign)
+
+
+def record_build(
+    built: DocsBuildResult,
+    readings: Sequence[LoadedSiteInput],
+    *,
+    options: Sequence[str],
+    paths: Sequence[Path],
+    out: Path,
+    started_s: float,
+) -> BuildRecord | None:
+    """The record of a build without errors; None if an input has changed since the build was started."""
+    if any(reading.is_incomplete or reading.read_errors for reading in readings):
+        return None
+    folders = {folder for reading in readings for folder in reading.folders}
+    sites = {file.rpartition("/")[0] for file in built.files}
+    unchanged = replace(built, changed=())
+    try:
+        return BuildRecord(
+            inputs=digest_inputs(options, paths, folders, out, newest_s=started_s),
+            files=digest_files(out, sites),
+            folders=tuple(sorted(map(str, folders))),
+            sites=tuple(sorted(sites)),
+            summary=describe_build(unchanged, readings, out),
+            has_findings=any(reading.site_input.findings for reading in readings if reading.site_input),
+        )
+    except OSError:
+        return None
 
 
 def describe_build(built: DocsBuildResult, readings: Sequence[LoadedSiteInput], out: Path) -> str:

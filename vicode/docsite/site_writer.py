@@ -10,7 +10,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import vicode
-from vicode.output import write_atomically
+from vicode.output import cache_path, write_atomically
 from vicode.templating import template_files
 
 GENERATED_HEADERS = (
@@ -22,7 +22,6 @@ GENERATED_HEADERS = (
 )
 """The first bytes of generated files. Changing one makes existing sites unrecognizable."""
 
-CACHE_VARIABLE = "VICODE_CACHE"
 _PAGES = (".css", ".html", ".js", ".md", ".rst", ".svg", ".yml")
 # Libraries that affect the pages.
 _LIBRARIES = ("jinja2", "markdown-it-py", "markupsafe", "pygments")
@@ -90,11 +89,8 @@ def write_site(
 
 
 def manifest_path(out: Path, environment: Mapping[str, str] = os.environ) -> Path:
-    """The path of the manifest of a folder; it is outside the site, because readers do not need it."""
-    given, home = environment.get(CACHE_VARIABLE), environment.get("XDG_CACHE_HOME")
-    folder = Path(given) if given else (Path(home) if home else Path.home() / ".cache") / "vicode"
-    name = sha256(str(out.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
-    return folder / "docs" / f"{name}.json"
+    """The path of the manifest of a folder."""
+    return cache_path(out, "docs", environment)
 
 
 def load_manifest(file: Path) -> Manifest:
