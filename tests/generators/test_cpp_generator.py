@@ -141,6 +141,26 @@ def test_the_programs_of_the_documentation_compile(gpp: str, generated: dict[Pat
     assert outputs([start(command, folders[package]) for package in ("rescue", "forward")]) == ["", ""]
 
 
+def test_robots_in_several_threads_share_nothing(gpp: str, generated: dict[Path, str], tmp_path: Path) -> None:
+    """The thread sanitizer finds no data race; another thread stops the robots, and reads the statistics then."""
+    folder = next(folder for folder, package in generated.items() if package == "rescue")
+    source, program = Path(__file__).with_name("robots_in_threads.cpp"), tmp_path / "robots"
+    command = [
+        gpp,
+        *STANDARD,
+        *WARNINGS,
+        "-fsanitize=thread",
+        "-I.",
+        str(source),
+        "rescue_unit.cpp",
+        "-o",
+        str(program),
+    ]
+    outputs([start([*command, "-pthread"], folder)])
+    (printed,) = outputs([start([str(program)], folder)])
+    assert printed.splitlines().count("drive_circle 1") == 2, printed
+
+
 def test_a_single_header_holds_everything(gpp: str, tmp_path: Path) -> None:
     assert main(["gen", str(DESIGNS / "forward"), "--single-header", str(tmp_path / "forward.hpp")]) == 0
     (tmp_path / "sketch.cpp").write_text('#include "forward.hpp"\nbica::Root root;\n', encoding="utf-8")
