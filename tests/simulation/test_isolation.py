@@ -54,6 +54,13 @@ print(json.dumps({
 isolated = pytest.mark.parametrize("is_isolated", [False, *([True] if not isolation_problem() else [])])
 
 
+def test_it_does_not_depend_on_the_current_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir("/usr")
+    problem = isolation_problem.__wrapped__()
+    monkeypatch.chdir(tmp_path)
+    assert isolation_problem.__wrapped__() == problem
+
+
 def start(code: str, *arguments: str, is_isolated: bool, folder: Path) -> "subprocess.Popen[str]":
     command = launch_command(
         [sys.executable, "-c", code, *arguments], (str(folder),), make_temporary(), is_isolated=is_isolated

@@ -23,8 +23,9 @@ def isolation_problem() -> str:
     temporary = make_temporary()
     probe = launch_command([sys.executable, "-I", "-S", "-c", ""], (), temporary, is_isolated=True)
     try:
+        # The sandbox of the probe does not contain the current folder.
         done = subprocess.run(
-            probe, stdin=subprocess.DEVNULL, capture_output=True, timeout=_PROBE_TIMEOUT_S, check=False
+            probe, cwd="/", stdin=subprocess.DEVNULL, capture_output=True, timeout=_PROBE_TIMEOUT_S, check=False
         )
     except (OSError, subprocess.TimeoutExpired) as error:
         return str(error)
