@@ -66,6 +66,7 @@ def test_completions_depend_on_the_context(editor: LspClient) -> None:
     assert editor.complete(name, play.replace("goto go;", "goto "), "goto ") == ["wait", "go"]
     assert editor.complete(name, play.replace("== left", "== "), "ball.side == ")[:2] == ["left", "right"]
     assert editor.complete(name, play.replace("foot = side.right;", "foot = ;"), "foot = ")[:2] == ["left", "right"]
+    assert "side.right" in editor.complete(name, play.replace("foot = side.right;", "foot = side.;"), "foot = side.")
     assert editor.complete(name, play.replace("kick(power = 3);", "kick();"), "kick(") == ["power"]
     labels = editor.complete(name, play.replace("      foot = side.right;\n", "      \n"), "action {\n      ")
     assert set(labels) == {"speed", "foot", "play", "kick"}

@@ -3,7 +3,7 @@
 import re
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.server.hover import doc_comment, signature
@@ -56,6 +56,7 @@ class _CompletionContext:
     kinds: list[str]
     call: str = ""
     """The callee of the enclosing parentheses."""
+    prefix: str = ""
 
 
 def find_prefix(text: str, offset: int) -> str:
@@ -69,6 +70,7 @@ def complete_at(behavior: OpenBehavior, tokens: Tokens, offset: int) -> list[Com
     if _is_in_comment_or_string(tokens, offset):
         return []
     context, table = _context_at(tokens, offset), behavior.compiled.table
+    context.prefix = find_prefix(tokens.text, offset)
     last = context.kinds[-1] if context.kinds else ""
     block = context.blocks[-1] if context.blocks else ""
     if last == "goto":
@@ -139,6 +141,11 @@ def _action_proposals(table: SymbolTable) -> Iterator[CompletionProposal]:
 def _value_proposals(table: SymbolTable, context: _CompletionContext) -> Iterator[CompletionProposal]:
     """Proposals for values: first the elements of the expected enumeration, then symbols that can be read."""
     yield from (_definition_proposal(element) for element in _expected_elements(table, context))
+    for enum in table.enums.values():
+        if context.prefix and f"{enum.name}.".startswith(context.prefix.partition(".")[0]):
+            for element in enum.elements.values():
+                proposal = _definition_proposal(element)
+                yield replace(proposal, name=f"{enum.name}.{element.name}")
     option = table.options.get(context.option)
     for parameter in option.parameters.values() if option else ():
         yield CompletionProposal(f"@{parameter.name}", "parameter", signature(parameter), doc_comment(parameter))
