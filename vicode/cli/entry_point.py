@@ -51,8 +51,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if arguments is None:
         # Decisions and expressions are read and written recursively; their depth is limited where they are read.
         sys.setrecursionlimit(max(_RECURSION_LIMIT, sys.getrecursionlimit()))
+    if not words:
+        make_command_parser().print_help(sys.stderr)
+        return EXIT_FAILED
     # A command is parsed without the modules of the others, which are slow to import.
-    parsed = make_command_parser(words[:1] if words and words[0] in COMMANDS else COMMANDS).parse_args(words)
+    parsed = make_command_parser(words[:1] if words[0] in COMMANDS else COMMANDS).parse_args(words)
     if arguments is None and words[0] in _BATCH_COMMANDS:
         # The process ends after one pass over the designs; collections would only scan the live trees repeatedly.
         gc.disable()
