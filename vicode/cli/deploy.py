@@ -5,6 +5,7 @@ import re
 import shlex
 import shutil
 import subprocess
+import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -27,26 +28,64 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("path", metavar="DESIGN", help="design of the root component, or folder of a project with one agent")
     add("--to", metavar="[USER@HOST:]DIR", required=True, help="the folder; everything in it but log/ is replaced")
     add("--profile", metavar="NAME", default="", help="use the implementations and the world of this profile")
+    add(
+        "--language", choices=("python", "cpp"), default="python", help="language of the program (default: %(default)s)"
+    )
     add("--python", metavar="PROGRAM", default="python3", help="the Python of the robot (default: %(default)s)")
-    add("--arguments", metavar="TEXT", default="--real-time", help="arguments of the launcher (default: %(default)s)")
+    add("--arguments", metavar="TEXT", help="arguments of the launcher (default: --real-time; for C++ none)")
     add("--dry-run", action="store_true", help="list the files and copy nothing")
 
 
 def run(args: argparse.Namespace) -> int:
     """Build the folder in a temporary one and copy it; return 1 if the project has errors."""
-    selected = select_root(args.path, args.profile, "deploy")
+    from vicode.generators import UnsoundDesignError
+
+    selected = select_root(args.path, args.profile, "deploy", args.language)
     if isinstance(selected, int):
         return selected
     opened, component = selected
     with tempfile.TemporaryDirectory(prefix="vicode-deploy-") as name:
         folder = Path(name)
-        build_program(opened, component, folder, args)
+        try:
+            if args.language == "cpp":
+                build_cpp_program(opened, component, folder, args)
+            else:
+                build_program(opened, component, folder, args)
+        except UnsoundDesignError as error:
+            print(f"vicode: {error}", file=sys.stderr)
+            return 1
         if args.dry_run:
             print("".join(f"{path}\n" for path in _list_files(folder)), end="")
-        else:
-            _copy(folder, args.to)
-            print(f"deployed {component} to {args.to}: start it with {_launcher_of(args.to)}")
+            return 0
+        _copy(folder, args.to)
+    print(f"deployed {component} to {args.to}: {_next_command(args)}")
     return 0
+
+
+def build_cpp_program(opened: LoadedProject, component: str, folder: Path, args: argparse.Namespace) -> None:
+    """Write all files of a C++ program to a folder.
+
+    Raises:
+        OSError: The project has no C++ program.
+        UnsoundDesignError: A design cannot be generated.
+    """
+    from vicode.cli.deploy_cpp import write_cpp_program
+
+    generated = Path(opened.open_project.project.generated).parts[:1]
+    _copy_hand_written(opened.open_project.folder, folder, generated)
+    program = write_cpp_program(opened, component, folder)
+    command = f"{program.launch} {args.arguments or ''}".rstrip()
+    _write_launcher(folder, program.package, component, command, target=args.to)
+
+
+def _next_command(args: argparse.Namespace) -> str:
+    """What to do after a deployment; a C++ program on this machine is built if that is possible."""
+    from vicode.cli.deploy_cpp import BUILD_SCRIPT, build_here
+
+    start = f"start it with {_command_at(args.to, 'run')}"
+    if args.language != "cpp" or (not _is_remote(args.to) and build_here(Path(args.to))):
+        return start
+    return f"build it with {_command_at(args.to, BUILD_SCRIPT)}, then {start}"
 
 
 def build_program(opened: LoadedProject, component: str, folder: Path, args: argparse.Namespace) -> None:
@@ -70,8 +109,11 @@ def build_program(opened: LoadedProject, component: str, folder: Path, args: arg
         target.write_text(file.text, encoding="utf-8")
     class_path = python_class_path(project, component)
     package = class_path.partition(".")[0]
-    _write_launcher(folder, package, _component_name(opened, component), args)
-    (folder / MARKER).write_text(f"{package}\n", encoding="utf-8")
+    name = _component_name(opened, component)
+    arguments = "--real-time" if args.arguments is None else args.arguments
+    command = f"exec {shlex.quote(args.python)} -m {package} {shlex.quote(name)} {arguments}".rstrip()
+    comment = "# Ctrl-C and SIGTERM close the components and the world.\n"
+    _write_launcher(folder, package, name, command, target=args.to, comment=comment)
 
 
 def _component_name(opened: LoadedProject, component: str) -> str:
@@ -106,15 +148,13 @@ def _can_be_copied(path: Path) -> bool:
     return path.is_file()
 
 
-def _write_launcher(folder: Path, package: str, component: str, args: argparse.Namespace) -> None:
+def _write_launcher(folder: Path, package: str, component: str, command: str, target: str, comment: str = "") -> None:
+    """Write launcher, systemd unit and marker."""
+    (folder / MARKER).write_text(f"{package}\n", encoding="utf-8")
     launcher = folder / "run"
-    command = f"exec {shlex.quote(args.python)} -m {package} {shlex.quote(component)} {args.arguments}".rstrip()
-    launcher.write_text(
-        "#!/bin/sh\n# Ctrl-C and SIGTERM close the components and the world.\n"
-        f'cd "$(dirname "$0")" || exit 1\n{command} "$@"\n'
-    )
+    launcher.write_text(f'#!/bin/sh\n{comment}cd "$(dirname "$0")" || exit 1\n{command} "$@"\n', encoding="utf-8")
     launcher.chmod(0o755)
-    place = _unit_place(args.to)
+    place = _unit_place(target)
     program = f"{place}/run".replace("$", "$$")
     if re.search(r"[\s\"'\\]", program):
         program = '"' + program.replace("\\", "\\\\").replace('"', '\\"') + '"'
@@ -156,12 +196,12 @@ def _is_remote(target: str) -> bool:
     return ":" in target and "/" not in head
 
 
-def _launcher_of(target: str) -> str:
+def _command_at(target: str, script: str) -> str:
     if _is_remote(target):
         host, place = _split(target)
         # With a terminal (-t), Ctrl-C reaches the program; without one, it would go on when ssh ends.
-        return f"ssh -t {host} {shlex.quote(shlex.quote(f'{place}/run'))}"
-    return shlex.quote(str(Path(target, "run")))
+        return f"ssh -t {host} {shlex.quote(shlex.quote(f'{place}/{script}'))}"
+    return shlex.quote(str(Path(target, script)))
 
 
 def _copy(folder: Path, target: str) -> None:

@@ -11,13 +11,14 @@ _UNPROVIDED = ("P209", "P210")
 """Rules about components whose outputs nothing provides during the run."""
 
 
-def select_root(path: str, profile: str, verb: str) -> tuple[LoadedProject, str] | int:
+def select_root(path: str, profile: str, verb: str, language: str = "python") -> tuple[LoadedProject, str] | int:
     """The project and the root component of a path; the exit code, after the reason was printed, if there is none.
 
     Args:
         path: A design, or the folder of a project with one agent.
         profile: The profile, "" for none.
         verb: What the command does, such as "run".
+        language: The language of the code.
 
     Raises:
         OSError: The path cannot be read, or there is no such profile.
@@ -27,8 +28,10 @@ def select_root(path: str, profile: str, verb: str) -> tuple[LoadedProject, str]
         print(f"vicode: {path} contains {len(projects)} projects; specify a design", file=sys.stderr)
         return 2
     opened = projects[0]
-    # Python would report a missing attribute or parameter only when a design uses it.
-    errors = (*opened.errors_for("python"), *(each for each in opened.findings if each.rule.code == "P212"))
+    errors = opened.errors_for(language)
+    if language == "python":
+        # Python would report a missing attribute or parameter only when a design uses it.
+        errors += tuple(each for each in opened.findings if each.rule.code == "P212")
     if errors:
         print_findings(errors, to_stderr=True)
         return 1
@@ -37,7 +40,7 @@ def select_root(path: str, profile: str, verb: str) -> tuple[LoadedProject, str]
         print(f"vicode: {path} has several components; specify the design to {verb}", file=sys.stderr)
         return 2
     print_findings((each for each in opened.findings if each.rule.code in _UNPROVIDED), to_stderr=True)
-    edits = find_unsynced_edits(opened, component)
+    edits = find_unsynced_edits(opened, component, language)
     if edits:
         print_findings(edits, to_stderr=True)
         return 1
@@ -52,7 +55,7 @@ def find_root_component(opened: LoadedProject) -> str | None:
     return roots[0] if len(roots) == 1 else None
 
 
-def find_unsynced_edits(opened: LoadedProject, component: str) -> tuple[Finding, ...]:
+def find_unsynced_edits(opened: LoadedProject, component: str, language: str = "python") -> tuple[Finding, ...]:
     """Edits of generated code that are missing from the designs: the run would not contain them."""
     from vicode.cli.gen import output_folder
     from vicode.generators import generate
@@ -65,7 +68,7 @@ def find_unsynced_edits(opened: LoadedProject, component: str) -> tuple[Finding,
         project=opened.open_project.project,
         folder=folder,
         generate=lambda project: generate(
-            project, components=[component], languages=["python"], sources=opened.design_paths
+            project, components=[component], languages=[language], sources=opened.design_paths
         ),
         may_delete=False,
         history=GeneratedHistory(folder=folder, project_folder=opened.open_project.folder),
