@@ -148,7 +148,9 @@ def _can_be_copied(path: Path) -> bool:
     return path.is_file()
 
 
-def _write_launcher(folder: Path, package: str, component: str, command: str, target: str, comment: str = "") -> None:
+def _write_launcher(
+    folder: Path, package: str, component: str, command: str, *, target: str, comment: str = ""
+) -> None:
     """Write launcher, systemd unit and marker."""
     (folder / MARKER).write_text(f"{package}\n", encoding="utf-8")
     launcher = folder / "run"
