@@ -8,7 +8,13 @@ from vicode.findings import Severity, render_json
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("paths", metavar="PATH", nargs="+", help="design file, project folder, or folder of projects")
+    parser.add_argument(
+        "paths",
+        metavar="PATH",
+        nargs="*",
+        default=["."],
+        help="design file, project folder, or folder of projects (default: the current folder)",
+    )
     parser.add_argument("--json", action="store_true", help="print findings as JSON")
     parser.add_argument("--strict", action="store_true", help="exit with code 1 on warnings, too")
 

@@ -54,6 +54,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if not words:
         make_command_parser().print_help(sys.stderr)
         return EXIT_FAILED
+    if words[0] not in COMMANDS and not words[0].startswith("-"):
+        return _report_unknown_command(words[0])
     # A command is parsed without the modules of the others, which are slow to import.
     parsed = make_command_parser(words[:1] if words[0] in COMMANDS else COMMANDS).parse_args(words)
     if arguments is None and words[0] in _BATCH_COMMANDS:
@@ -74,6 +76,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"vicode: {describe_os_error(error)}", file=sys.stderr)
         return EXIT_FAILED
     return code
+
+
+def _report_unknown_command(name: str) -> int:
+    from vicode.findings.nearest import did_you_mean
+
+    fix = did_you_mean(name, COMMANDS, "'vicode --help' lists all commands")
+    print(f"vicode: there is no command '{name}'; {fix}", file=sys.stderr)
+    return EXIT_FAILED
 
 
 def _make_streams_lenient() -> None:

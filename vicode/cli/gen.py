@@ -20,7 +20,13 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("paths", metavar="PATH", nargs="+", help="design file, project folder, or folder of projects")
+    parser.add_argument(
+        "paths",
+        metavar="PATH",
+        nargs="*",
+        default=["."],
+        help="design file, project folder, or folder of projects (default: the current folder)",
+    )
     parser.add_argument("--check", action="store_true", help="write nothing; report missing, changed, and stale files")
     parser.add_argument("--diff", action="store_true", help="write nothing; print a diff")
     parser.add_argument("--apply", action="store_true", help="apply edits of generated files to the designs first")

@@ -8,7 +8,13 @@ from vicode.cli.project_loader import LoadedProject
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("paths", metavar="PATH", nargs="+", help="design file, project folder, or folder of projects")
+    parser.add_argument(
+        "paths",
+        metavar="PATH",
+        nargs="*",
+        default=["."],
+        help="design file, project folder, or folder of projects (default: the current folder)",
+    )
     parser.add_argument("--check", action="store_true", help="write nothing; report edits missing from the designs")
     parser.add_argument("--watch", action="store_true", help="sync again after each change, until interrupted")
     parser.add_argument(
