@@ -91,7 +91,7 @@ def test_mistakes_in_the_project_stop_all_of_it(lamps: Path) -> None:
     assert not Path(PACKAGE).exists()
 
 
-@pytest.mark.parametrize("arguments", [["gen", "nowhere"], ["gen", "lamps", "--language", "cobol"], ["gen"], ["fly"]])
+@pytest.mark.parametrize("arguments", [["gen", "nowhere"], ["gen", "lamps", "--language", "cobol"], ["fly"]])
 def test_what_cannot_run_says_so(lamps: Path, arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert vicode(*arguments) == 2
     captured = capsys.readouterr()
