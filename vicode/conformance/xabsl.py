@@ -169,12 +169,13 @@ class XabslRobot:
 
 
 class InputWorld(TableWorld):
-    """A world whose inputs are set one by one; inputs of type int stay whole."""
+    """A world whose inputs, and outputs that options read, are set one by one; values of type int stay whole."""
 
     def __init__(self, symbols: Any, program: Any, ints: frozenset[str]) -> None:
         self._ints = ints
-        self.input_names = {symbol.name for symbol in symbols.symbols if symbol.role == "input"}
         super().__init__(symbols, program)
+        self._inputs |= {symbol.name: symbol for symbol in symbols.symbols if symbol.role == "output"}
+        self.input_names = frozenset(self._inputs)
 
     def _value(self, symbol: RobotSymbol, total: float) -> Any:
         value = super()._value(symbol, total)

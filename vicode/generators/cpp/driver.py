@@ -75,6 +75,7 @@ class _DriverWriter:
         self._numbers = {key: number for number, key in enumerate(inputs)}
         stubs = tuple(self._stub(item) for item in self._interfaces.values() if self._is_stub(item))
         has_world = any(item.implementation == WORLD for item in self._interfaces.values())
+        used = {use.component for component in self._plan.components for use in component.uses}
         return DriverView(
             package=self._plan.package.name,
             namespace=self._names.namespace,
@@ -85,7 +86,9 @@ class _DriverWriter:
             arguments=", ".join(["root", *(["world"] if has_world else []), *(stub.member for stub in stubs)]),
             main=self._members[self._root],
             shared=tuple(
-                self._members[item.component] for item in self._interfaces.values() if item.implementation == INTERNAL
+                self._members[item.component]
+                for item in self._interfaces.values()
+                if item.implementation == INTERNAL and item.component in used
             ),
             setters=tuple(self._setter(*key) for key in inputs),
         )
