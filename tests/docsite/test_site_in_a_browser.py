@@ -292,7 +292,7 @@ def test_a_long_menu_shows_where_one_is(page: Page, behavior_site: Path) -> None
 def test_the_menu_is_filtered(page: Page, behavior_site: Path) -> None:
     page.goto((behavior_site / "index.html").as_uri())
     menu = page.get_by_label("Pages")
-    menu.get_by_label("Filter state machines").fill("opt18")
+    menu.get_by_label("Filter options").fill("opt18")
     expect(menu.locator(".menu-machines a:visible")).to_have_text(["opt18"])
     expect(menu.get_by_role("status")).to_have_text("1 of 19")
     page.keyboard.press("Escape")

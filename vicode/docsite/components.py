@@ -26,7 +26,7 @@ from vicode.docsite.views import (
 )
 from vicode.model.design import COMMON, Action, Assign, Call, Design, RunCode, State, Transition
 
-_PHASES = (("enter", "On entry"), ("actions", "In each iteration"), ("leave", "On exit"))
+_PHASES = {"enter": "On entry", "actions": "In each iteration", "leave": "On exit"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,8 +105,11 @@ def _state(design: Design, state: State, linker: NameLinker, made: ComponentInpu
     tree_svg, is_folded = draw_decision_tree(
         state.transitions, ("states", state.name, "transitions"), design, made.urls
     )
+    # XABSL has no other actions.
+    titles = _PHASES | ({"actions": "Actions"} if linker.is_xabsl else {})
     phases = [
-        ActionPhaseView(title=title, actions=tuple(_actions(getattr(state, name), linker))) for name, title in _PHASES
+        ActionPhaseView(title=title, actions=tuple(_actions(getattr(state, name), linker)))
+        for name, title in titles.items()
     ]
     phases.insert(2, ActionPhaseView(title="Modulates", actions=tuple(_actions(state.modulates, linker))))
     return StateView(
@@ -162,6 +165,7 @@ def _numbered_links(found: Iterable[tuple[TextSpan, Sequence[TextSpan]]]) -> Ric
 
 def _common(design: Design, linker: NameLinker, made: ComponentInputs) -> StateView:
     actions = tuple(_actions(design.common.actions, linker))
+    title = "Common actions" if linker.is_xabsl else "In each iteration, before the state's actions"
     tree_svg, is_folded = draw_decision_tree(design.common.transitions, ("common", "transitions"), design, made.urls)
     return StateView(
         anchor=path_anchor(("common",)),
@@ -169,9 +173,7 @@ def _common(design: Design, linker: NameLinker, made: ComponentInputs) -> StateV
         badges=("common",),
         doc_html=render_doc(design.common.doc, parent_level=3),
         facts=(),
-        phases=(ActionPhaseView(title="In each iteration, before the state's actions", actions=actions),)
-        if actions
-        else (),
+        phases=(ActionPhaseView(title=title, actions=actions),) if actions else (),
         pseudocode=pseudocode_lines(design.common.transitions, linker, ("common", "transitions"), made.code_links),
         code_links=made.code_links.get(("common",), ()),
         tree_svg=tree_svg,

@@ -211,14 +211,16 @@ def _facts_of_type(enumeration: Enumeration, *, is_xabsl: bool) -> Iterator[Rich
     count = len(enumeration.elements)
     yield plain_text(f"{count} element{'s' * (count != 1)}")
     if enumeration.internal:
-        yield plain_text("stored by vicode")
+        yield plain_text("internal" if is_xabsl else "stored by vicode")
     if enumeration.xabsl_name and not is_xabsl:
         yield (TextSpan(text="in XABSL "), TextSpan(text=enumeration.xabsl_name, css_class="code"))
 
 
 def _facts(interface: Interface, *, is_xabsl: bool) -> Iterator[RichText]:
     if interface.is_generated:
-        yield plain_text(_ORIGINS[interface.implementation])
+        # In XABSL, the kinds of symbols say it.
+        if not is_xabsl:
+            yield plain_text(_ORIGINS[interface.implementation])
     else:
         yield (TextSpan(text="implemented by "), TextSpan(text=interface.implementation, css_class="code"))
     if interface.frequency_hz is not None:

@@ -7,7 +7,7 @@ from vicode.docsite.natural_sort import natural_sort_key
 from vicode.docsite.references import CALL, READ, SET, Reference, SymbolReferences
 from vicode.docsite.site_input import SiteInput
 from vicode.docsite.urls import SiteUrls
-from vicode.docsite.views import ReferenceList, RichText, TextSpan
+from vicode.docsite.views import ReferenceLine, ReferenceList, RichText, TextSpan
 from vicode.model.design import COMMON, Declaration
 from vicode.model.project import Enumeration
 
@@ -42,16 +42,17 @@ class ReferenceIndex:
         return tuple(self._states([each for each in places if each.component == user]))
 
     def _list(self, title: str, places: tuple[Reference, ...], *, by_value: bool = False) -> Iterator[ReferenceList]:
-        lines: list[RichText] = []
-        if by_value:
-            for value, group in _grouped(places, lambda place: place.value).items():
-                text = TextSpan(text=value or "in code", css_class="code" if value else "")
-                lines.append((text, TextSpan(text=": "), *self._components(group, has_values=False)))
-        else:
-            for name, group in _grouped(places, lambda place: place.component).items():
-                lines.append((*self._component(name), *self._states(group)))
+        groups = _grouped(places, lambda place: place.value if by_value else place.component)
+        lines = tuple(
+            ReferenceLine(
+                value=(name or "in code") if by_value else "",
+                place_count=len(group),
+                places=tuple(self._components(group, has_values=not by_value)),
+            )
+            for name, group in groups.items()
+        )
         if lines:
-            yield ReferenceList(title=title, place_count=len(places), lines=tuple(lines))
+            yield ReferenceList(title=title, place_count=len(places), lines=lines)
 
     def _components(self, places: Iterable[Reference], *, has_values: bool) -> Iterator[TextSpan]:
         for index, (name, group) in enumerate(_grouped(places, lambda place: place.component).items()):
@@ -66,7 +67,7 @@ class ReferenceIndex:
             TextSpan(text=" › "),
         )
 
-    def _states(self, places: Iterable[Reference], *, has_values: bool = True) -> Iterator[TextSpan]:
+    def _states(self, places: Iterable[Reference], *, has_values: bool = False) -> Iterator[TextSpan]:
         """The states with their lines and values; all places are in one component."""
         for index, (state, group) in enumerate(_grouped(places, lambda place: place.state).items()):
             if index:
@@ -83,7 +84,8 @@ class ReferenceIndex:
                     yield TextSpan(text=" = ")
                     yield TextSpan(text=value, css_class="code")
                 if source and line:
-                    yield TextSpan(text=" ")
+                    # A line does not begin with a number.
+                    yield TextSpan(text="\N{NO-BREAK SPACE}")
                     href = f"{self.urls.code(place.component, 'source')}#L{line}"
                     yield TextSpan(
                         text=str(line), href=href, title=f"{source.path}, line {line}", css_class="line-link"

@@ -24,7 +24,19 @@ def search_entries(project: Project, addresses: SiteUrls, title: str) -> tuple[S
         entries += _design_entries(design, addresses)
     for interface in project.components:
         entries += _interface_entries(interface, addresses)
-    return tuple(sorted(entries, key=lambda each: (each.name.casefold(), each.name, each.context, each.href)))
+    # A symbol is sought more often than a type of the same name.
+    return tuple(
+        sorted(
+            entries,
+            key=lambda each: (
+                each.name.casefold(),
+                each.name,
+                each.kind in ("type", "element"),
+                each.context,
+                each.href,
+            ),
+        )
+    )
 
 
 def search_script(entries: Iterable[SiteEntry]) -> str:

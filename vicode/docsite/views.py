@@ -25,12 +25,21 @@ class CodeBlock:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ReferenceLine:
+    """The places in one component, or the places that set one value, in all components."""
+
+    value: str = ""
+    place_count: int
+    places: RichText
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ReferenceList:
-    """The places that read or set something: one line per component, or per value that is set."""
+    """The places that read or set something."""
 
     title: str
     place_count: int
-    lines: tuple[RichText, ...]
+    lines: tuple[ReferenceLine, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
