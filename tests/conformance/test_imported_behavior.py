@@ -61,7 +61,7 @@ def test_cpp_gives_the_trace_of_the_engine(tmp_path: Path) -> None:
 
 
 @pytest.mark.nightly
-@pytest.mark.skipif(not OTHER, reason="VICODE_XABSL_BEHAVIOR does not name a file with agents")
+@pytest.mark.skipif(not OTHER, reason="another behavior is missing: set VICODE_XABSL_BEHAVIOR to its agents")
 def test_cpp_gives_the_trace_of_the_engine_for_a_behavior_elsewhere(tmp_path: Path) -> None:
     differences = compare_agents({"other": Path(OTHER)}, tmp_path, 3000)
     assert set(differences.values()) == {None}
