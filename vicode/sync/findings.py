@@ -2,15 +2,19 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import zip_longest
 
 from vicode.findings import DesignPath, Finding, FindingSubject, Note, SourceLocation, get_rule
 from vicode.sync.file_edits import FileEdits
+from vicode.sync.interpret import INTERPRETERS
 from vicode.sync.region_merge import RegionEdit
+from vicode.sync.same_code import find_tokens
 
 _APPLY = "apply the edit to the design with 'vicode sync'"
 _CHOOSE = "keep this text with 'vicode sync --take file', or the text of the design with 'vicode sync --take design'"
 _DROP = "move the edit to where it belongs, or drop it with 'vicode sync --take design'"
 _OUTSIDE = "'vicode sync' lists the edits that the design can express; 'vicode sync --outside-regions' applies them"
+_SHARED = "no design can contain the edit; 'vicode gen --force' overwrites it and keeps a copy as NAME.edited"
 _UNKNOWN = "'vicode gen --force' overwrites it and keeps a copy as NAME.edited"
 
 
@@ -49,9 +53,17 @@ class _Describer:
 
     def describe_outside(self) -> Finding:
         if self.file.is_origin_known:
-            return self._finding("G501", "this file was edited outside regions", _OUTSIDE, 1)
+            fix = _OUTSIDE if self.file.component and self.file.language in INTERPRETERS else _SHARED
+            return self._finding("G501", "this file was edited outside regions", fix, self._first_edited_line())
         message = "this file may have been edited outside regions: the generated text is not known"
         return self._finding("G501", message, _UNKNOWN, 1)
+
+    def _first_edited_line(self) -> int:
+        """The line of the first token of C++ that differs; 1 in other languages, whose files may be formatted."""
+        if self.file.language != "cpp":
+            return 1
+        tokens = zip_longest(find_tokens(self.file.old), find_tokens(self.file.new or ""), fillvalue=("", 1))
+        return next((own[1] for own, other in tokens if own[0] != other[0]), 1)
 
     def _finding(self, code: str, message: str, fix: str, line: int, path: DesignPath = ()) -> Finding:
         name = f"{self.folder}/{self.file.path}" if self.folder else self.file.path

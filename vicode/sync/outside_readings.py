@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.sync.file_edits import FileEdits, History
-from vicode.sync.interpret import InterpretedEdit, interpret_edits
+from vicode.sync.interpret import INTERPRETERS, InterpretedEdit
 from vicode.sync.outside_edits import rebase_outside_edits
 
 
@@ -40,10 +40,11 @@ def interpret_files(
         if not file.is_edited_outside or generated is None:
             continue
         edited = rebase_outside_edits(replace(file, new=generated), next(iter(history(file.path)), None))
-        if edited is None or not (file.component and file.language == "python"):
+        if edited is None or not (file.component and file.language in INTERPRETERS):
             found.append(OutsideReading(file=file, edits=(), leftover=""))
             continue
-        result = interpret_edits(project, file.component, generated=generated, edited=edited, file=file.path)
+        interpret = INTERPRETERS[file.language]
+        result = interpret(project, file.component, generated=generated, edited=edited, file=file.path)
         found.append(OutsideReading(file=file, edits=result.edits, leftover=result.leftover))
         if result.edits:
             designs[file.component] = result.design

@@ -46,8 +46,21 @@ def _import_key(items: list[CodeItem]) -> object:
 
 
 def _tokens(text: str, comment: str) -> list[str]:
-    found = _TOKEN.finditer(strip_bodies(_without_header(text), comment))
-    return [" ".join(token[0].split()) if token["comment"] else token[0] for token in found]
+    return [word for word, _span in find_token_spans(strip_bodies(_without_header(text), comment))]
+
+
+def find_token_spans(text: str) -> Iterator[tuple[str, tuple[int, int]]]:
+    """The tokens of C++ code, with spaces in comments collapsed, and their places in the text."""
+    for token in _TOKEN.finditer(text):
+        yield " ".join(token[0].split()) if token["comment"] else token[0], token.span()
+
+
+def find_tokens(text: str) -> Iterator[tuple[str, int]]:
+    """The tokens of C++ code with their lines."""
+    line, end = 1, 0
+    for word, (start, _end) in find_token_spans(text):
+        line, end = line + text.count("\n", end, start), start
+        yield word, line
 
 
 def _without_header(text: str) -> str:

@@ -132,16 +132,16 @@ def prepare_output(folder: Path, job: GenerationRequest, component: str) -> Pend
 
 def _read_edits(project: Project, file: FileEdits, generated: str | None) -> FileReading | None:
     """Read the edits of a file since it was generated; None if there are none that a design might express."""
-    from vicode.sync.interpret import interpret_edits  # noqa: PLC0415 - later
+    from vicode.sync.interpret import INTERPRETERS  # noqa: PLC0415 - later
 
     base = project.design(file.component)
-    if not file.is_edited_outside or file.language != "python" or file.new is None or base is None:
+    if not file.is_edited_outside or file.language not in INTERPRETERS or file.new is None or base is None:
         return None
     edited = rebase_outside_edits(file, generated)
     if edited is None:
         leftover = format_diff(FileDiff(path=file.path, status=FileStatus.CHANGED, old=file.new, new=file.old))
         return FileReading(file=file, base=base, design=base, words=(), leftover=leftover)
-    read = interpret_edits(project, file.component, generated=file.new, edited=edited)
+    read = INTERPRETERS[file.language](project, file.component, generated=file.new, edited=edited)
     words = tuple(edit.words for edit in read.edits)
     return FileReading(file=file, base=base, design=read.design, words=words, leftover=read.leftover)
 

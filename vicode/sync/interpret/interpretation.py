@@ -279,7 +279,7 @@ class _Search:
 
     def _accept(self, design: Design, line: int) -> None:
         for change in diff_designs(self.design, design):
-            self.edits.append(InterpretedEdit(path=change.path, words=_describe(change), line=line))
+            self.edits.append(InterpretedEdit(path=change.path, words=describe_edit(change), line=line))
         self.design = design
 
     def _first_difference(self) -> int:
@@ -295,8 +295,8 @@ def _guarded(design: Design) -> list[bool]:
     return [located.decision.guard.is_empty for located in iter_decisions(design)]
 
 
-def _describe(change: Change) -> str:
-    """The new value in full, or the lines that are new, since the reader knows what was written."""
+def describe_edit(change: Change) -> str:
+    """Describe a change by the new value in full, or the lines that are new: the reader knows what was written."""
     if change.kind != ChangeKind.CHANGED:
         verb = f"{change.kind} " if change.kind in (ChangeKind.ADDED, ChangeKind.REMOVED) else ""
         return f"{verb}{describe_change(change)[2:]}"
