@@ -17,19 +17,21 @@ from pathlib import Path
 from vicode.cli import main as vicode
 
 FOLDER_SIZE, STATES = 12, 4
+LAYER = 4 * FOLDER_SIZE
 AREAS = ("attack", "ball", "defense", "goalie", "head", "kick", "search", "stand", "team", "walk")
 VERBS = ("Align", "Approach", "Block", "Check", "Follow", "Guard", "Hold", "Look", "Pass", "Reach", "Turn", "Wait")
 
 
 def write_project(folder: Path, count: int) -> Path:
-    """Write a project of `count` state machines in folders of a dozen; each uses a few of the later ones."""
+    """Write a project of `count` state machines in folders of a dozen; each uses some of its own and later ones."""
     chance = random.Random(count)
     folder.mkdir(parents=True)
     (folder / "project.yaml").write_text(PROJECT, "utf-8")
     names = [f"{VERBS[number % FOLDER_SIZE]}{_area(number).capitalize()}" for number in range(count)]
     for number, name in enumerate(names):
-        later = names[number + 1 : number + 2 * FOLDER_SIZE]
-        used = chance.sample(later, min(3, len(later)))
+        own_end = number - number % FOLDER_SIZE + FOLDER_SIZE
+        near, far = names[number + 1 : own_end], names[_next_layer(number) :][:LAYER]
+        used = [*chance.sample(near, min(2, len(near))), *chance.sample(far, min(1, len(far)))]
         file = folder / _area(number) / f"{name}.yaml"
         file.parent.mkdir(exist_ok=True)
         file.write_text(_design(name, used, chance), "utf-8")
@@ -51,6 +53,11 @@ components:
 """
 
 
+def _next_layer(number: int) -> int:
+    """The first machine of the next four folders."""
+    return number + LAYER - number % LAYER
+
+
 def _area(number: int) -> str:
     round_, place = divmod(number // FOLDER_SIZE, len(AREAS))
     return AREAS[place] + (str(round_ + 1) if round_ else "")
@@ -70,10 +77,8 @@ def _design(name: str, used: list[str], chance: random.Random) -> str:
         lines += [f"    modulates: {{{used[number % len(used)].lower()}: {{}}}}"] if used else []
         lines.append("    transitions:")
         lines.append(f"      - {{to: State{(number + 1) % STATES}, when: senses.ball_seen, doc: ball seen}}")
-        lines.append(
-            f"      - {{to: State{chance.randrange(STATES)}, when: senses.ball_distance < {chance.randrange(9999)}}}"
-        )
-        lines.append(f"      - {{to: State{chance.randrange(STATES)}, after: {chance.randrange(1, 60)}}}")
+        limit = f"when: senses.ball_distance < {chance.randrange(9999)}" if number % 2 else f"after: {number + 1}"
+        lines.append(f"      - {{to: State{chance.randrange(STATES)}, {limit}}}")
     return "\n".join(lines) + "\n"
 
 

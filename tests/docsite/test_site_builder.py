@@ -11,7 +11,7 @@ import pytest
 from tests.docsite.link_checker import find_broken_links, find_unsafe_content, read_page, read_pages
 from tests.editor.hostile_project import PAYLOADS, write_hostile_project
 from vicode.cli import main
-from vicode.docsite import SiteInput, SourceText, build_site
+from vicode.docsite import SiteInput, build_site
 from vicode.docsite.doc_text import render_doc, summarize
 from vicode.docsite.site_search import search_script
 from vicode.docsite.views import SiteEntry
@@ -194,26 +194,6 @@ def test_lines_of_code_lead_back(forward: tuple[OutputFile, ...]) -> None:
         links = read_page(page(forward, path)).links
         assert "component-Player.html#state-Kick" in links
         assert "component-Player.html#state-WatchBall-1" in links
-
-
-def test_the_menu_of_state_machines_is_in_one_file(forward: tuple[OutputFile, ...]) -> None:
-    assert "SearchNet" not in page(forward, "component-Turn.html")
-    rows = json.loads(page(forward, "menu.js").split("window.vicodeMenu = ")[1].removesuffix(";\n"))
-    assert [name for name, _entries in rows] == [""]
-    assert ["SearchNet", "component-SearchNet.html"] in [entry[:2] for entry in rows[0][1]]
-
-
-def test_the_menu_has_the_folders_that_not_all_designs_share() -> None:
-    names = ("Wait", "Walk10", "Walk2")
-    places = ("src/wait.yaml", "src/legs/walk10.yaml", "src/legs/walk2.yaml")
-    project = Project(name="walker", designs=tuple(Design(component=name) for name in names))
-    sources = {name: SourceText(path=path, text="", language="yaml") for name, path in zip(names, places, strict=True)}
-    script = page(build_site(SiteInput(project=project, sources=sources)), "menu.js")
-    rows = json.loads(script.split("window.vicodeMenu = ")[1].removesuffix(";\n"))
-    assert [(folder, [name for name, *_rest in entries]) for folder, entries in rows] == [
-        ("", ["Wait"]),
-        ("legs", ["Walk2", "Walk10"]),
-    ]
 
 
 def test_drawings_have_no_colours_of_their_own(forward: tuple[OutputFile, ...]) -> None:

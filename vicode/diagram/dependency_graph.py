@@ -33,7 +33,7 @@ def dependency_diagram(
         uses = _without_read_only(uses, {design.component for design in project.designs})
     shown = [name for name in project.interfaces() if name in uses or any(name in used for used in uses.values())]
     shown += [design.component for design in project.designs if design.component not in shown]
-    positions = _positions(shown, uses)
+    positions = place_in_columns(shown, uses)
     roots = {agent.root for agent in project.agents}
     return Diagram(
         nodes=tuple(_diagram_node(project, name, positions[name], href_for, is_root=name in roots) for name in shown),
@@ -114,7 +114,7 @@ def dependency_edges(uses: UsesByComponent, shown: Collection[str]) -> Iterator[
                 )
 
 
-def _positions(names: list[str], uses: UsesByComponent) -> dict[str, Point]:
+def place_in_columns(names: list[str], uses: UsesByComponent) -> dict[str, Point]:
     """Columns by depth; rows such that users and used components are close to each other."""
     depths = _depths(names, uses)
     columns: dict[int, list[str]] = defaultdict(list)

@@ -95,7 +95,7 @@ def code_links_by_path(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> dict
     for text in texts:
         page = addresses.code(text.component, text.variant)
         for path, line in text.line_numbers.items():
-            part = TextSpan(text=f"{text.title} {line}", href=f"{page}#L{line}", title=f"{text.path}, line {line}")
+            part = TextSpan(text=f"{text.title} {line}", href=f"{page}#L{line}")
             places[path] = (*places.get(path, ()), part)
     return places
 

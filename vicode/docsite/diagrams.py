@@ -1,12 +1,13 @@
 """Diagrams of pages: nodes and edges are links, colors are CSS variables."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
 
 from vicode.diagram.decision_tree import TreeLinks, render_decision_tree
 from vicode.diagram.dependency_graph import dependency_diagram
 from vicode.diagram.diagram_model import Diagram, DiagramEdge, DiagramNode, build_diagram
+from vicode.diagram.folder_graph import folder_diagram
 from vicode.diagram.layout import LayoutService
 from vicode.diagram.neighborhood import MORE_USED, MORE_USERS, neighborhood_diagram
 from vicode.diagram.palettes import css_variable_palette
@@ -98,6 +99,19 @@ def draw_dependencies(project: Project, addresses: SiteUrls, title: str) -> str:
     figure = dependency_diagram(project, sparse=True)
     nodes = tuple(_linked_component(node, addresses, addresses.component(node.key)) for node in figure.nodes)
     return _render_svg(Diagram(nodes=nodes, edges=_linked_dependencies(figure, addresses)), title) if nodes else ""
+
+
+def draw_folders(
+    folders: Mapping[str, tuple[Design, ...]], anchors: Mapping[str, str], addresses: SiteUrls, title: str
+) -> str:
+    """The folders of a project; nodes and edges link to their lists of designs."""
+    figure = folder_diagram(folders, addresses.names.design_kind)
+    nodes = tuple(replace(node, href=f"#{anchors[node.key]}") for node in figure.nodes)
+    edges = tuple(
+        replace(edge, href=f"#{anchors[edge.target if edge.edge_type == 'requires' else edge.source]}")
+        for edge in figure.edges
+    )
+    return _render_svg(Diagram(nodes=nodes, edges=edges), title)
 
 
 def draw_neighbourhood(design: Design, project: Project, addresses: SiteUrls) -> str:

@@ -1,22 +1,35 @@
 """The pages about the whole project: home and agents."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from vicode.diagram.dependency_graph import has_omitted_uses
-from vicode.docsite.diagrams import draw_dependencies
+from vicode.docsite.diagrams import draw_dependencies, draw_folders
 from vicode.docsite.doc_text import render_doc, render_inline_doc, summarize
 from vicode.docsite.findings import finding_groups, finding_rows
 from vicode.docsite.interfaces import symbol_count
+from vicode.docsite.menu import DesignFolder
 from vicode.docsite.name_linker import NameLinker, join_spans
 from vicode.docsite.natural_sort import natural_sort_key, sorted_designs
 from vicode.docsite.site_input import SiteInput
-from vicode.docsite.urls import AGENTS, INTERFACES, NAME_INDEX, SYMBOLS, TYPES, SiteUrls
-from vicode.docsite.views import AgentRow, AgentView, ComponentRow, HomeView, ReachableComponentRow, RichText, TextSpan
+from vicode.docsite.urls import AGENTS, INTERFACES, NAME_INDEX, SYMBOLS, TYPES, SiteUrls, unique_slugs
+from vicode.docsite.views import (
+    AgentRow,
+    AgentView,
+    ComponentRow,
+    FolderView,
+    HomeView,
+    ReachableComponentRow,
+    RichText,
+    TextSpan,
+)
 from vicode.generators import collect_components
 from vicode.model.design import Design
 from vicode.model.project import Agent, Project
 from vicode.model.traversal import iter_transitions
+
+_MAX_UNGROUPED = 40
+_TOP_FOLDER = "(top folder)"
 
 
 def home_view(subject: SiteInput, addresses: SiteUrls, svg: str = "") -> HomeView:
@@ -31,6 +44,44 @@ def home_view(subject: SiteInput, addresses: SiteUrls, svg: str = "") -> HomeVie
         agents=tuple(agent_rows(project, addresses)),
         components=tuple(_component_row(design, subject, linker) for design in sorted_designs(project)),
         findings=finding_groups(finding_rows(subject, addresses)),
+    )
+
+
+def group_home(view: HomeView, bones: Project, folders: Sequence[DesignFolder], addresses: SiteUrls) -> HomeView:
+    """Draw the diagrams of the home page; those of a large project are by folder.
+
+    Args:
+        view: the home page without diagrams.
+        bones: the project with what its diagrams show.
+        folders: all designs by folder.
+        addresses: the URLs.
+    """
+    if len(bones.designs) <= _MAX_UNGROUPED or len(folders) == 1:
+        return replace(view, svg=draw_dependencies(bones, addresses, f"Dependencies in {bones.name}"))
+    rows = {row.component.href: row for row in view.components}
+    anchors = {
+        name: f"folder-{part}" for name, part in unique_slugs(each.name or _TOP_FOLDER for each in folders).items()
+    }
+    shown, members = [], {}
+    for folder in folders:
+        name = folder.name or _TOP_FOLDER
+        components = [design.component for design in folder.designs]
+        part = tuple(design for design in bones.designs if design.component in set(components))
+        members[name] = part
+        shown.append(
+            FolderView(
+                anchor=anchors[name],
+                name=name,
+                rows=tuple(rows[addresses.component(component)] for component in components),
+                svg=draw_dependencies(
+                    replace(bones, designs=part, components=(), agents=()), addresses, f"Dependencies in {name}"
+                )
+                if len(part) > 1
+                else "",
+            )
+        )
+    return replace(
+        view, folders=tuple(shown), svg=draw_folders(members, anchors, addresses, f"Folders of {bones.name}")
     )
 
 

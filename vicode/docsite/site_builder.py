@@ -16,7 +16,7 @@ from vicode.docsite.code_pages import (
 )
 from vicode.docsite.components import ComponentInputs, component_view
 from vicode.docsite.declarations import declaration_tables
-from vicode.docsite.diagrams import add_missing_layouts, draw_dependencies
+from vicode.docsite.diagrams import add_missing_layouts
 from vicode.docsite.doc_text import summarize
 from vicode.docsite.interfaces import (
     InterfaceInputs,
@@ -31,7 +31,7 @@ from vicode.docsite.languages import GenerationErrors, find_generation_errors, l
 from vicode.docsite.markdown_pages import PageContent, markdown_files
 from vicode.docsite.menu import MENU_SCRIPT, DesignFolder, fixed_links, group_by_folder, menu_script
 from vicode.docsite.name_linker import NameLinker
-from vicode.docsite.overview import agent_links, agent_view, home_view
+from vicode.docsite.overview import agent_links, agent_view, group_home, home_view
 from vicode.docsite.page_inputs import restrict_to_component, strip_to_usage
 from vicode.docsite.reference_lists import ReferenceIndex
 from vicode.docsite.references import find_symbol_references
@@ -39,6 +39,7 @@ from vicode.docsite.site_input import SiteInput
 from vicode.docsite.site_names import is_from_xabsl
 from vicode.docsite.site_search import search_entries, search_script
 from vicode.docsite.site_writer import PlannedFile
+from vicode.docsite.svg_classes import shape_rules, shorten_shapes
 from vicode.docsite.urls import AGENTS, HOME, INTERFACES, NAME_INDEX, SYMBOLS, TYPES, SiteUrls
 from vicode.docsite.uses import user_rows
 from vicode.docsite.views import PageHead, RichText, TextSpan
@@ -133,7 +134,7 @@ class _SitePlanner:
         yield from self._assets()
 
     def _assets(self) -> Iterator[PlannedFile]:
-        yield _plain_file("site.css", read_asset("docsite/site.css"))
+        yield _plain_file("site.css", read_asset("docsite/site.css") + shape_rules())
         parts = "\n".join(read_asset(f"docsite/js/{name}.js") for name in _SCRIPT_FILES)
         yield _plain_file("site.js", _SCRIPT.format(parts))
         yield _plain_file(MENU_SCRIPT, menu_script(self.folders, self.urls))
@@ -146,12 +147,13 @@ class _SitePlanner:
         project, addresses = self.site_input.project, self.urls
         bones = strip_to_usage(project)
         maps, home = compute_digest(bones), home_view(self.site_input, addresses)
-        title = f"Dependencies in {self.site_input.name}"
+        grouping = tuple((folder.name, len(folder.designs)) for folder in self.folders)
+        bones_titled = replace(bones, name=self.site_input.name)
 
         def drawn_home() -> TemplateContext:
-            return {"view": replace(home, svg=draw_dependencies(bones, addresses, title))}
+            return {"view": group_home(home, bones_titled, self.folders, addresses)}
 
-        yield self._page(_head(HOME, self.site_input.name), "home", (maps, home), drawn_home)
+        yield self._page(_head(HOME, self.site_input.name), "home", (maps, home, grouping), drawn_home)
         if project.agents:
             yield self._page_from_context(_head(AGENTS, "Agents"), "agents", agents=home.agents)
         for agent in project.agents:
@@ -238,7 +240,7 @@ class _SitePlanner:
             file, is_xabsl = f"docsite/{template}.html.jinja", self.urls.names.is_xabsl
             text = render(file, page=head, site=name, about=about, menu=self.menu, is_xabsl=is_xabsl, **views())
             # Many links of a page lead to the page itself.
-            return text.replace(f'href="{head.file}#', 'href="#')
+            return shorten_shapes(text.replace(f'href="{head.file}#', 'href="#'))
 
         return PlannedFile(path=head.file, key=compute_digest(template, head, self.shared_digest, key), render=make)
 

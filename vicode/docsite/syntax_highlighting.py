@@ -57,9 +57,8 @@ def code_row(number: int, html: str, href: str, title: str) -> str:
     # Not a template: most of the content of a site is in these rows.
     about = escape(title)
     link = f'<a href="{escape(href)}" title="{about}" aria-label="{about}">↗</a>' if href else ""
-    return (
-        f'<tr id="L{number}"><td><a href="#L{number}">{number}</a></td><td>{link}</td><td><code>{html}</code></td></tr>'
-    )
+    # HTML allows to omit the ends of rows and cells.
+    return f'<tr id="L{number}"><td><a href="#L{number}">{number}</a><td>{link}<td><code>{html}</code>'
 
 
 def highlight_block(text: str, language: str) -> str:

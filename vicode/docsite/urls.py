@@ -59,9 +59,9 @@ class SiteUrls:
     def __init__(self, project: Project) -> None:
         self._project = project
         self.names = SiteNames(project)
-        self._stems = _stems(design.component for design in project.designs)
-        self._interfaces = _stems(each.component for each in project.components)
-        self._agents = _stems(each.name for each in project.agents)
+        self._stems = unique_slugs(design.component for design in project.designs)
+        self._interfaces = unique_slugs(each.component for each in project.components)
+        self._agents = unique_slugs(each.name for each in project.agents)
         self.key = (
             tuple(self._stems),
             tuple(self._interfaces),
@@ -110,7 +110,7 @@ class SiteUrls:
         return f"agent-{self._agents[name]}.html"
 
 
-def _stems(names: Iterable[str]) -> dict[str, str]:
+def unique_slugs(names: Iterable[str]) -> dict[str, str]:
     """Convert names to URL parts that differ in more than case."""
     stems: dict[str, str] = {}
     taken: set[str] = set()

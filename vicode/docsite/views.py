@@ -322,8 +322,21 @@ class ComponentRow:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class FolderView:
+    """The components of a folder, with their dependencies on each other."""
+
+    anchor: str
+    name: str
+    rows: tuple[ComponentRow, ...]
+    svg: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HomeView:
-    """The home page; `counts` are numbers with links; if `is_partial`, the diagram omits components."""
+    """The home page; `counts` are numbers with links; if `is_partial`, the diagram omits components.
+
+    With `folders`, the diagram shows them instead of components.
+    """
 
     doc_html: str
     counts: tuple[tuple[int, TextSpan], ...]
@@ -332,6 +345,7 @@ class HomeView:
     agents: tuple[AgentRow, ...]
     components: tuple[ComponentRow, ...]
     findings: tuple[FindingGroup, ...]
+    folders: tuple[FolderView, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

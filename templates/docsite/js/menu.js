@@ -4,10 +4,10 @@ const MAX_OPEN_GROUPS = 40;
 
 const menu = document.querySelector(".menu");
 
-// Allows a line break after an underscore.
+// Allows a line break after an underscore or a slash.
 function breakable(name) {
   const node = document.createElement("bdi");
-  name.split(/(?<=_)/).forEach((part, index) => node.append(...(index ? [document.createElement("wbr"), part] : [part])));
+  name.split(/(?<=[_/])/).forEach((part, index) => node.append(...(index ? [document.createElement("wbr"), part] : [part])));
   return node;
 }
 
@@ -65,6 +65,18 @@ function addStateMachines(groups) {
 }
 
 if (menu && window.vicodeMenu) addStateMachines(window.vicodeMenu);
+
+for (const area of document.querySelectorAll("[data-filter]")) {
+  area.prepend(makeElement("div", { className: "content-filter" }, ...makeFilter(area.dataset.filter, area, "tbody tr", ".folder")));
+}
+
+// A link to a folder opens it.
+function openTarget() {
+  const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  if (target?.matches("details")) target.open = true;
+}
+window.addEventListener("hashchange", openTarget);
+openTarget();
 
 // Scroll a long menu to the current page.
 const currentEntry = menu?.querySelector("[aria-current]");

@@ -1,10 +1,13 @@
 // The search over all pages of the site.
 const RESULTS_PER_STEP = 30;
 
-const box = document.querySelector(".search");
-const field = document.getElementById("search");
-const list = document.getElementById("search-results");
-const searchStatus = document.getElementById("search-status");
+const field = makeElement("input", { id: "search", type: "search", placeholder: "Search  (press /)", autocomplete: "off", spellcheck: false, role: "combobox" });
+const list = makeElement("ul", { id: "search-results", role: "listbox", hidden: true });
+const searchStatus = makeElement("span", { className: "visually-hidden", role: "status" });
+for (const [name, value] of Object.entries({ "aria-label": "Search names, docs and code", "aria-expanded": "false", "aria-controls": list.id, "aria-autocomplete": "list" })) {
+  field.setAttribute(name, value);
+}
+list.setAttribute("aria-label", "Search results");
 let selectedIndex = 0;
 let resultLimit = RESULTS_PER_STEP;
 let indexPromise = null;
@@ -191,18 +194,16 @@ function onSearchKey(event) {
   event.preventDefault();
 }
 
-if (box) {
-  box.hidden = false;
-  // Small screens have no room for the key hint, and usually no keyboard.
-  if (matchMedia("(max-width: 800px)").matches) field.placeholder = "Search";
-  field.addEventListener("focus", loadIndex);
-  field.addEventListener("input", search);
-  field.addEventListener("keydown", onSearchKey);
-  field.addEventListener("blur", close);
-  document.addEventListener("keydown", (event) => {
-    const isTyping = event.target.closest?.("input, textarea, select");
-    if (isTyping || event.ctrlKey || event.metaKey || event.altKey || event.key !== "/") return;
-    event.preventDefault();
-    field.focus();
-  });
-}
+document.querySelector(".top").append(makeElement("div", { className: "search", role: "search" }, field, list, searchStatus));
+// Small screens have no room for the key hint, and usually no keyboard.
+if (matchMedia("(max-width: 800px)").matches) field.placeholder = "Search";
+field.addEventListener("focus", loadIndex);
+field.addEventListener("input", search);
+field.addEventListener("keydown", onSearchKey);
+field.addEventListener("blur", close);
+document.addEventListener("keydown", (event) => {
+  const isTyping = event.target.closest?.("input, textarea, select");
+  if (isTyping || event.ctrlKey || event.metaKey || event.altKey || event.key !== "/") return;
+  event.preventDefault();
+  field.focus();
+});
