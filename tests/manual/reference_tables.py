@@ -75,6 +75,7 @@ def _option_table(parser: argparse.ArgumentParser) -> str:
         if action.help is argparse.SUPPRESS or isinstance(action, argparse._HelpAction):
             continue
         meaning, default = _split_default(action)
+        meaning = re.sub(r"docs/([\w-]+\.md)", r"[\1](../\1)", meaning)
         rows.append(f"| `{_cell(_names(action))}` | {_cell(meaning)} | {_cell(default)} |\n")
     if not rows:
         return ""
@@ -103,7 +104,7 @@ def _split_default(action: argparse.Action) -> tuple[str, str]:
     if match := _DEFAULT.search(text):
         when = f" ({match['when'].strip()})" if match["when"] else ""
         return text[: match.start()], match["value"] + when
-    is_needed = action.required or (not action.option_strings and action.nargs not in ("?", "*"))
+    is_needed = action.required if action.option_strings else action.nargs not in ("?", "*", argparse.REMAINDER)
     return text, "required" if is_needed else "–"
 
 

@@ -25,7 +25,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=("install", *_HOOKS),
         help="install: set up the repository; the others are what the hooks of git call",
     )
-    parser.add_argument("path", metavar="PATH", nargs="?", default=".", help="a folder of the repository (default: .)")
+    parser.add_argument(
+        "path", metavar="PATH", nargs="?", default=".", help="a folder of the repository (default: the current folder)"
+    )
     parser.add_argument("--uninstall", action="store_true", help="with install: remove what it set up")
 
 

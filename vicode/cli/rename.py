@@ -41,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PATH",
         nargs="?",
         default=".",
-        help="project folder, design, or folder of projects (default: .)",
+        help="project folder, design, or folder of projects (default: the current folder)",
     )
     parser.add_argument("--kind", choices=_KINDS, help="what OLD is, if several things have this name")
     parser.add_argument("--dry-run", action="store_true", help="write nothing; print a diff")

@@ -16,7 +16,9 @@ _HASH = re.compile(r"[0-9a-f]{6,12}\Z")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("hash", metavar="HASH|TRACE", help="hash of a design, at least 6 digits, or a trace with it")
-    parser.add_argument("path", metavar="PATH", nargs="?", default=".", help="folder to search (default: .)")
+    parser.add_argument(
+        "path", metavar="PATH", nargs="?", default=".", help="folder to search (default: the current folder)"
+    )
     parser.add_argument(
         "-o", "--out", metavar="OUT", help="write the design to a .yaml file, or its project to a folder"
     )
