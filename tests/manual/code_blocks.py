@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = sorted(
     {ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")} - {ROOT / "docs/rules.md"}
 )
-_BLOCK = re.compile(r"^```(?P<language>\w+)(?: (?P<name>\S+))?\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+_BLOCK = re.compile(r"^```(?P<language>\w*)(?: (?P<name>\S+))?\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 _NAME_LINE = re.compile(r"\A(?:#|//) (?P<name>[\w./-]+\.\w+)\n")
 
 
@@ -32,12 +32,14 @@ class CodeBlock:
 def code_blocks(page: Path, *languages: str) -> Iterator[CodeBlock]:
     text = page.read_text(encoding="utf-8")
     for match in _BLOCK.finditer(text):
-        if match["language"] in languages:
+        # A block without a language may start with a command.
+        language = match["language"] or ("sh" if match["text"].startswith("vicode ") else "text")
+        if language in languages:
             name_line = _NAME_LINE.match(match["text"])
             yield CodeBlock(
                 page=page,
                 line=text.count("\n", 0, match.start()) + 1,
-                language=match["language"],
+                language=language,
                 name=name_line["name"] if name_line else match["name"] or "",
                 text=match["text"],
             )
