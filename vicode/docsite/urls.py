@@ -63,10 +63,10 @@ class SiteUrls:
         self._interfaces = unique_slugs(each.component for each in project.components)
         self._agents = unique_slugs(each.name for each in project.agents)
         self.key = (
-            tuple(self._stems),
-            tuple(self._interfaces),
+            tuple(self._stems.items()),
+            tuple(self._interfaces.items()),
             tuple(each.name for each in project.enumerations),
-            tuple(self._agents),
+            tuple(self._agents.items()),
             self.names.key,
         )
         """The inputs of all URLs and names."""
