@@ -80,3 +80,43 @@ def test_bases_in_the_same_module_count() -> None:
 def test_modules_outside_the_folder_and_generated_classes_are_not_read() -> None:
     project = Project(name="P", components=(EYES, Interface(component="World", implementation="world")))
     assert list(check_classes(project, lambda _module: None)) == []
+
+
+BALL = Interface(
+    component="Ball",
+    implementation="world",
+    outputs=(
+        Declaration(name="ball_seen", type="bool", xabsl_name="ball.seen"),
+        Declaration(name="near", arguments=(Declaration(name="x"),)),
+    ),
+)
+WALK_TO = Interface(component="WalkTo", implementation="world", parameters=(Declaration(name="speed"),))
+WORLD = """class Field:
+    ball_seen = False
+
+    def near(self, x):
+        return x > 1
+
+    def walk_to(self, speed):
+        pass
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("", "", []),
+        ("ball_seen", "ball_scene", ["'Field' has no attribute 'ball_seen', which Ball uses"]),
+        ("near", "far", ["'Field' has no method 'near', which Ball uses"]),
+        ("walk_to", "walk", ["'Field' has no method 'walk_to', which WalkTo uses"]),
+        ("Field", "Ground", ["robot/field.py has no class 'Field'"]),
+        ("ball_seen = False", "def __getattr__(self, name): return 0", []),
+        ("Field:", "Field(Ground):", []),
+        ("Field:", "Field(:", []),
+    ],
+)
+def test_a_world_has_what_components_use(old: str, new: str, expected: list[str]) -> None:
+    project = Project(name="P", world="robot.field:Field", components=(BALL, WALK_TO))
+    modules = {"robot.field": ("robot/field.py", WORLD.replace(old, new) if old else WORLD)}
+    assert [each.message for each in check_classes(project, modules.get)] == expected
+    assert [*check_classes(project, modules.get, ())] == []

@@ -1,4 +1,4 @@
-"""Compares hand-written classes with their declarations in project.yaml, by reading their source.
+"""Compares hand-written classes and the world with the declarations in project.yaml, by reading their source.
 
 What a class gets from an unknown base, a decorator or `setattr` is not known; it then counts as present.
 """
@@ -8,7 +8,9 @@ from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 
 from vicode.findings import Finding, SourceLocation, get_rule
-from vicode.model.project import Interface, Project
+from vicode.model.names import python_attribute_name, snake_case
+from vicode.model.project import WORLD, Interface, Project
+from vicode.model.xabsl.names import is_basic_behavior
 
 ReadModule = Callable[[str], tuple[str, str] | None]
 """Returns the file name and the text of a module, None if it is not in the project folder."""
@@ -21,21 +23,53 @@ _DYNAMIC_CALLS = {"setattr", "vars"}
 def check_classes(
     project: Project, read_module: ReadModule, components: Collection[str] | None = None
 ) -> Iterator[Finding]:
-    """P212: missing outputs, other parameters or another frequency in a hand-written class."""
-    for interface in project.components:
-        module, _colon, name = interface.implementation.partition(":")
-        if interface.is_generated or (components is not None and interface.component not in components):
-            continue
-        source = read_module(module)
-        syntax = _parse(source[1]) if source else None
-        if source is None or syntax is None:
-            continue
-        classes = {node.name: node for node in syntax.body if isinstance(node, ast.ClassDef)}
-        if name in classes:
-            yield from _ClassChecker(interface, source[0], _read_class(classes[name], classes)).check()
-        elif not {name, "*"} & _bound_names(syntax):
-            message = f"{source[0]} has no class '{name}'"
-            yield _make_finding(message, f"add it, or correct the implementation of {interface.component}", source[0])
+    """P212: missing outputs, other parameters or another frequency of a class; missing members of the world."""
+    checked = [each for each in project.components if components is None or each.component in components]
+    for interface in checked:
+        if not interface.is_generated:
+            found = _find_class(interface.implementation, read_module)
+            if isinstance(found, _ClassSource):
+                yield from _ClassChecker(interface, found).check()
+            elif found:
+                message = f"{found} has no class '{interface.implementation.partition(':')[2]}'"
+                yield _make_finding(message, f"add it, or correct the implementation of {interface.component}", found)
+    yield from _check_world(project, [each for each in checked if each.implementation == WORLD], read_module)
+
+
+def _check_world(project: Project, interfaces: list[Interface], read_module: ReadModule) -> Iterator[Finding]:
+    """The attributes and methods that generated classes of components use."""
+    world = _find_class(project.world, read_module) if project.world and interfaces else None
+    if isinstance(world, str):
+        message = f"{world} has no class '{project.world.partition(':')[2]}'"
+        yield _make_finding(message, "add it, or correct 'world' in project.yaml", world)
+    elif world is not None and world.is_complete:
+        known = world.functions.keys() | world.attributes
+        for interface in interfaces:
+            for kind, name in _world_members(interface):
+                if name not in known:
+                    message = f"'{world.node.name}' has no {kind} '{name}', which {interface.component} uses"
+                    yield _make_finding(message, "add it", world.file, world.node)
+
+
+def _world_members(interface: Interface) -> Iterator[tuple[str, str]]:
+    for output in interface.outputs:
+        kind = "attribute" if output.arguments is None else "method"
+        yield kind, python_attribute_name(output.xabsl_name or output.name)
+    if is_basic_behavior(interface):
+        yield "method", python_attribute_name(interface.xabsl_name or snake_case(interface.component))
+
+
+def _find_class(path: str, read_module: ReadModule) -> "_ClassSource | str | None":
+    """The class at module:Class; its file, if the class is missing there; None if that is not known."""
+    module, _colon, name = path.partition(":")
+    source = read_module(module)
+    syntax = _parse(source[1]) if source else None
+    if source is None or syntax is None:
+        return None
+    classes = {node.name: node for node in syntax.body if isinstance(node, ast.ClassDef)}
+    if name in classes:
+        return _read_class(source[0], classes[name], classes)
+    return None if {name, "*"} & _bound_names(syntax) else source[0]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,6 +79,7 @@ class _ClassSource:
     `is_complete` is false if the class may have more members than these.
     """
 
+    file: str
     node: ast.ClassDef
     functions: dict[str, _Function]
     attributes: frozenset[str]
@@ -55,7 +90,6 @@ class _ClassSource:
 @dataclass(frozen=True, slots=True)
 class _ClassChecker:
     interface: Interface
-    file: str
     source: _ClassSource
 
     def check(self) -> Iterator[Finding]:
@@ -110,7 +144,7 @@ class _ClassChecker:
             yield self._report(message + _describe(self.interface.frequency_hz), fix, value)
 
     def _report(self, message: str, fix: str, node: _Function | ast.expr | None = None) -> Finding:
-        return _make_finding(message, fix, self.file, node or self.source.node)
+        return _make_finding(message, fix, self.source.file, node or self.source.node)
 
 
 def _describe(hertz: object) -> str:
@@ -140,7 +174,7 @@ def _bound_names(syntax: ast.Module) -> set[str]:
     return names | {(alias.asname or alias.name) for alias in imports}
 
 
-def _read_class(node: ast.ClassDef, classes: dict[str, ast.ClassDef]) -> _ClassSource:
+def _read_class(file: str, node: ast.ClassDef, classes: dict[str, ast.ClassDef]) -> _ClassSource:
     """Read a class and its bases of the same module; members of the class precede those of its bases."""
     functions: dict[str, _Function] = {}
     values: dict[str, ast.expr] = {}
@@ -169,6 +203,7 @@ def _read_class(node: ast.ClassDef, classes: dict[str, ast.ClassDef]) -> _ClassS
             elif known is None and _last_name(base) != "Component":
                 is_complete = False
     return _ClassSource(
+        file=file,
         node=node,
         functions=functions,
         attributes=frozenset(attributes | values.keys()),
