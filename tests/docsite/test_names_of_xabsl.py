@@ -1,12 +1,16 @@
 """A site of a behavior in XABSL shows the names, operators and calls of its sources, with all places that use them."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
 
 from tests.docsite.link_checker import find_broken_links, read_page
+from tests.importers.differential_harness import import_checked
+from tests.xabsl.xabsl_cases import load_texts
 from vicode.cli import main
+from vicode.docsite import SiteInput, build_site
 from vicode.output import OutputFile
 
 BEHAVIOR = Path(__file__).parent / "team_behavior" / "agents.xabsl"
@@ -46,6 +50,20 @@ def test_expressions_are_those_of_the_sources(name: str, request: pytest.Fixture
     walk = words_of(site, "component-approach.html")
     assert "speed = ball.where == _none ? 20 : @speed)" in walk
     assert "@speedfloat" in walk
+
+
+def test_nested_conditions_are_joined_as_in_xabsl() -> None:
+    texts = {
+        "agents.xabsl": 'include "n.xabsl"; include "o.xabsl"; agent a("A", o);',
+        "n.xabsl": 'namespace n("N") { bool input x; bool input y; bool input z; }',
+        "o.xabsl": """option o { initial state s { decision { if (x || y) { if (z) goto t; else stay; } else stay; } action { } }
+            state t { decision { stay; } action { } } }""",
+    }
+    project = import_checked(load_texts(texts))[0].project
+    page = next(each.text for each in build_site(SiteInput(project=project)) if each.path == "component-o.html")
+    row = re.search(r'<td class="condition".*?</td>', page, re.DOTALL)
+    assert row
+    assert read_page(row[0]).text == "(x || y) && z"
 
 
 def test_diagrams_have_the_names_of_the_sources(site: Path) -> None:

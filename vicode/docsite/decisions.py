@@ -65,7 +65,7 @@ def transition_rows(design: Design, linker: NameLinker, addresses: SiteUrls) -> 
         yield TransitionRow(
             order=TextSpan(text=str(order), href=f"#{path_anchor(located.path)}"),
             source=source,
-            guards=tuple(_guard_texts(located, linker)),
+            guards=_guard_texts(located, linker),
             timer=timer,
             target=_target(located.decision, linker),
             doc_html=render_inline_doc(located.decision.doc),
@@ -89,18 +89,31 @@ def pseudocode_lines(
     return (*lines, PseudocodeLine(depth=0, parts=(TextSpan(text=before + last, css_class="k"),)))
 
 
-def _guard_texts(located: LocatedDecision, linker: NameLinker) -> Iterator[RichText]:
+def _guard_texts(located: LocatedDecision, linker: NameLinker) -> tuple[RichText, ...]:
+    """The guards that must hold, those of enclosing groups first."""
+    lines: list[RichText] = []
     for group, is_then in located.groups:
         line = guard_text(group.guard, linker)
         if line and is_then:
-            yield line
+            lines.append(line)
         elif line:
             negation = "!" if linker.is_xabsl else "not "
-            yield (TextSpan(text=negation, css_class="k"), TextSpan(text="("), *line, TextSpan(text=")"))
+            lines.append((TextSpan(text=negation, css_class="k"), TextSpan(text="("), *line, TextSpan(text=")")))
     own = located.decision.guard
     rest = Guard(when=own.when, code=own.code)
     if not rest.is_empty:
-        yield guard_text(rest, linker)
+        lines.append(guard_text(rest, linker))
+    return tuple(_operand(line, linker) for line in lines) if len(lines) > 1 else tuple(lines)
+
+
+def _operand(line: RichText, linker: NameLinker) -> RichText:
+    """An operand of &&, in parentheses if an operator in it has a lower precedence."""
+    depth = 0
+    for span in line if linker.is_xabsl else ():
+        if depth == 0 and span.css_class == "k" and any(sign in span.text for sign in ("||", "?")):
+            return (TextSpan(text="("), *line, TextSpan(text=")"))
+        depth += span.text.count("(") - span.text.count(")")
+    return line
 
 
 def _target(decision: Decision, linker: NameLinker) -> TextSpan:

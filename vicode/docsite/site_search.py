@@ -29,7 +29,7 @@ def search_entries(project: Project, addresses: SiteUrls, title: str) -> tuple[S
         sorted(
             entries,
             key=lambda each: (
-                each.name.casefold(),
+                each.name.casefold().removeprefix("@"),
                 each.name,
                 each.kind in ("type", "element"),
                 each.context,
