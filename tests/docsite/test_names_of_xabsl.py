@@ -56,7 +56,8 @@ def test_nested_conditions_are_joined_as_in_xabsl() -> None:
     texts = {
         "agents.xabsl": 'include "n.xabsl"; include "o.xabsl"; agent a("A", o);',
         "n.xabsl": 'namespace n("N") { bool input x; bool input y; bool input z; }',
-        "o.xabsl": """option o { initial state s { decision { if (x || y) { if (z) goto t; else stay; } else stay; } action { } }
+        "o.xabsl": """option o {
+            initial state s { decision { if (x || y) { if (z) goto t; else stay; } else stay; } action { } }
             state t { decision { stay; } action { } } }""",
     }
     project = import_checked(load_texts(texts))[0].project
