@@ -142,6 +142,9 @@ READ_BACK = [
     ("count += 1;", "count += 2;", "set: {count: count + 2}"),
     ("count += 1;", "count -= 1;", "set: {count: count - 1}"),
     ("-1.0", "-2.0", 'speed: "-2"'),
+    ("0.5 *", "0.75 *", "speed: 0.75 * count"),
+    ("-1.0", "-2", 'speed: "-2"'),
+    ("> 0.1)", "> 2 && on)", "when: count > 30 and state_time > 2 and on}"),
 ]
 
 

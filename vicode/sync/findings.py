@@ -8,7 +8,7 @@ from vicode.findings import DesignPath, Finding, FindingSubject, Note, SourceLoc
 from vicode.sync.file_edits import FileEdits
 from vicode.sync.interpret import INTERPRETERS
 from vicode.sync.region_merge import RegionEdit
-from vicode.sync.same_code import find_tokens
+from vicode.sync.same_code import find_tokens, plain_token
 
 _APPLY = "apply the edit to the design with 'vicode sync'"
 _CHOOSE = "keep this text with 'vicode sync --take file', or the text of the design with 'vicode sync --take design'"
@@ -63,7 +63,7 @@ class _Describer:
         if self.file.language != "cpp":
             return 1
         tokens = zip_longest(find_tokens(self.file.old), find_tokens(self.file.new or ""), fillvalue=("", 1))
-        return next((own[1] for own, other in tokens if own[0] != other[0]), 1)
+        return next((own[1] for own, other in tokens if plain_token(own[0]) != plain_token(other[0])), 1)
 
     def _finding(self, code: str, message: str, fix: str, line: int, path: DesignPath = ()) -> Finding:
         name = f"{self.folder}/{self.file.path}" if self.folder else self.file.path

@@ -9,14 +9,16 @@ from vicode.sync.code_items import HEADER, IMPORT, CodeItem, imported_names, spl
 
 # Numbers of C++ may contain single quotes.
 _TOKEN = re.compile(
-    r"""(?P<comment>/\*.*?\*/|//[^\n]*)|"(?:[^"\\\n]|\\.)*"|\d(?:'?\w)*|'(?:[^'\\\n]|\\.)*'|\w+|[^\w\s]""", re.DOTALL
+    r"""(?P<comment>/\*.*?\*/|//[^\n]*)|"(?:[^"\\\n]|\\.)*"|\d(?:'?\w|\.(?=\d))*|'(?:[^'\\\n]|\\.)*'|\w+|[^\w\s]""",
+    re.DOTALL,
 )
 
 
 def is_same_code(a: str, b: str, comment: str = "#") -> bool:
     """Whether two texts are the same code with the same comments outside of the bodies of their regions.
 
-    Line breaks, indentation, quotes, brackets without a meaning, the order of imports and the header do not count.
+    Numbers are compared by value. Line breaks, indentation, quotes, brackets without a meaning, the order of imports
+    and the header do not count.
 
     Args:
         a: One version of the file.
@@ -46,7 +48,7 @@ def _import_key(items: list[CodeItem]) -> object:
 
 
 def _tokens(text: str, comment: str) -> list[str]:
-    return [word for word, _span in find_token_spans(strip_bodies(_without_header(text), comment))]
+    return [plain_token(word) for word, _span in find_token_spans(strip_bodies(_without_header(text), comment))]
 
 
 def find_token_spans(text: str) -> Iterator[tuple[str, tuple[int, int]]]:
@@ -61,6 +63,17 @@ def find_tokens(text: str) -> Iterator[tuple[str, int]]:
     for word, (start, _end) in find_token_spans(text):
         line, end = line + text.count("\n", end, start), start
         yield word, line
+
+
+def plain_token(word: str) -> str:
+    """A token as it is compared: numbers are equal by value."""
+    text = word.replace("'", "")
+    if text.isdecimal():
+        return str(int(text))
+    try:
+        return repr(float(text)).removesuffix(".0") if text[:1].isdigit() else word
+    except ValueError:
+        return word
 
 
 def _without_header(text: str) -> str:

@@ -217,6 +217,26 @@ def test_generate_offers_the_edits_that_the_design_can_express(
     assert not player.shared.outside.lacks_edits
 
 
+def test_edits_of_cpp_are_offered_too(workspace: Workspace) -> None:
+    project = workspace.folder / "project.yaml"
+    project.write_text(project.read_text().replace("languages: [python]", "languages: [python, cpp]"))
+    workspace.sync_from_disk()
+    player = workspace.open_document("Player")
+    assert player is not None
+    assert workspace.generate(player).is_complete
+    code_sync.follow_generated_files(workspace)
+    source = workspace.output_folder / "cpp" / "forward" / "player.cpp"
+    edit_file(source, "perception.ball_age > 77)", "perception.ball_age > lost_after)")
+    code_sync.follow_generated_files(workspace)
+    assert player.shared.outside.lacks_edits
+    (reading,) = workspace.prepare_output(player).readings
+    assert (len(reading.words), reading.leftover) == (2, "")
+    assert "ball_age > 77" in reading.words[0]
+    assert code_sync.apply_to_design(player, reading.base, reading.design, reading.words)
+    workspace.save(player)
+    assert workspace.generate(player).is_complete
+
+
 def test_changes_of_the_design_since_are_no_edits_of_the_file(
     workspace: Workspace, player: DocumentSession, file: Path
 ) -> None:

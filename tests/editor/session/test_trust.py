@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
+from vicode.editor.panels.simulation.trust_dialog import COMPARE
 from vicode.editor.session import Workspace
 from vicode.editor.session.trust import contains_code, is_trusted, trust_folder
 from vicode.model.design import Code, Design, RunCode, State
@@ -33,5 +34,9 @@ def test_only_a_folder_with_code_needs_trust(tmp_path: Path, workspace: Workspac
     code = RunCode(code=Code(texts=(("python", "go()\n"),)))
     with_code = replace(design, states=(replace(state, enter=(code,)),))
     assert contains_code(empty, Project(name="p", designs=(with_code,)))
+    in_cpp = RunCode(code=Code(texts=(("cpp", "go();\n"),)))
+    with_cpp = Project(name="p", designs=(replace(design, states=(replace(state, enter=(in_cpp,)),)),))
+    assert not contains_code(empty, with_cpp)
+    assert contains_code(empty, with_cpp, COMPARE.languages)
     (empty / "math.py").write_text("")
     assert contains_code(empty, Project(name="p", designs=(design,)))

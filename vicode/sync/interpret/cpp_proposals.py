@@ -8,7 +8,7 @@ from functools import partial
 from vicode.model.design import Assign, Call, Design, Guard, State, Transition
 from vicode.model.edits import remove_decisions, replace_action, replace_decision, update_state
 from vicode.model.traversal import LocatedAction, LocatedDecision, iter_actions, iter_decisions
-from vicode.sync.same_code import find_token_spans
+from vicode.sync.same_code import find_token_spans, plain_token
 
 Words = Sequence[str]
 _CPP_TOKENS = {
@@ -24,7 +24,6 @@ _TO_DESIGN = (
     (r"! =", " != "),
     (r"([<>=]) =", r" \1= "),
     (r"!", " not "),
-    (r"(?<=\d) '(?=\d)|(?<=\d)'(?=\d)", ""),
     (r"\b(state_time|component_time) \( \)", r"\1"),
     (r"\b(\w+) \. is_done \( \)", r"done(\1)"),
     (r" : : ", "."),
@@ -159,19 +158,11 @@ def _with(pairs: tuple[tuple[str, str], ...], index: int, text: str) -> tuple[tu
 def _find(text: str, words: Words) -> Iterator[tuple[int, int]]:
     """The places of C++ tokens in an expression of the design."""
     found = [(word, span) for each, span in find_token_spans(text) for word in _CPP_TOKENS.get(each, (each,))]
-    own = [_plain(word) for word, _span in found]
-    wanted = [_plain(word) for word in words]
+    own = [plain_token(word) for word, _span in found]
+    wanted = [plain_token(word) for word in words]
     for start in range(len(own) - len(wanted) + 1):
         if own[start : start + len(wanted)] == wanted:
             yield found[start][1][0], found[start + len(wanted) - 1][1][1]
-
-
-def _plain(word: str) -> str:
-    """Numbers are equal by value."""
-    try:
-        return repr(float(word.replace("'", "")))
-    except ValueError:
-        return word
 
 
 def _replaced(text: str, start: int, end: int, new: str) -> str:
@@ -182,7 +173,7 @@ def _replaced(text: str, start: int, end: int, new: str) -> str:
 
 def to_design(words: Words) -> str:
     """C++ tokens as an expression of the design."""
-    text = " ".join(words)
+    text = " ".join(map(plain_token, words))
     for pattern, replacement in _TO_DESIGN:
         text = re.sub(pattern, replacement, text)
     return text.strip()
