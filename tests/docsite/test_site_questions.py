@@ -163,7 +163,7 @@ def test_a_question_is_answered(page: Page, team_site: Path, question: Question)
     follow(page, team_site, question)
 
 
-@pytest.mark.skipif(not NAOTH, reason="VICODE_NAOTH is not set")
+@pytest.mark.skipif(not NAOTH, reason="NaoTHSoccer is missing: set VICODE_NAOTH to its agents.xabsl")
 @pytest.mark.parametrize("question", NAOTH_QUESTIONS, ids=lambda each: each.text)
 def test_a_question_about_naoth_is_answered(page: Page, naoth_site: Path, question: Question) -> None:
     page.set_viewport_size({"width": 1366, "height": 768})

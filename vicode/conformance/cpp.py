@@ -86,7 +86,7 @@ class CppProgram:
             arguments: list[str] = []
             for name in names:
                 run, inputs = runs[name], self._folder / f"{name}.inputs"
-                inputs.write_text(_format_inputs(run), encoding="ascii")
+                inputs.write_text(format_inputs(run), encoding="ascii")
                 traces = str(self._folder / f"{name}.trace")
                 arguments += [name, str(inputs), str(run.team_ticks), str(run.robots), traces]
             done = subprocess.run([self._folder / f"program{index}", *arguments], capture_output=True, check=False)
@@ -109,7 +109,8 @@ def interleave(traces: Sequence[Sequence[TraceIteration]]) -> list[TraceIteratio
     return [iteration for iterations in zip(*traces, strict=True) for iteration in iterations]
 
 
-def _format_inputs(run: ConformanceRun) -> str:
+def format_inputs(run: ConformanceRun) -> str:
+    """The lines that the driver reads: initial values, then the inputs and the time of each iteration."""
     numbers = {each.key: (number, each) for number, each in enumerate(run.inputs)}
     lines = [
         f"s {robot} {number} {as_number(each.initial, each.elements)!r}"

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from vicode.bica import arithmetic
-from vicode.conformance.inputs import PARAMETERS, ConformanceRun, as_number, element_of, used_interfaces
+from vicode.conformance.inputs import PARAMETERS, ConformanceRun, RunInput, as_number, element_of, used_interfaces
 from vicode.conformance.traces import TraceIteration, TraceNormalizer
 from vicode.generators import collect_components, generate
 from vicode.model.design import Declaration, Design
@@ -71,7 +71,7 @@ class XabslRobot:
         symbols, project = declared_symbols(compiled.table), run.project
         self._run, self.now_ms = run, 0
         self._inputs = {each.key: each for each in run.inputs}
-        ints = frozenset(symbol_name(each.component, _named(each)) for each in run.inputs if each.type == INT)
+        ints = frozenset(input_symbol(each) for each in run.inputs if each.type == INT)
         self.world = InputWorld(symbols, compiled.program, ints)
         self.engine = Engine(compiled.program, self.world, symbols=symbols, clock=lambda: self.now_ms, traced=True)
         self.engine.team.priority, self.engine.team.ticks = number, run.team_ticks
@@ -109,8 +109,8 @@ class XabslRobot:
         if each.component == PARAMETERS:
             name = each.xabsl_name or each.name
             self._root_values[name] = element_of(value) if each.elements else value
-        elif symbol_name(each.component, _named(each)) in self.world.input_names:
-            self.world.set_input(symbol_name(each.component, _named(each)), as_number(value, each.elements))
+        elif input_symbol(each) in self.world.input_names:
+            self.world.set_input(input_symbol(each), as_number(value, each.elements))
 
     def shared(self) -> dict[str, dict[str, Any]]:
         """The shared variables."""
@@ -182,5 +182,6 @@ class InputWorld(TableWorld):
         return float(arithmetic.to_int(value)) if symbol.name in self._ints else value
 
 
-def _named(each: Any) -> Declaration:
-    return Declaration(name=each.name, xabsl_name=each.xabsl_name)
+def input_symbol(each: RunInput) -> str:
+    """The name of the symbol that provides an input."""
+    return symbol_name(each.component, Declaration(name=each.name, xabsl_name=each.xabsl_name))
