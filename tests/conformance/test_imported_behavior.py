@@ -17,8 +17,7 @@ from vicode.importers import import_behavior
 from vicode.xabsl.compiler import CompileResult, compile_source
 from vicode.xabsl.source_loader import load_source
 
-NAOTH = os.environ.get("VICODE_NAOTH", "")
-"""The path of agents.xabsl of NaoTHSoccer, or of another behavior."""
+WRITTEN = [Path(path) for path in os.environ.get("VICODE_XABSL_BEHAVIORS", "").split(":") if path]
 
 
 def run_engine(run: ConformanceRun, compiled: CompileResult, agent: str) -> list[TraceIteration]:
@@ -61,7 +60,7 @@ def test_cpp_gives_the_trace_of_the_engine(tmp_path: Path) -> None:
 
 
 @pytest.mark.nightly
-@pytest.mark.skipif(not NAOTH, reason="NaoTHSoccer is missing: set VICODE_NAOTH to its agents.xabsl")
-def test_cpp_gives_the_trace_of_the_engine_for_naoth(tmp_path: Path) -> None:
-    differences = compare_agents({"naoth": Path(NAOTH)}, tmp_path, 3000)
+@pytest.mark.parametrize("path", WRITTEN, ids=str)
+def test_cpp_gives_the_trace_of_the_engine_for_behaviors_elsewhere(path: Path, tmp_path: Path) -> None:
+    differences = compare_agents({"other": path}, tmp_path, 3000)
     assert set(differences.values()) == {None}
