@@ -69,7 +69,7 @@ def watching(tmp_path: Path) -> Iterator[WatchProcess]:
 
 
 def test_a_site_in_the_folder_of_its_designs_follows_them(watching: WatchProcess) -> None:
-    watching.out = watching.project
+    watching.out = watching.project / "site"
     watching.start()
     watching.edit("Bright", "Lit")
     watching.wait_for("no findings")

@@ -298,8 +298,11 @@ def test_pages_of_others_are_not_written_over(tmp_path: Path, capsys: pytest.Cap
 )
 @pytest.mark.parametrize("form", ["html", "markdown"])
 def test_pages_of_others_that_speak_of_us_stay(form: str, name: str, text: str, tmp_path: Path) -> None:
+    command = ["docs", str(FORWARD), "--format", form, "--out", str(tmp_path)]
+    # Only Markdown is written beside files of others from the start.
+    assert form == "markdown" or main(command) == 0
     (tmp_path / name).write_text(text, "utf-8")
-    assert main(["docs", str(FORWARD), "--format", form, "--out", str(tmp_path)]) == 0
+    assert main(command) == 0
     assert (tmp_path / name).read_text("utf-8") == text
 
 

@@ -299,6 +299,21 @@ def test_the_menu_is_filtered(page: Page, behavior_site: Path) -> None:
     expect(menu.locator(".menu-machines a:visible")).to_have_count(19)
 
 
+def test_headings_have_links_and_code_is_copied(page: Page, site: Path) -> None:
+    page.add_init_script("navigator.clipboard.writeText = async (text) => { window.copied = text; };")
+    page.goto((site / "component-Player.html").as_uri())
+    page.get_by_role("heading", name="Used by").hover()
+    page.get_by_role("link", name="Link to Used by").click()
+    assert page.url.endswith("#used-by")
+    page.locator("figure.code").first.get_by_role("button", name="Copy").click()
+    expect(page.get_by_role("button", name="Copied")).to_be_visible()
+    assert page.evaluate("copied") == page.locator("figure.code code").first.text_content()
+    page.goto((site / "source-Player.html").as_uri())
+    page.get_by_role("button", name="Copy").click()
+    expect(page.get_by_role("button", name="Copied")).to_be_visible()
+    assert page.evaluate("copied") == (FORWARD / "player.yaml").read_text("utf-8")
+
+
 def test_fingers_find_every_link_on_a_telephone(page: Page, site: Path) -> None:
     page.set_viewport_size({"width": 390, "height": 800})
     for name in KINDS:

@@ -4,11 +4,12 @@ import argparse
 import gc
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 from vicode.cli.console import print_findings
+from vicode.cli.docs_output import find_output_problem, find_source_url_problem
 from vicode.cli.docs_record import find_unchanged_build, save_record
 from vicode.cli.ports import port_number
 from vicode.output import cache_path
@@ -37,6 +38,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="",
         help="title of the site, or of the home page of several sites (default: the project's title)",
     )
+    parser.add_argument(
+        "--source-url",
+        metavar="URL",
+        default="",
+        help="link sources to a repository: an address with {path}, from the root of the repository, and {line}",
+    )
     parser.add_argument("--strict", action="store_true", help="exit with code 1 on findings; the site is still written")
     parser.add_argument("--fresh", action="store_true", help="rebuild all pages, ignoring the cache")
     parser.add_argument(
@@ -50,30 +57,47 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the sites; return 1 if a design or behavior cannot be read and, with --strict, for findings."""
-    is_markdown = args.format == "markdown"
-    if args.watch and is_markdown:
-        print(
-            "vicode: --watch cannot be combined with --format markdown; use the live reload of MkDocs or Sphinx",
-            file=sys.stderr,
-        )
-        return 2
-    if args.watch:
-        from vicode.cli.docs_build import DocsBuilder
-        from vicode.cli.docs_watch import watch_docs
-
-        sites = DocsBuilder(out=args.out, ignores_cache=args.fresh, title=args.title)
-        return watch_docs(args.path, sites, port=args.port, open_browser=not args.no_open)
-    options = (args.format, args.title)
-    record_file, started_s = cache_path(args.out, "docs-builds"), time.time()
-    record = None if args.fresh else find_unchanged_build(record_file, options, args.path, args.out)
+    options = (args.format, args.title, args.source_url)
+    record_file = cache_path(args.out, "docs-builds")
+    is_incremental = not args.fresh and not args.watch
+    record = find_unchanged_build(record_file, options, args.path, args.out) if is_incremental else None
     if record:
         print(record.summary)
         return int(args.strict and record.has_findings)
+    problem = _find_option_problem(args)
+    if problem:
+        print(f"vicode: {problem}", file=sys.stderr)
+        return 2
+    if not args.watch:
+        return _build(args, options, record_file)
+    from vicode.cli.docs_build import DocsBuilder
+    from vicode.cli.docs_watch import watch_docs
+
+    sites = DocsBuilder(out=args.out, ignores_cache=args.fresh, title=args.title, source_url=args.source_url)
+    return watch_docs(args.path, sites, port=args.port, open_browser=not args.no_open)
+
+
+def _find_option_problem(args: argparse.Namespace) -> str:
+    is_markdown = args.format == "markdown"
+    if args.watch and is_markdown:
+        return "--watch cannot be combined with --format markdown; use the live reload of MkDocs or Sphinx"
+    problem = find_source_url_problem(args.source_url)
+    return problem or find_output_problem(args.out, args.path, is_markdown=is_markdown)
+
+
+def _build(args: argparse.Namespace, options: Sequence[str], record_file: Path) -> int:
     from vicode.cli.docs_build import DocsBuilder, describe_build, record_build
     from vicode.cli.docs_inputs import load_site_inputs
     from vicode.cli.progress import progress_bar
 
-    sites = DocsBuilder(out=args.out, ignores_cache=args.fresh, is_markdown=is_markdown, title=args.title)
+    started_s = time.time()
+    sites = DocsBuilder(
+        out=args.out,
+        ignores_cache=args.fresh,
+        is_markdown=args.format == "markdown",
+        title=args.title,
+        source_url=args.source_url,
+    )
     with _gc_disabled(), sites, progress_bar() as step:
         readings = load_site_inputs(args.path)
         for reading in readings:

@@ -34,12 +34,14 @@ class DocsBuilder:
     """Builds the sites of an output folder. Call `close` when done.
 
     With `ignores_cache`, the first build renders all pages. `title` is that of the site or of the common home page.
+    `source_url` is the address of lines in a repository, with {path} and {line}.
     """
 
     out: Path
     ignores_cache: bool = False
     is_markdown: bool = False
     title: str = ""
+    source_url: str = ""
     _builders: dict[str, "SiteBuilder"] = field(default_factory=dict)
 
     def build(
@@ -54,11 +56,8 @@ class DocsBuilder:
             step(reading.name, 0, 0)
             builder = self._builders.setdefault(name, SiteBuilder())
             assert reading.site_input is not None
-            subject = (
-                reading.site_input
-                if name
-                else replace(reading.site_input, title=self.title or reading.site_input.title)
-            )
+            title = reading.site_input.title if name else self.title or reading.site_input.title
+            subject = replace(reading.site_input, title=title, source_url=reading.source_url(self.source_url))
             plans[name] = builder.plan(subject, is_markdown=self.is_markdown)
         if len(readings) > 1:
             subjects = {name: each.site_input for name, each in named.items() if each.site_input}

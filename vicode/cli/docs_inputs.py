@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
 from vicode.cli.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES, LoadedProject, load_projects
 from vicode.findings import Finding, Severity
@@ -24,7 +25,7 @@ class LoadedSiteInput:
     """A project or behavior on disk.
 
     `site_input` is None if nothing can be read. If `is_incomplete`, files are missing because of `read_errors`.
-    `folders` contain its files.
+    `folders` contain its files; `root` is the folder from which the paths of sources start.
     """
 
     name: str
@@ -32,6 +33,13 @@ class LoadedSiteInput:
     read_errors: tuple[Finding, ...]
     is_incomplete: bool
     folders: tuple[Path, ...]
+    root: Path
+
+    def source_url(self, template: str) -> str:
+        """The address of lines in a repository, with {path} from the root of this input."""
+        repository = next((each for each in (self.root, *self.root.parents) if (each / ".git").exists()), self.root)
+        prefix = "".join(f"{quote(part)}/" for part in self.root.relative_to(repository).parts)
+        return template.replace("{path}", f"{prefix}{{path}}")
 
 
 def load_site_inputs(paths: Sequence[Path]) -> tuple[LoadedSiteInput, ...]:
@@ -78,6 +86,7 @@ def _load_project_input(opened: LoadedProject) -> LoadedSiteInput:
         read_errors=tuple(each for each in opened.findings if each.severity is Severity.ERROR),
         is_incomplete=bool(opened.open_project.broken_files),
         folders=(folder,),
+        root=folder,
     )
 
 
@@ -106,6 +115,7 @@ def _load_behavior_input(agents: Path) -> LoadedSiteInput:
         read_errors=with_display_paths(errors, agents) if is_broken else (),
         is_incomplete=is_broken,
         folders=tuple(sorted({path.resolve().parent for path in (agents, *source.files)})),
+        root=agents.resolve().parent,
     )
 
 

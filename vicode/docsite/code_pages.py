@@ -1,6 +1,6 @@
 """Code pages: the source and the generated code of components, with links to their descriptions."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 
@@ -89,14 +89,18 @@ class CodeFiles:
                 yield _generated_file(design.component, language, written)
 
 
-def code_links_by_path(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> dict[DesignPath, tuple[TextSpan, ...]]:
-    """Links into the files of a component, by the path of the node."""
+def code_links_by_path(
+    texts: tuple[CodeFile, ...], addresses: SiteUrls, link: Callable[[str, int], str]
+) -> dict[DesignPath, tuple[TextSpan, ...]]:
+    """Links into the files of a component, by the path of the node; `link` returns the address in the repository."""
     places: dict[DesignPath, tuple[TextSpan, ...]] = {}
     for text in texts:
         page = addresses.code(text.component, text.variant)
+        is_linked = text.variant == "source" and link(text.path, 1) != ""
         for path, line in text.line_numbers.items():
             part = TextSpan(text=f"{text.title} {line}", href=f"{page}#L{line}")
-            places[path] = (*places.get(path, ()), part)
+            repository = (TextSpan(text="Repository", href=link(text.path, line)),) if is_linked else ()
+            places[path] = (*places.get(path, ()), part, *repository)
     return places
 
 

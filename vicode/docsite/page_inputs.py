@@ -20,7 +20,9 @@ def restrict_to_component(subject: SiteInput, design: Design) -> SiteInput:
     part = replace(project, designs=designs, components=tuple(each for each in interfaces if each is not None))
     sources = {each: replace(source, text="") for each, source in subject.sources.items() if each in ("", name)}
     findings = tuple(each for each in subject.findings if each.component in ("", name))
-    return SiteInput(project=part, findings=findings, sources=sources, title=subject.title)
+    return SiteInput(
+        project=part, findings=findings, sources=sources, title=subject.title, source_url=subject.source_url
+    )
 
 
 def strip_to_usage(project: Project) -> Project:

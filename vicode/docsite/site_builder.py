@@ -61,7 +61,7 @@ _SCRIPT = """\
 {}}})();
 """
 # Concatenated in this order into one scope.
-_SCRIPT_FILES = ("elements", "text_matching", "search_box", "diagram_viewer", "decision_trees", "menu")
+_SCRIPT_FILES = ("elements", "text_matching", "search_box", "diagram_viewer", "decision_trees", "menu", "page_tools")
 
 
 def build_site(subject: SiteInput) -> tuple[OutputFile, ...]:
@@ -205,7 +205,7 @@ class _SitePlanner:
                 tables=tuple(declaration_tables(design, NameLinker(project, self.urls, design), self.references)),
                 used_by=tuple(user_rows(project, name, self.urls, self.references)),
                 agents=self.agents_by_component.get(name, ()),
-                code_links=code_links_by_path(texts, self.urls),
+                code_links=code_links_by_path(texts, self.urls, self.site_input.repository_link),
                 code_pages=code_page_links(texts, self.urls),
                 languages=tuple(language_views(self.site_input, name, written, self.generation_errors, self.urls)),
             )
@@ -225,8 +225,9 @@ class _SitePlanner:
             for text in texts:
                 crumbs = (component,) if name else ()
                 head = _head(self.urls.code(name, text.variant), code_page_title(text, shown), *crumbs)
-                views = partial(_code, text, links, self.urls, component)
-                yield self._page(head, "code", (text, links, component), views)
+                repository = self.site_input.repository_link(text.path) if text.variant == "source" else ""
+                views = partial(_code, text, links, self.urls, component, repository)
+                yield self._page(head, "code", (text, links, component, repository), views)
 
     def _page_from_context(self, head: PageHead, template: str, **views: object) -> PlannedFile:
         """A page keyed by its views, which are cheap to create."""
@@ -291,5 +292,7 @@ def _component(design: Design, made: ComponentInputs) -> TemplateContext:
     return {"view": component_view(design, made)}
 
 
-def _code(text: CodeFile, links: tuple[TextSpan, ...], addresses: SiteUrls, component: TextSpan) -> TemplateContext:
-    return {"view": code_view(text, links, addresses, component)}
+def _code(
+    text: CodeFile, links: tuple[TextSpan, ...], addresses: SiteUrls, component: TextSpan, repository: str
+) -> TemplateContext:
+    return {"view": replace(code_view(text, links, addresses, component), repository_href=repository)}

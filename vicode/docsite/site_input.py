@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path as FilePath
+from urllib.parse import quote
 
 from vicode.findings import DesignPath, Finding
 from vicode.model.design import Assign, Design
@@ -51,7 +52,8 @@ class SiteInput:
     """The input of a site.
 
     `sources` is keyed by component, "" for the project file. `components_with_errors` lists, by language, the
-    components for which no code can be generated.
+    components for which no code can be generated. `source_url` is the address of a line in a repository, with {path}
+    and {line}.
     """
 
     project: Project
@@ -59,6 +61,11 @@ class SiteInput:
     sources: Mapping[str, SourceText] = field(default_factory=dict)
     components_with_errors: Mapping[str, frozenset[str]] = field(default_factory=dict)
     title: str = ""
+    source_url: str = ""
+
+    def repository_link(self, path: str, line: int = 1) -> str:
+        """The address of a line of a source, "" if there is none."""
+        return self.source_url.replace("{path}", quote(path)).replace("{line}", str(line))
 
     @property
     def name(self) -> str:

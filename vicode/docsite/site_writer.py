@@ -23,6 +23,7 @@ GENERATED_HEADERS = (
 """The first bytes of generated files. Changing one makes existing sites unrecognizable."""
 
 _PAGES = (".css", ".html", ".js", ".md", ".rst", ".svg", ".yml")
+_HEADER_BYTES = 200
 # Libraries that affect the pages.
 _LIBRARIES = ("jinja2", "markdown-it-py", "markupsafe", "pygments")
 
@@ -113,6 +114,12 @@ def save_manifest(manifest: Manifest, file: Path) -> None:
         return
 
 
+def is_generated(file: Path) -> bool:
+    """Whether vicode wrote a file, by its first bytes."""
+    with file.open("rb") as stream:
+        return _has_header(stream.read(_HEADER_BYTES))
+
+
 @cache
 def tool_digest() -> str:
     """A digest of the code, templates and library versions that determine the pages."""
@@ -154,9 +161,11 @@ def _find_existing(path: Path) -> _ExistingFile | None:
 @lru_cache(maxsize=1 << 14)
 def _read_existing(path: Path, _changed_ns: int, _size: int, _number: int) -> _ExistingFile:
     content = path.read_bytes()
-    return _ExistingFile(
-        digest=_digest(content), is_generated=content[:200].replace(b"\r\n", b"\n").startswith(GENERATED_HEADERS)
-    )
+    return _ExistingFile(digest=_digest(content), is_generated=_has_header(content[:_HEADER_BYTES]))
+
+
+def _has_header(content: bytes) -> bool:
+    return content.replace(b"\r\n", b"\n").startswith(GENERATED_HEADERS)
 
 
 def _digest(content: bytes) -> str:

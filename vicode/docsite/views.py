@@ -368,6 +368,7 @@ class CodeView:
     code_pages: tuple[TextSpan, ...]
     lines_html: tuple[str, ...]
     rows_html: str
+    repository_href: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

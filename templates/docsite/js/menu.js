@@ -78,13 +78,16 @@ function openTarget() {
 window.addEventListener("hashchange", openTarget);
 openTarget();
 
+// On wide screens the menu is always open. The style sheet does it for browsers without scripts, but accessibility
+// tools do not find the links in closed details.
+const isWide = matchMedia("(min-width: 801px)");
+const updateMenu = () => { if (menu) menu.querySelector("details").open = isWide.matches; };
+isWide.addEventListener("change", updateMenu);
+updateMenu();
+
 // Scroll a long menu to the current page.
 const currentEntry = menu?.querySelector("[aria-current]");
 if (currentEntry) {
   const top = currentEntry.getBoundingClientRect().top - menu.getBoundingClientRect().top;
   if (top + currentEntry.offsetHeight > menu.clientHeight) menu.scrollTop = top - menu.clientHeight / 2;
 }
-
-// On wide screens the style sheet shows the menu without opening it if the browser supports ::details-content.
-const hasDetailsContent = window.CSS?.supports?.("selector(::details-content)");
-if (menu && !hasDetailsContent && matchMedia("(min-width: 801px)").matches) menu.querySelector("details").open = true;
