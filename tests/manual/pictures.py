@@ -52,8 +52,10 @@ def show_simulation(page: Page, scratch: Path) -> Iterator[None]:
 
 
 def show_robot(page: Page, scratch: Path) -> Iterator[None]:
-    """The design of the tutorial while it runs in real time."""
+    """The design of the tutorial while it runs in real time; nobody leaves the hall, so that the run does not end."""
     folder = write_tutorial(scratch / "corridor")
+    hall = folder / "hall.py"
+    hall.write_text(hall.read_text(encoding="utf-8").replace("< 9 else", "< 1e9 else"), encoding="utf-8")
     address = f"unix:{scratch / 'robot.sock'}"
     run = [
         sys.executable,
@@ -74,10 +76,11 @@ def show_robot(page: Page, scratch: Path) -> Iterator[None]:
             attaching = ("attach", address, str(folder))
             with started_editor(folder, scratch / "storage", (), command=attaching) as url:
                 _open_patrol(page, url)
-                expect(page.locator("g.node.active")).to_have_attribute("data-id", "Wait")
-                expect(page.locator(".robot-card.is-followed")).to_contain_text("Wait")
-                expect(page.locator(".guard", has_text="→ BackUp")).to_contain_text("false")
+                expect(page.locator(".robot-card.is-followed")).to_contain_text("Patrol")
+                expect(page.locator(".guard").first).to_contain_text("→")
                 page.mouse.move(0, 0)
+                # For three of every seven seconds.
+                expect(page.locator("g.node.active")).to_have_attribute("data-id", "Wait")
                 yield
         finally:
             robot.kill()
