@@ -314,6 +314,20 @@ def test_headings_have_links_and_code_is_copied(page: Page, site: Path) -> None:
     assert page.evaluate("copied") == (FORWARD / "player.yaml").read_text("utf-8")
 
 
+def test_long_names_and_many_transitions_stay_on_the_page(page: Page, tmp_path: Path) -> None:
+    long = "Very" * 40
+    many = tuple(Transition(to=f"{long}B", guard=Guard(when=f"{long.lower()} > {limit}")) for limit in range(1000))
+    states = (State(name=f"{long}A", transitions=many, doc=f"`{long}`"), State(name=f"{long}B"))
+    design = Design(component=f"{long}Machine", initial=f"{long}A", states=states)
+    for file in build_site(SiteInput(project=Project(name=long, designs=(design,)))):
+        (tmp_path / file.path).write_text(file.text, "utf-8")
+    for width in (390, 1366):
+        page.set_viewport_size({"width": width, "height": 768})
+        for file in (*tmp_path.glob("component-*.html"), tmp_path / "index.html"):
+            page.goto(file.as_uri())
+            assert page.evaluate("document.documentElement.scrollWidth") <= width, file.name
+
+
 def test_fingers_find_every_link_on_a_telephone(page: Page, site: Path) -> None:
     page.set_viewport_size({"width": 390, "height": 800})
     for name in KINDS:
