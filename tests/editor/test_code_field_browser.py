@@ -36,6 +36,26 @@ def retype(page: Page, field: Locator, text: str) -> None:
     page.keyboard.type(text)
 
 
+def test_enter_ends_a_guard_and_tab_accepts_a_name(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    select_transition(page, LOOK)
+    retype(page, guard(page), "not perception.ball_s")
+    expect(options(page).first).to_contain_text("ball_seen")
+    page.wait_for_timeout(150)
+    page.keyboard.press("Tab")
+    expect(guard(page)).to_have_text("not perception.ball_seen")
+    expect(guard(page)).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(guard(page)).not_to_be_focused()
+    expect(guard(page).locator(".cm-line")).to_have_count(1)
+
+    # A list that has only just opened is no reason for a line break.
+    retype(page, guard(page), "perception.ball_seen")
+    expect(options(page).first).to_be_visible()
+    page.keyboard.press("Enter")
+    expect(guard(page).locator(".cm-line")).to_have_count(1)
+
+
 def test_a_guard_is_completed_marked_and_left_by_keyboard(editor: str, page: Page) -> None:
     open_player(page, editor)
     select_transition(page, LOOK)
@@ -59,7 +79,7 @@ def test_a_guard_is_completed_marked_and_left_by_keyboard(editor: str, page: Pag
     expect(findings(page).get_by_text("No problems found")).to_be_visible()
 
     # Several lines; Tab leaves the field.
-    page.keyboard.press("Enter")
+    page.keyboard.press("Shift+Enter")
     page.keyboard.type("and sta")
     page.keyboard.press("Control+Space")
     expect(options(page).filter(has_text="state_time")).to_have_count(1)

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from vicode.store import find_projects, open_project
+from vicode.store.projects import DEPLOYED_MARKER, find_design_files
 
 PROJECT = "vicode: 1\nproject: Forward\nconstants: {reach: 2}\n"
 
@@ -98,6 +99,15 @@ def test_all_projects_of_a_folder_are_found(tmp_path: Path) -> None:
     assert find_projects(tmp_path) == (tmp_path / "blink", tmp_path / "forward")
     assert find_projects(tmp_path / "forward" / "kicks" / "left.yaml")[0].samefile(tmp_path / "forward")
     assert find_projects(tmp_path / "blink") == (tmp_path / "blink",)
+
+
+def test_a_deployed_program_is_no_project(tmp_path: Path) -> None:
+    _write(tmp_path, project=PROJECT, player=_design("Player"))
+    _write(tmp_path / "robot", project=PROJECT, player=_design("Player"))
+    (tmp_path / "robot" / DEPLOYED_MARKER).touch()
+    assert find_projects(tmp_path) == (tmp_path,)
+    assert find_design_files(tmp_path) == (tmp_path / "player.yaml",)
+    assert find_projects(tmp_path / "robot") == (tmp_path / "robot",)
 
 
 def test_a_design_in_another_encoding_is_reported(tmp_path: Path) -> None:

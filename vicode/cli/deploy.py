@@ -13,9 +13,7 @@ from typing import IO
 
 from vicode.cli.project_loader import LoadedProject
 from vicode.cli.root_selection import select_root
-
-MARKER = ".vicode-deployed"
-"""A file in each deployed folder; a folder without it is never replaced."""
+from vicode.store.projects import DEPLOYED_MARKER
 
 _SKIPPED_FOLDERS = frozenset({"__pycache__", "node_modules", "venv", "build", "dist"})
 _KEPT_FOLDER = "log"
@@ -143,7 +141,7 @@ def _can_be_copied(path: Path) -> bool:
     """Whether a path is a file, or a folder that is no deployed program and no link to one that contains it."""
     if path.is_dir():
         is_loop = path.is_symlink() and path.parent.resolve().is_relative_to(path.resolve())
-        return not is_loop and not (path / MARKER).is_file()
+        return not is_loop and not (path / DEPLOYED_MARKER).is_file()
     # Reading a pipe would block.
     return path.is_file()
 
@@ -152,7 +150,7 @@ def _write_launcher(
     folder: Path, package: str, component: str, command: str, *, target: str, comment: str = ""
 ) -> None:
     """Write launcher, systemd unit and marker."""
-    (folder / MARKER).write_text(f"{package}\n", encoding="utf-8")
+    (folder / DEPLOYED_MARKER).write_text(f"{package}\n", encoding="utf-8")
     launcher = folder / "run"
     launcher.write_text(f'#!/bin/sh\n{comment}cd "$(dirname "$0")" || exit 1\n{command} "$@"\n', encoding="utf-8")
     launcher.chmod(0o755)
@@ -221,12 +219,12 @@ def _copy(folder: Path, target: str) -> None:
 def _copy_here(folder: Path, target: Path) -> None:
     if target.exists() and not target.is_dir():
         raise OSError(f"{target} is not a folder")
-    if target.is_dir() and any(target.iterdir()) and not (target / MARKER).is_file():
+    if target.is_dir() and any(target.iterdir()) and not (target / DEPLOYED_MARKER).is_file():
         raise OSError(f"{target} has files that vicode did not deploy; choose an empty folder")
     target.mkdir(parents=True, exist_ok=True)
     for path in target.iterdir():
         # With the marker, a deployment that was interrupted can be repeated.
-        if path.name in (_KEPT_FOLDER, MARKER):
+        if path.name in (_KEPT_FOLDER, DEPLOYED_MARKER):
             continue
         if path.is_dir() and not path.is_symlink():
             shutil.rmtree(path)
@@ -249,7 +247,7 @@ def _copy_over_ssh(folder: Path, target: str) -> None:
     quoted = shlex.quote(place)
     checks = (
         f"mkdir -p {quoted} && cd {quoted} || exit {_NO_FOLDER}",
-        f'test -e {MARKER} || test -z "$(ls -A)" || exit {_HAS_FILES}',
+        f'test -e {DEPLOYED_MARKER} || test -z "$(ls -A)" || exit {_HAS_FILES}',
         f"command -v rsync > /dev/null || exit {_NO_RSYNC}",
     )
     code = _call(["ssh", "--", host, "; ".join(checks)])

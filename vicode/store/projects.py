@@ -28,6 +28,8 @@ _LOOKS_LIKE_DESIGN = re.compile(rb"^(vicode|component|states)[ \t]*:", re.MULTIL
 _LOOKS_LIKE_PROJECT = re.compile(rb"^project[ \t]*:", re.MULTILINE)
 _COMPONENT = re.compile(rb"^component[ \t]*:[ \t]*[\"']?([A-Za-z]\w*)", re.MULTILINE)
 _SKIPPED_FOLDERS = {"node_modules", "__pycache__", "site-packages"}
+DEPLOYED_MARKER = ".vicode-deployed"
+"""The file that marks a deployed program: a copy, whose designs are not those of a project. A folder without it is never replaced."""
 _MAX_PARENT_FOLDERS = 8
 # The last result for each file, with its content and display name.
 _MAX_CACHED = 4096
@@ -293,6 +295,9 @@ def _default_output(folder: Path) -> str:
 
 def _walk_visible_folders(folder: Path) -> Iterator[tuple[str, list[str], list[str]]]:
     for path, folders, names in os.walk(folder):
+        if DEPLOYED_MARKER in names and Path(path) != folder:
+            folders.clear()
+            continue
         folders[:] = sorted(name for name in folders if not name.startswith(".") and name not in _SKIPPED_FOLDERS)
         yield path, folders, sorted(names)
 

@@ -38,6 +38,7 @@ class CodeFieldSpec:
     find_marks: Callable[[str], Sequence[CodeMark]]
     css_class: str
     is_expression: bool = True
+    is_single: bool = False
     mode: Literal["Python", "C++", "C"] = "Python"
     open_in_editor: Callable[[], None] | None = None
 
@@ -79,6 +80,7 @@ def expression_field(form: Form, binding: FieldBinding) -> Field:
         complete=lambda text, at: complete_expression(context.workspace.project, context.design, text, at),
         find_marks=lambda text: mark_text(text, binding.get_path(), context.document.findings),
         css_class="code-field expression-field",
+        is_single=True,
     )
     return add_field(form, _build(context, binding, spec))
 
@@ -118,6 +120,7 @@ def _build(
             label=binding.label,
             complete=spec.complete,
             is_expression=spec.is_expression,
+            is_single=spec.is_single,
             hint=binding.hint,
         )
         messages = ui.column().classes("field-messages").props('role="status"')

@@ -2,6 +2,7 @@
 import * as CM from "nicegui-codemirror";
 import { createCompletion } from "./completion.js";
 import { expressionLanguage } from "./expression.js";
+import { addExpressionKeys } from "./expression_keys.js";
 import { createLineStyles } from "./line_styles.js";
 import { createMarks } from "./marks.js";
 import { toUnits } from "./offsets.js";
@@ -22,6 +23,7 @@ export async function attachCodeAssist(id, options, emit) {
   view?.dispatch({ effects: CM.StateEffect.appendConfig.of(extensions) });
   // Tab leaves an expression field; in code it indents, unless Escape is pressed before.
   if (options.isExpression) view?.setTabFocusMode(true);
+  if (view && options.isExpression) addExpressionKeys(view, { isSingle: options.isSingle });
   return {
     showMarks: (text, list) => view && marks.show(view, text, list),
     highlightLines: (first, last, reveal) => view && lines.show(view, first, last, reveal),
