@@ -160,3 +160,12 @@ def test_duplicate_state_names_are_not_saved() -> None:
     design = Design(component="Player", states=(State(name="A"), State(name="A")))
     with pytest.raises(ValueError, match="duplicate names cannot be saved: A"):
         save_design(design)
+
+
+def test_a_use_whose_position_is_removed_is_short_again() -> None:
+    design = read_design(TEXT).design
+    assert design is not None
+    placed = replace(design, uses=(replace(design.uses[0], at=(40.0, 80.0)),))
+    moved = save_design(placed, TEXT)
+    assert "uses: {head: {component: Head, at: [40, 80]}}" in moved
+    assert save_design(design, moved) == TEXT

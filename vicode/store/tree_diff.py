@@ -193,12 +193,19 @@ class TargetBuilder:
         if short and (old is None or old.notation is YamlNotation.SHORTHAND):
             inner = old.children.get(short.name) if old is not None else None
             return self.build(short.schema, values[short.name], inner, in_flow=in_flow)
+        if short and old is not None and self._shrinks(old):
+            return self.build(short.schema, values[short.name], in_flow=in_flow)
         if old is None or old.notation is not YamlNotation.FULL or isinstance(old.node, YamlScalar):
             members = [self._new_pair(schema, key, values[key.name]) for key in schema.keys if key.name in values]
             return TargetCollection(
                 members=tuple(members), is_mapping=True, flow_width=schema.flow_width, is_ordered=False
             )
         return self._update_record(schema, values, old, in_flow=in_flow)
+
+    def _shrinks(self, old: TypedNode) -> bool:
+        """Whether a record in one line loses keys; it then returns to its short form, as an undone edit should."""
+        is_short = isinstance(old.node, YamlMapping) and old.node.is_flow and None not in old.child_keys
+        return is_short and len(old.children) > 1 and "\n" not in self.text[old.node.start : old.node.end]
 
     def _update_record(
         self, schema: RecordSchema, values: dict[str, FormatValue], old: TypedNode, *, in_flow: bool
