@@ -140,5 +140,11 @@ def test_the_search_knows_the_names_of_the_team(site: Path) -> None:
     names = {str(row[0]) for row in search_rows(site)}
     assert {"ball.radius", "Field Player", "shoot.now", "head.control_mode", "@speed", "motion.kind"} <= names
     text = (site / "search.js").read_text()
-    for words in ("ball_radius", "field_player", "motion.type = walk", "state_time >= 700, after 700 ms → walk"):
+    for words in (
+        "ball_radius",
+        "field_player",
+        "motion.type = walk",
+        "state_time >= 700 ms → walk",
+        "state_time > 3000 ms → go",
+    ):
         assert f'"{words}"' in text

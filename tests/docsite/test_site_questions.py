@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page
+from playwright.sync_api import Page, expect
 
 from tests.docsite.site_questions import Question, follow
 from vicode.cli import main
@@ -161,6 +161,12 @@ def test_a_question_is_answered(page: Page, team_site: Path, question: Question)
     page.set_viewport_size({"width": 1366, "height": 768})
     assert len(question.clicks) <= 2
     follow(page, team_site, question)
+
+
+def test_code_with_the_whole_phrase_is_first(page: Page, team_site: Path) -> None:
+    page.goto((team_site / "index.html").as_uri())
+    page.locator("#search").fill("head.control_mode = around")
+    expect(page.get_by_role("option").first).to_contain_text("state of play_soccer")
 
 
 @pytest.mark.skipif(not NAOTH, reason="NaoTHSoccer is missing: set VICODE_NAOTH to its agents.xabsl")

@@ -1,6 +1,7 @@
 """The entries of the name index and of the search: all names with their descriptions and code."""
 
 import json
+import re
 from collections.abc import Iterable, Iterator
 
 from vicode.docsite.doc_text import summarize
@@ -12,6 +13,9 @@ from vicode.model.design import Design, Transition
 from vicode.model.project import Interface, Project
 from vicode.model.texts import LocatedText, TextKind, iter_texts
 from vicode.model.traversal import iter_decisions
+
+_ELAPSED = re.compile(r"((?:state|option)_time [<>]=? [\d.]+)(?![\w.])")
+"""A comparison of a time; the index has its unit, too."""
 
 
 def search_entries(project: Project, addresses: SiteUrls, title: str) -> tuple[SiteEntry, ...]:
@@ -192,10 +196,9 @@ def _described_text(placed: LocatedText, time_unit: str, *, is_xabsl: bool) -> s
     if placed.kind is TextKind.EXPRESSION:
         match placed.path:
             case (*_rest, "after"):
-                timer = f"after {text} {time_unit}"
-                return f"state_time >= {text}, {timer}" if is_xabsl else timer
+                return f"state_time >= {text} {time_unit}" if is_xabsl else f"after {text} {time_unit}"
             case (*_rest, "set" | "with", str(name)):
                 return f"{name} = {text}"
             case _:
-                pass
+                return _ELAPSED.sub(rf"\1 {time_unit}", text) if is_xabsl else text
     return text

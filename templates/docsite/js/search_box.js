@@ -62,11 +62,12 @@ function rankWord(texts, word, isLenient) {
 function rankEntries(entries, words, isLenient) {
   const ranked = entries.map((entry, index) => {
     const ranks = words.map((word) => rankWord(foldEntry(entry), word, isLenient));
-    return { entry, index, worst: Math.max(...ranks), sum: ranks.reduce((sum, rank) => sum + rank, 0) };
+    const isPhrase = words.length > 1 && foldEntry(entry).code.includes(words.join(" "));
+    return { entry, index, isPhrase, worst: Math.max(...ranks), sum: ranks.reduce((sum, rank) => sum + rank, 0) };
   });
   return ranked
     .filter((each) => each.worst < NO_MATCH)
-    .sort((a, b) => a.worst - b.worst || a.sum - b.sum || a.index - b.index)
+    .sort((a, b) => a.worst - b.worst || b.isPhrase - a.isPhrase || a.sum - b.sum || a.index - b.index)
     .map((each) => each.entry);
 }
 
