@@ -119,6 +119,16 @@ def test_escape_calls_off_a_dialog_that_is_still_on_its_way(editor: str, page: P
     expect(page.get_by_role("dialog")).to_be_visible()
 
 
+def test_a_double_click_on_a_timer_leads_to_its_duration(editor: str, page: Page, project: Path) -> None:
+    design = project / "forward" / "player.yaml"
+    design.write_text(
+        design.read_text().replace("{to: WatchBall, when: not kicker.busy, after: 0.5,", "{to: WatchBall, after: 3,")
+    )
+    open_player(page, editor)
+    label(page, "Kick/0").dblclick()
+    expect(page.get_by_label("After (seconds in this state)")).to_be_focused()
+
+
 def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     label(page, "Kick/0").dblclick()

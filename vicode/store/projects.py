@@ -29,7 +29,7 @@ _LOOKS_LIKE_PROJECT = re.compile(rb"^project[ \t]*:", re.MULTILINE)
 _COMPONENT = re.compile(rb"^component[ \t]*:[ \t]*[\"']?([A-Za-z]\w*)", re.MULTILINE)
 _SKIPPED_FOLDERS = {"node_modules", "__pycache__", "site-packages"}
 DEPLOYED_MARKER = ".vicode-deployed"
-"""The file that marks a deployed program: a copy, whose designs are not those of a project. A folder without it is never replaced."""
+"""The file that marks a deployed program: its designs are copies. A folder without it is never replaced."""
 _MAX_PARENT_FOLDERS = 8
 # The last result for each file, with its content and display name.
 _MAX_CACHED = 4096
