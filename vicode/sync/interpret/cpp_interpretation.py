@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
+from itertools import pairwise
 
 from vicode.check import check_design
 from vicode.findings import Severity
@@ -91,13 +92,18 @@ class _CppSearch:
         return False
 
     def _find_changes(self) -> Iterator[TokenChange]:
-        own, other = _words(self.text), _words(self.edited)
-        old, new = ([word for word, _line in find_tokens(text)] for text in (self.text, self.edited))
-        lines = [line for _word, line in find_tokens(self.edited)]
-        for tag, first, last, start, end in SequenceMatcher(None, own, other, autojunk=False).get_opcodes():
-            if tag != "equal":
-                line = lines[min(start, len(lines) - 1)] if lines else 1
-                yield TokenChange(first, tuple(old[first:last]), tuple(new[start:end]), line)
+        """Compare lines first: a comparison of all tokens takes minutes for a large file."""
+        old, new = _Lines.of(self.text), _Lines.of(self.edited)
+        for tag, first, last, start, end in SequenceMatcher(None, old.keys, new.keys, autojunk=False).get_opcodes():
+            if tag == "equal":
+                continue
+            at, own = old.words_in(first, last)
+            behind, other = new.words_in(start, end)
+            plain = [list(map(plain_token, words)) for words in (own, other)]
+            for kind, i1, i2, j1, j2 in SequenceMatcher(None, plain[0], plain[1], autojunk=False).get_opcodes():
+                if kind != "equal":
+                    line = new.line_of(behind + j1)
+                    yield TokenChange(at + i1, tuple(own[i1:i2]), tuple(other[j1:j2]), line)
 
     def _generate(self, design: Design) -> str | None:
         code = self._write(design)
@@ -108,6 +114,37 @@ class _CppSearch:
         project = replace(self._project, designs=(*others, design))
         found = check_design(project, design)
         return frozenset((each.rule.code, each.message) for each in found if each.severity is Severity.ERROR)
+
+
+@dataclass(frozen=True, slots=True)
+class _Lines:
+    """The lines of a text that have tokens; `starts` are the first tokens, `keys` the lines with their case."""
+
+    words: list[str]
+    numbers: list[int]
+    starts: list[int]
+    keys: list[tuple[str, ...]]
+
+    @classmethod
+    def of(cls, text: str) -> "_Lines":
+        found = list(find_tokens(text))
+        words, numbers = [word for word, _line in found], [line for _word, line in found]
+        starts = [at for at, line in enumerate(numbers) if at == 0 or numbers[at - 1] != line]
+        keys, section = [], ""
+        for start, end in pairwise([*starts, len(words)]):
+            line = tuple(map(plain_token, words[start:end]))
+            # The lines of many cases are equal.
+            section = " ".join(line) if line[0] == "case" or "void" in line or "bool" in line else section
+            keys.append((section, *line))
+        return cls(words, numbers, starts, keys)
+
+    def words_in(self, first: int, last: int) -> tuple[int, list[str]]:
+        """The number of the first token of some lines, and their tokens."""
+        bounds = [*self.starts, len(self.words)]
+        return bounds[first], self.words[bounds[first] : bounds[last]]
+
+    def line_of(self, token: int) -> int:
+        return self.numbers[min(token, len(self.numbers) - 1)] if self.numbers else 1
 
 
 def _words(text: str) -> list[str]:

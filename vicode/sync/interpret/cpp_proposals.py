@@ -39,8 +39,9 @@ _TRANSITION = re.compile(r"if \( (?P<when>.*) \) \{ change_to \( State : : (?P<t
 
 @dataclass(frozen=True, slots=True)
 class _Slot:
-    """A text of the design, and what sets it."""
+    """A text of a state (or of COMMON) in the design, and what sets it."""
 
+    state: str
     text: str
     set: Callable[[str], Design]
 
@@ -55,15 +56,31 @@ def propose_cpp(design: Design, old: Words, new: Words, before: Words, after: Wo
         before: The generated tokens before them.
         after: The generated tokens from `old` on.
     """
-    yield from _changed_texts(design, old, new, before, after[len(old) :])
+    state = _state_at(design, before)
+    yield from _changed_texts(design, state, (old, new), before, after[len(old) :])
     if not new:
-        yield from (remove_decisions(design, [located.path]) for located in iter_decisions(design))
+        decisions = (located for located in iter_decisions(design) if state in ("", located.source))
+        yield from (remove_decisions(design, [located.path]) for located in decisions)
     if not old:
-        yield from _added_transitions(design, new, before)
+        yield from _added_transitions(design, state, new, before)
 
 
-def _changed_texts(design: Design, old: Words, new: Words, before: Words, after: Words) -> Iterator[Design]:
-    slots = list(_iter_slots(design))
+def _state_at(design: Design, before: Words) -> str:
+    """The state whose case the tokens end in; "" if that is not known."""
+    for index in range(len(before) - 1, -1, -1):
+        if before[index] == "case":
+            name = before[index + 4] if index + 4 < len(before) else ""
+            return name if any(state.name == name for state in design.states) else ""
+        if before[index] in ("void", "bool"):
+            return ""
+    return ""
+
+
+def _changed_texts(
+    design: Design, state: str, change: tuple[Words, Words], before: Words, after: Words
+) -> Iterator[Design]:
+    old, new = change
+    slots = [slot for slot in _iter_slots(design) if state in ("", slot.state)]
     # An insertion is found by the token before or behind it.
     for left, right in ((0, 0), (1, 0), (0, 1), (1, 1)):
         was = (*before[len(before) - left :], *old, *after[:right])
@@ -88,14 +105,14 @@ def _changed_times(design: Design, old: str, new: str) -> Iterator[Design]:
             yield replace_decision(design, located.path, replace(located.decision, guard=changed))
 
 
-def _added_transitions(design: Design, new: Words, before: Words) -> Iterator[Design]:
-    """Propose a transition at each place."""
+def _added_transitions(design: Design, source: str, new: Words, before: Words) -> Iterator[Design]:
+    """Propose a transition at each place of the state, or of all states."""
     for words in _rotations(new, before):
         found = _TRANSITION.fullmatch(" ".join(words))
         if found is None:
             continue
         transition = Transition(to=found["to"], guard=Guard(when=to_design(found["when"].split(" "))))
-        for state in design.states:
+        for state in (each for each in design.states if source in ("", each.name)):
             for index in range(len(state.transitions) + 1):
                 items = (*state.transitions[:index], transition, *state.transitions[index:])
                 yield update_state(design, state.name, partial(replace, transitions=items))
@@ -116,14 +133,14 @@ def _iter_slots(design: Design) -> Iterator[_Slot]:
     for located in iter_decisions(design):
         decision = located.decision
         if decision.guard.when:
-            yield _Slot(decision.guard.when, partial(_with_when, design, located))
+            yield _Slot(located.source, decision.guard.when, partial(_with_when, design, located))
         if isinstance(decision, Transition):
-            yield _Slot(decision.to, partial(_with_target, design, located, decision))
+            yield _Slot(located.source, decision.to, partial(_with_target, design, located, decision))
     for placed in iter_actions(design):
         action = placed.action
         pairs = action.values if isinstance(action, Assign) else action.arguments if isinstance(action, Call) else ()
         for index, (_name, text) in enumerate(pairs):
-            yield _Slot(text, partial(_with_value, design, placed, index))
+            yield _Slot(placed.state, text, partial(_with_value, design, placed, index))
 
 
 def _with_when(design: Design, located: LocatedDecision, text: str) -> Design:
