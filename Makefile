@@ -51,11 +51,11 @@ bench: $(VENV)/.ready-bench  ## measure against a hand-written machine and other
 gen: $(VENV)/.ready  ## write generated/ anew from designs/
 	@$(BIN)/vicode gen designs
 
-pictures: $(VENV)/.ready-test chromium  ## take docs/pictures anew
+pictures: $(VENV)/.ready-test chromium  ## take the pictures of docs/pictures again
 	@$(BIN)/python -m tests.manual.take_pictures
 	@$(BIN)/python -m tests.experiments.take_pictures
 
-reference: $(VENV)/.ready-test  ## write docs/reference and the tables of docs/design-format.md anew from the code
+reference: $(VENV)/.ready-test  ## regenerate docs/reference and the tables of docs/design-format.md from the code
 	@$(PYTEST) -q tests/manual/test_reference.py tests/store/test_format_page.py --accept
 
 # In build/, because vsce packages what npm installs beside package.json. The grammar and the version come from vicode.

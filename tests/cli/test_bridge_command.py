@@ -72,7 +72,7 @@ def test_names_that_the_world_lacks_are_listed_with_their_places(
         (("--host", "0.0.0.0"), "other machines could connect to 0.0.0.0; add --token"),
         (("--key", "key.pem"), "--key needs --cert"),
         (("--cert", "project.yaml"), "project.yaml is no certificate in PEM format"),
-        (("--port", "70000"), "70000 is no port"),
+        (("--port", "70000"), "70000 is not a port"),
     ],
 )
 def test_what_cannot_run(

@@ -9,7 +9,7 @@ _LONGEST_SLEEP_S = 0.1
 
 
 class Clock(Protocol):
-    """What a root needs of a clock."""
+    """The interface of a clock: any object with this method."""
 
     def now_ns(self) -> int:
         """Return the nanoseconds since the start of the clock."""
@@ -66,7 +66,7 @@ class PacedClock:
         self.start()
 
     def start(self) -> None:
-        """Let the first iteration be due now."""
+        """Start the ticks: the first iteration is due now."""
         self._start_ns = self._clock.now_ns()
 
     def now_ns(self) -> int:

@@ -73,7 +73,7 @@ class Component:
         root: The root that steps the component.
         world: The world of the root, or None.
         state: The name of the active state; "" without states.
-        frequency_hz: Maximum frequency of `work`, set in the class; None means in each step.
+        frequency_hz: Maximum frequency of `work`, set in the class; None means on each step.
         resume: Whether a new activation continues in the last state, set in the class.
         design_file: The file of the design, set in generated classes.
     """

@@ -148,7 +148,7 @@ class Observer:
                 self._calls[key] = {**call, "value": to_json_value(value)}
 
     def add_error(self, error: ErrorRecord) -> None:
-        """Record an exception of this iteration; of its file only the name, since folders differ from run to run."""
+        """Record an exception of this iteration, without the folder of its file, which differs from run to run."""
         if len(self._errors) < _MAX_ERRORS:
             self._errors.append({**asdict(error), "file": Path(error.file).name})
 

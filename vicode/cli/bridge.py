@@ -32,8 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="port; 0 for a free one (default: that of project.yaml, or 7001)",
     )
-    add("--host", metavar="ADDRESS", default="127.0.0.1", help="address to listen at (default: %(default)s)")
-    add("--token", metavar="TEXT", help="what robots must send first (default: VICODE_BRIDGE_TOKEN, or none)")
+    add("--host", metavar="ADDRESS", default="127.0.0.1", help="address to listen on (default: %(default)s)")
+    add("--token", metavar="TEXT", help="token that robots must send first (default: VICODE_BRIDGE_TOKEN, or none)")
     add("--cert", metavar="FILE", type=Path, help="certificate in PEM format: robots connect with TLS")
     add("--key", metavar="FILE", type=Path, help="key of the certificate, if it is not in the same file")
     add("--tick-ms", type=options.tick_ms, metavar="MS", help="time between ticks (default: project.yaml, or 50)")
@@ -42,13 +42,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=options.seconds,
         metavar="S",
         default=10.0,
-        help="how long the state of a robot without connection is kept (default: %(default)g)",
+        help="how long the state of a disconnected robot is kept, in seconds (default: %(default)g)",
     )
     add("--world", metavar="MODULE:CLASS", default="", help="class of the world (default: that of project.yaml)")
     add("--path", metavar="DIR", dest="import_path", type=Path, help="folder of the module (default: that of PATH)")
     add("--profile", metavar="NAME", default="", help="use the implementations of this profile")
     add("--watch", metavar="ADDRESS", help="let 'vicode attach' connect: PORT, HOST:PORT or unix:PATH (docs/live.md)")
-    add("--plain", action="store_true", help="print one line per event; the default if stdout is no terminal")
+    add("--plain", action="store_true", help="print one line per event; the default if stdout is not a terminal")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -29,8 +29,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "--language", choices=("python", "cpp"), default="python", help="language of the program (default: %(default)s)"
     )
-    add("--python", metavar="PROGRAM", default="python3", help="the Python of the robot (default: %(default)s)")
-    add("--arguments", metavar="TEXT", help="arguments of the launcher (default: --real-time; for C++ none)")
+    add(
+        "--python",
+        metavar="PROGRAM",
+        default="python3",
+        help="Python interpreter on the robot (default: %(default)s)",
+    )
+    add(
+        "--arguments",
+        metavar="TEXT",
+        help="arguments of the program in the launcher (default: --real-time; for C++ none)",
+    )
     add("--dry-run", action="store_true", help="list the files and copy nothing")
 
 

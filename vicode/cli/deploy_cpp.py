@@ -112,5 +112,5 @@ def _executable(file: Path) -> str:
     """
     found = _PROGRAM.search(file.read_text(encoding="utf-8", errors="replace"))
     if found is None:
-        raise OSError(f"{file.name} of the project has no add_executable with the name of a program")
+        raise OSError(f"{file.name} of the project has no add_executable that names a program")
     return found[1]

@@ -1,4 +1,4 @@
-"""Import an XABSL behavior as a project of designs, or merge its changes into them; or import a file of SCXML."""
+"""Import an XABSL behavior as a project of designs, or merge its changes into them; or import an SCXML file."""
 
 import argparse
 import sys
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("agents", metavar="FILE", type=Path, help="XABSL file with the agents, or a file of SCXML")
+    parser.add_argument("agents", metavar="FILE", type=Path, help="XABSL file with the agents, or an SCXML file")
     parser.add_argument(
         "--out", metavar="DIR", type=Path, required=True, help="project folder to create, such as designs/NAME"
     )

@@ -10,5 +10,5 @@ def port_number(text: str) -> int:
         argparse.ArgumentTypeError: There is no such port.
     """
     if not text.isdecimal() or int(text) >= 2**16:
-        raise argparse.ArgumentTypeError(f"{text} is no port; write a number from 0 to 65535")
+        raise argparse.ArgumentTypeError(f"{text} is not a port; use a number from 0 to 65535")
     return int(text)

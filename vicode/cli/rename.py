@@ -1,4 +1,4 @@
-"""Rename a state, component or declaration with all its uses in the designs of a project."""
+"""Rename a state, component or declaration and all its uses in the designs of a project."""
 
 import argparse
 import re

@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--seed", type=int, default=0, metavar="N", help="random seed of the world (default: %(default)s)")
     add("--profile", metavar="NAME", default="", help="use the implementations and the world of this profile")
     add("--world", metavar="MODULE:CLASS", help="use another world than that of project.yaml")
-    add("--reload", action="store_true", help="exchange the code while it runs when a design or a module changes")
+    add("--reload", action="store_true", help="exchange the code during the run when a design or a module changes")
     add("--watch", metavar="ADDRESS", help="let 'vicode attach' connect: PORT, HOST:PORT or unix:PATH (docs/live.md)")
     add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
     add("--net", metavar="NAME", help="connect to other robots under this name, with --real-time (docs/network.md)")
@@ -56,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="continue",
         help="what to do after an exception in a component (default: %(default)s)",
     )
-    add("--plain", action="store_true", help="print one line per state change; the default if stdout is no terminal")
+    add("--plain", action="store_true", help="print one line per state change; the default if stdout is not a terminal")
 
 
 def run(args: argparse.Namespace) -> int:

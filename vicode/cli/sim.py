@@ -30,8 +30,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--robots", type=options.count, default=1, metavar="N", help="number of robots (default: 1)")
     add("--host", default="127.0.0.1", metavar="HOST", help="where the bridge runs (default: %(default)s)")
-    add("--port", type=port_number, default=7001, metavar="P", help="its port (default: %(default)s)")
-    add("--token", default="", metavar="TEXT", help="its token, if it has one")
+    add("--port", type=port_number, default=7001, metavar="P", help="port of the bridge (default: %(default)s)")
+    add("--token", default="", metavar="TEXT", help="token of the bridge, if it has one")
     add("--behavior", default="", metavar="NAME", help="design or agent that drives the robots (default: the bridge's)")
     add("--seed", type=int, default=1, metavar="N", help="seed of start poses and noise (default: %(default)s)")
     add(
@@ -39,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--until-goal", action="store_true", help="stop when all robots are in a goal of the map")
     add("--lock-step", action="store_true", help="as fast as the bridge answers, instead of in real time")
-    add("--jxi", action="store_true", help="send the lines of JXI instead of JSON lines")
+    add("--jxi", action="store_true", help="use the line protocol of JXI instead of JSON lines")
     add(
         "--view",
         type=port_number,

@@ -43,7 +43,7 @@ def _add_stats(parser: argparse.ArgumentParser) -> None:
 
 def _add_diff(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("first", metavar="A", help="a trace, or the name of a robot's record")
-    parser.add_argument("second", metavar="B", help="another one")
+    parser.add_argument("second", metavar="B", help="the trace or record to compare it with")
     parser.add_argument(
         "--tolerance",
         type=options.seconds,

@@ -49,7 +49,7 @@ def _add_check(parser: argparse.ArgumentParser) -> None:
 
 
 def _check(args: argparse.Namespace) -> int:
-    """Check a behavior and report all problems at once."""
+    """Check an XABSL behavior and report all problems at once."""
     compiled = compile_behavior(args.agents)
     if args.json:
         from vicode.findings import render_json
@@ -120,7 +120,7 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
 
 
 def _run(args: argparse.Namespace) -> int:
-    """Run a compiled behavior on recorded inputs."""
+    """Run a compiled XABSL behavior on recorded inputs."""
     from vicode.output import write_atomically
     from vicode.xabsl.engine import CodeError, LoadError, ReplayError, SymbolListError
     from vicode.xabsl.engine.code_reader import read_code
@@ -163,7 +163,7 @@ def _add_format(parser: argparse.ArgumentParser) -> None:
 
 
 def _format(args: argparse.Namespace) -> int:
-    """Format files; comments are kept."""
+    """Format XABSL files; comments are kept."""
     from vicode.output import write_atomically
     from vicode.xabsl.source_loader import format_file
 

@@ -80,6 +80,6 @@ def verdict(comparison: LanguageComparison) -> str:
     if comparison.differences:
         return f"{names}: the traces differ"
     if len(titles) < 2:
-        return f"There is nothing to compare {titles[0]} with" if titles else "There is nothing to compare"
+        return f"Only {titles[0]} ran: there is nothing to compare it with" if titles else "There is nothing to compare"
     runs = f" of {comparison.runs} runs" if comparison.runs > 1 else ""
     return f"{names} agree in {comparison.iterations} iterations{runs}"

@@ -1,4 +1,4 @@
-// Joins VS Code to the command vicode: its language server for XABSL, its schemas for design files, and its diagrams.
+// Connects VS Code to the command vicode: its language server for XABSL, its schemas for design files, and its diagrams.
 "use strict";
 
 const { execFile } = require("node:child_process");

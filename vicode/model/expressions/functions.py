@@ -29,7 +29,7 @@ def _build_table() -> dict[str, BuiltinFunction]:
         ("sign", "x", (NUMBER,), INT, "-1, 0 or 1, the sign of x"),
         ("floor", "x", (FLOAT,), INT, "the largest integer that is not greater than x"),
         ("ceil", "x", (FLOAT,), INT, "the smallest integer that is not less than x"),
-        ("round", "x", (FLOAT,), INT, "the integer nearest to x, halves to the even one"),
+        ("round", "x", (FLOAT,), INT, "the integer nearest to x; halves are rounded to the even one"),
         ("int", "x", (FLOAT,), INT, "x truncated towards zero; 0 for nan"),
         ("float", "x", (FLOAT,), FLOAT, "x as a float"),
         ("sqrt", "x", (FLOAT,), FLOAT, "square root of x; nan for a negative number"),
