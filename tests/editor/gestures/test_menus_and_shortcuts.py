@@ -136,8 +136,8 @@ def test_a_component_is_used_by_keys_and_by_dragging_its_design(sketch: EditorDr
 def test_escape_moves_the_focus_from_a_field_to_the_canvas(sketch: EditorDriver) -> None:
     sketch.click(middle(sketch.page.locator('g.chip[data-id="Start/1"]')))
     sketch.press("Enter")
-    expect(sketch.page.get_by_label("When", exact=True)).to_be_focused()
     after = sketch.page.get_by_label("After (seconds in this state)")
+    expect(after).to_be_focused()
     after.fill("5")
     expect(sketch.transition("Start/1")).to_have_attribute("aria-label", re.compile("5 s"))
     sketch.press("Escape")
