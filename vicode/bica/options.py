@@ -38,7 +38,7 @@ def make_parser(
         "--tick-ms",
         type=tick_ms,
         metavar="MS",
-        help="time between iterations (default: fits the frequencies, up to 20)",
+        help="time between iterations (default: a period that fits the frequencies, at most 20 ms)",
     )
     add("--real-time", action="store_true", help="run in real time instead of simulated time")
     add(

@@ -47,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--tick-ms",
         type=options.tick_ms,
         metavar="MS",
-        help="time between iterations (default: fits the frequencies, up to 20)",
+        help="time between iterations (default: a period that fits the frequencies, at most 20 ms)",
     )
     add("--until-done", action="store_true", help="stop when the root component is done")
     add(

@@ -22,7 +22,8 @@ from vicode.model.edits import move_nodes
 from vicode.model.project import Project
 from vicode.model.traversal import iter_transitions
 
-_LAYOUT_TIMEOUT_S = 5.0
+# Long, because the layout that replaces a late one would change the page.
+_LAYOUT_TIMEOUT_S = 60.0
 
 
 def add_missing_layouts(project: Project, service: LayoutService, memory: BuildCache) -> Project:
