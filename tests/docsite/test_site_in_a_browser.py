@@ -48,6 +48,12 @@ def behavior_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+def test_a_link_to_a_symbol_opens_its_references(page: Page, behavior_site: Path) -> None:
+    page.goto((behavior_site / "interface-act_2.html").as_uri() + "#parameter-arg_2")
+    expect(page.locator("#parameter-arg_2 + tr details.references")).to_have_attribute("open", "")
+    expect(page.locator("#parameter-p1 + tr details.references")).not_to_have_attribute("open", "")
+
+
 def test_from_home_to_a_state(page: Page, site: Path) -> None:
     page.goto((site / "index.html").as_uri())
     page.locator(".diagram a.state", has_text="Player").click()

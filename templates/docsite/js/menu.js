@@ -70,10 +70,11 @@ for (const area of document.querySelectorAll("[data-filter]")) {
   area.prepend(makeElement("div", { className: "content-filter" }, ...makeFilter(area.dataset.filter, area, "tbody tr", ".folder")));
 }
 
-// A link to a folder opens it.
+// A link to a folder opens it, and a link to a symbol opens its references in the next row.
 function openTarget() {
   const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
-  if (target?.matches("details")) target.open = true;
+  const details = target?.matches("tr") ? target.nextElementSibling?.querySelector("details.references") : target;
+  if (details?.matches("details")) details.open = true;
 }
 window.addEventListener("hashchange", openTarget);
 openTarget();
