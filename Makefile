@@ -22,13 +22,13 @@ help:  ## list these commands
 edit: $(VENV)/.ready  ## open the editor on designs/
 	@$(BIN)/vicode edit designs
 
-test: $(VENV)/.ready-test chromium gpp neovim  ## pass every test, a real browser included (under 10 minutes)
+test: $(VENV)/.ready-test chromium gpp neovim  ## pass every test, a real browser included (a quarter of an hour on two cores)
 	@$(PYTEST) $(PARALLEL)
 
 fast: $(VENV)/.ready-test gpp neovim  ## pass the tests that need no browser
 	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
 
-check: $(VENV)/.ready-dev gpp neovim  ## format, lint, types, architecture, fast tests (two minutes)
+check: $(VENV)/.ready-dev gpp neovim  ## format, lint, types, architecture, fast tests (about six minutes)
 	$(BIN)/ruff format --check
 	$(BIN)/ruff check
 	$(BIN)/mypy
