@@ -215,7 +215,7 @@ async def _open(address: RobotAddress) -> tuple[asyncio.StreamReader, asyncio.St
 
 def _explain_refusal(address: RobotAddress, error: Exception) -> str:
     if isinstance(error, ConnectionRefusedError | FileNotFoundError):
-        remedy = "start the robot with Root.watch or VICODE_WATCH"
+        remedy = "start the robot with --watch, Root.watch or VICODE_WATCH"
         if address.path or address.host in _NAMES_OF_HOST:
             remedy += ", or forward its port with ssh -L"
         return f"no robot listens at {address}; {remedy}"
