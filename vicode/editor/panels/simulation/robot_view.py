@@ -20,7 +20,7 @@ from vicode.simulation.robots import RobotDescription
 if TYPE_CHECKING:
     from vicode.editor.panels.simulation.controller import SimulationController
 
-NO_CONTROL = "The robot may only be watched. To control it, start it with --control, watch(control=True) or VICODE_WATCH_CONTROL=1."
+NO_CONTROL = "The robot may only be watched. To control it, start it with --control or VICODE_WATCH_CONTROL=1."
 NOT_ATTACHED = "Attach to a robot first: Simulate, source Robot"
 
 
