@@ -1,5 +1,6 @@
 """`vicode export`: the form by the name of the output, and words for what cannot be drawn."""
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -46,5 +47,20 @@ def test_an_option_of_xabsl(capfdbinary: pytest.CaptureFixture[bytes]) -> None:
 
 
 def test_an_xabsl_file_without_an_option(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["export", str(MEETING / "Symbols" / "Robot.xabsl"), "-o", "-"]) == 1
-    assert capsys.readouterr().err == "vicode: Robot.xabsl defines no option\n"
+    file = MEETING / "Symbols" / "Robot.xabsl"
+    assert main(["export", str(file), "-o", "-"]) == 1
+    assert capsys.readouterr().err == f"vicode: {file} defines no option\n"
+
+
+def test_errors_of_xabsl_are_relative_to_the_working_directory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copytree(MEETING, tmp_path / "team")
+    option = Path("team", "Options", "pass_door.xabsl")
+    monkeypatch.chdir(tmp_path)
+    option.write_text(option.read_text("utf-8").replace("goto", "jump", 1), "utf-8")
+    assert main(["export", str(option)]) == 1
+    assert capsys.readouterr().err.startswith(f"{option}:")
+    Path("alone.xabsl").write_text("option alone { initial state only { } }", "utf-8")
+    assert main(["export", "alone.xabsl"]) == 2
+    assert "no file with agents in the folder of alone.xabsl" in capsys.readouterr().err

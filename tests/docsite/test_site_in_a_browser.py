@@ -353,3 +353,18 @@ def test_nothing_of_a_stranger_runs(page: Page, tmp_path: Path, payload: str) ->
         page.keyboard.type("p")
         expect(page.get_by_role("option").first).to_be_visible()
         assert page.evaluate("window.ran") is None
+
+
+def test_brackets_accents_and_repeated_names_do_not_stop_the_search(page: Page, tmp_path: Path) -> None:
+    states = {name: State(name=name, doc="The pairs [a],[b].") for name in ("ΟΔΟΣ", "_".join("a" * 40))}
+    project = Project(
+        name="Pairs", designs=(Design(component="Lists", doc="Has [x],[y].", states=tuple(states.values())),)
+    )
+    for file in build_site(SiteInput(project=project)):
+        (tmp_path / file.path).write_text(file.text, "utf-8")
+    # An address that was cut off.
+    page.goto((tmp_path / "index.html").as_uri() + "#%")
+    expect(page.locator(".menu-machines")).to_contain_text("Lists")
+    for text, result in (("[a],[b]", "ΟΔΟΣ"), ("οδος", "ΟΔΟΣ"), ("a" * 24 + "b", "No results.")):
+        page.locator("#search").fill(text)
+        expect(page.locator("#search-results")).to_contain_text(result)

@@ -1,5 +1,6 @@
 """A second run without changes reads the inputs and builds nothing; every change that matters is noticed."""
 
+import os
 import re
 import shutil
 from pathlib import Path
@@ -16,7 +17,7 @@ class Builds:
     """Builds of a project; `loads` counts those that read its designs."""
 
     def __init__(self, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.folder, self.out, self.loads = path / "team", path / "site", 0
+        self.folder, self.out, self.loads = path / "team", path / "team" / "site", 0
         shutil.copytree(DESIGNS / "forward", self.folder)
         load = docs_inputs.load_site_inputs
 
@@ -56,6 +57,12 @@ EDITS = {
     "a project file above": lambda builds: (builds.folder.parent / "project.yaml").write_text("vicode: 1\n"),
     "a page": lambda builds: append(builds.out / "index.html", "\n"),
     "a page that is gone": lambda builds: (builds.out / "agents.html").unlink(),
+    "a page whose time was set back": lambda builds: replace_keeping_time(
+        builds.out / "index.html", "Forward", "Goalie!"
+    ),
+    "a design in the output folder": lambda builds: shutil.copy(builds.folder / "turn.yaml", builds.out / "spin.yaml"),
+    "a folder that is no project": lambda builds: (builds.folder / "field" / ".vicode-deployed").touch(),
+    "a repository": lambda builds: (builds.folder / ".git").mkdir(),
     "a stale page": lambda builds: shutil.copy(builds.out / "agents.html", builds.out / "old.html"),
 }
 
@@ -67,6 +74,15 @@ def test_every_change_is_noticed(builds: Builds, edit: str) -> None:
     builds.run()
     assert builds.loads == 2
     assert not (builds.out / "old.html").exists()
+
+
+def test_a_class_in_a_linked_folder_is_an_input(builds: Builds) -> None:
+    elsewhere = (builds.folder / "field").rename(builds.folder.parent / "elsewhere")
+    (builds.folder / "field").symlink_to(elsewhere)
+    builds.run()
+    append(elsewhere / "walk.py", "# more\n")
+    builds.run()
+    assert builds.loads == 2
 
 
 def test_options_are_inputs(builds: Builds) -> None:
@@ -94,6 +110,19 @@ def test_an_included_file_of_a_behavior_is_an_input(builds: Builds) -> None:
     append(builds.folder / "Options" / "opt0.xabsl", "// more\n")
     builds.run()
     assert builds.loads == 2
+
+
+def test_hidden_folders_hold_no_behaviors(builds: Builds) -> None:
+    shutil.rmtree(builds.folder)
+    shutil.copytree(BEHAVIOR, builds.folder)
+    shutil.copytree(BEHAVIOR, builds.folder / ".backup")
+    assert builds.run() == 0
+
+
+def replace_keeping_time(file: Path, old: str, new: str) -> None:
+    status = file.stat()
+    file.write_text(file.read_text("utf-8").replace(old, new), "utf-8")
+    os.utime(file, ns=(status.st_atime_ns, status.st_mtime_ns))
 
 
 def append(file: Path, text: str) -> None:

@@ -1,10 +1,14 @@
 """What the language server changes: quick fixes, layout and names."""
 
+import logging
 from typing import Any
 
 import pytest
+from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
 
 from tests.xabsl.lsp_client import FILES, LspClient
+from vicode.xabsl.server.server import create_server
 
 
 @pytest.mark.parametrize(
@@ -88,3 +92,11 @@ def test_only_names_can_be_renamed(editor: LspClient) -> None:
         assert editor.request("textDocument/prepareRename", editor.at(name, play, word), refused=True) == message
     params = {**editor.at(name, play, "goto"), "newName": "jump"}
     assert editor.request("textDocument/rename", params, refused=True) == "'goto' is a keyword"
+
+
+def test_the_log_has_failures_but_no_refusals(caplog: pytest.LogCaptureFixture) -> None:
+    create_server()
+    failure = ValueError("a mistake in the server")
+    for error in (JsonRpcException("no", code=lsp.LSPErrorCodes.RequestFailed.value), failure):
+        logging.getLogger("pygls.protocol.json_rpc").error("a request failed", exc_info=error)
+    assert [record.exc_info and record.exc_info[1] for record in caplog.records] == [failure]

@@ -87,15 +87,17 @@ def _read(file: Path) -> "Design | None":
 
 def _read_option(file: Path) -> "Design | None":
     """The option of an XABSL file as a design; its behavior is searched in the folders above."""
-    from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings
+    from vicode.cli.xabsl_behavior import print_behavior_findings
     from vicode.findings import Severity
     from vicode.importers import import_behavior
     from vicode.xabsl.compiler import compile_source
-    from vicode.xabsl.source_loader import find_main_file
+    from vicode.xabsl.source_loader import find_main_file, load_source
 
-    file = file.resolve(strict=True)
+    shown, file = file, file.resolve(strict=True)
     main = find_main_file(file)
-    source = load_behavior(main)
+    source = load_source(main)
+    if not source.has_agents and any(each.file.body for each in source.files.values()):
+        raise OSError(f"no file with agents in the folder of {shown}, or in those above it, includes it")
     compiled = compile_source(source)
     if compiled.program is None:
         print_behavior_findings([each for each in compiled.findings if each.severity is Severity.ERROR], main)
@@ -104,7 +106,7 @@ def _read_option(file: Path) -> "Design | None":
     component = next((about.component for about in imported.designs if about.file == file), None)
     design = imported.project.design(component) if component else None
     if design is None:
-        print(f"vicode: {file.name} defines no option", file=sys.stderr)
+        print(f"vicode: {shown} defines no option", file=sys.stderr)
     return design
 
 

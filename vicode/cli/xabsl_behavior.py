@@ -57,9 +57,17 @@ def compile_behavior(agents: Path) -> "CompileResult":
 
 def with_display_paths(findings: "Sequence[Finding]", agents: Path) -> "tuple[Finding, ...]":
     """Replace the paths in findings by paths relative to the working directory."""
-    folder = agents.parent
+
+    def shown(file: str) -> str:
+        path = agents.parent / file
+        if not path.is_absolute():
+            return str(path)
+        from vicode.store.projects import display_path
+
+        return display_path(path)
+
     return tuple(
-        replace(finding, location=replace(finding.location, file=str(folder / finding.location.file)))
+        replace(finding, location=replace(finding.location, file=shown(finding.location.file)))
         if finding.location
         else finding
         for finding in findings

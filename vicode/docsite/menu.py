@@ -57,22 +57,26 @@ def fixed_links(subject: SiteInput, addresses: SiteUrls, *, has_file: bool) -> I
 
 def menu_script(folders: Iterable[DesignFolder], addresses: SiteUrls) -> str:
     """The state machines by folder, as a script because a page opened from a file cannot read other files."""
-    rows = [
-        [
-            folder.name,
-            [
-                [
-                    addresses.names.component(design.component),
-                    addresses.component(design.component),
-                    summarize(design.doc),
-                ]
-                for design in folder.designs
-            ],
-        ]
+    rows = (
+        f"[{dump_json(folder.name)},{dump_rows(_menu_entry(design, addresses) for design in folder.designs)}]"
         for folder in folders
-    ]
-    text = json.dumps(rows, separators=(",", ":")).replace("],[", "],\n[")
-    return f"/* vicode docs: the menu of state machines */\nwindow.vicodeMenu = {text};\n"
+    )
+    text = ",\n".join(rows)
+    return f"/* vicode docs: the menu of state machines */\nwindow.vicodeMenu = [{text}];\n"
+
+
+def dump_json(value: object) -> str:
+    return json.dumps(value, ensure_ascii=False, separators=(",", ":"))
+
+
+def dump_rows(rows: Iterable[object]) -> str:
+    """A JSON array with each row on a line of its own, so that an edit changes few lines of the file."""
+    return "[" + ",\n".join(map(dump_json, rows)) + "]"
+
+
+def _menu_entry(design: Design, addresses: SiteUrls) -> tuple[str, str, str]:
+    name = design.component
+    return addresses.names.component(name), addresses.component(name), summarize(design.doc)
 
 
 def _shared_length(paths: Collection[tuple[str, ...]]) -> int:

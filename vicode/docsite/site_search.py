@@ -1,10 +1,10 @@
 """The entries of the name index and of the search: all names with their descriptions and code."""
 
-import json
 import re
 from collections.abc import Iterable, Iterator
 
 from vicode.docsite.doc_text import summarize
+from vicode.docsite.menu import dump_json, dump_rows
 from vicode.docsite.site_names import SiteNames
 from vicode.docsite.urls import SiteUrls
 from vicode.docsite.views import SiteEntry
@@ -66,14 +66,9 @@ def search_script(entries: Iterable[SiteEntry]) -> str:
                 break
             row.pop()
         rows.append(row)
-    index = {
-        "kinds": kinds.values,
-        "places": places.values,
-        "pages": pages.values,
-        "pieces": pieces.values,
-        "entries": rows,
-    }
-    text = json.dumps(index, ensure_ascii=False, separators=(",", ":")).replace("],[", "],\n[")
+    tables = {"kinds": kinds, "places": places, "pages": pages, "pieces": pieces}
+    fields = [f'"{name}":{dump_json(table.values)}' for name, table in tables.items()]
+    text = f'{{{",".join(fields)},"entries":{dump_rows(rows)}}}'
     # Two characters are line ends in JavaScript, but not in JSON.
     text = text.replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
     return f"/* vicode docs: what can be found */\nwindow.vicodeSearchIndex = {text};\n"

@@ -80,9 +80,10 @@ def encode_text(text: str, old: bytes) -> bytes:
 
 
 def find_agent_files(folder: Path, *, recursive: bool = True) -> Iterator[Path]:
-    """Yield the files of a folder that appear to declare agents: the main files of behaviors."""
+    """Yield the files of a folder, except hidden ones, that appear to declare agents: the main files of behaviors."""
     for path in sorted(folder.rglob("*") if recursive else folder.glob("*")):
-        if path.suffix in EXTENSIONS and path.is_file() and _AGENT.search(read_text(path)):
+        is_hidden = any(part.startswith(".") for part in path.relative_to(folder).parts)
+        if path.suffix in EXTENSIONS and not is_hidden and path.is_file() and _AGENT.search(read_text(path)):
             yield path
 
 

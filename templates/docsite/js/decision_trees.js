@@ -38,7 +38,7 @@ function makePannable(tree) {
 }
 
 function showTarget() {
-  const key = decodeURIComponent(location.hash.slice(1));
+  const key = currentAnchor();
   for (const node of document.querySelectorAll(".tree [data-key]")) node.classList.toggle("is-target", node.dataset.key === key);
 }
 window.addEventListener("hashchange", showTarget);

@@ -4,3 +4,12 @@ function makeElement(tag, props, ...children) {
   node.append(...children);
   return node;
 }
+
+// The anchor in the address, "" for one that is not well-formed.
+function currentAnchor() {
+  try {
+    return decodeURIComponent(location.hash.slice(1));
+  } catch {
+    return "";
+  }
+}

@@ -72,7 +72,7 @@ for (const area of document.querySelectorAll("[data-filter]")) {
 
 // A link to a folder opens it, and a link to a symbol opens its references in the next row.
 function openTarget() {
-  const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  const target = document.getElementById(currentAnchor());
   const details = target?.matches("tr") ? target.nextElementSibling?.querySelector("details.references") : target;
   if (details?.matches("details")) details.open = true;
 }

@@ -1,10 +1,10 @@
 // Comparison of texts as people type them: without accents and case, by the parts of names, and with typing errors.
-const LETTERS = { ß: "ss", æ: "ae", œ: "oe", ø: "o", ł: "l", đ: "d", ı: "i" };
+const LETTERS = { ß: "ss", æ: "ae", œ: "oe", ø: "o", ł: "l", đ: "d", ı: "i", ς: "σ" };
 const INITIALS_LENGTH = 2;
 
 // Lower case without accents.
 function foldText(text) {
-  return text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase().replace(/[ßæœøłđı]/g, (letter) => LETTERS[letter]);
+  return text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase().replace(/[ßæœøłđıς]/g, (letter) => LETTERS[letter]);
 }
 
 // The parts of a name in camelCase or snake_case, folded.
@@ -17,10 +17,19 @@ function nameParts(name) {
 function matchesParts(word, parts) {
   if (parts.some((part) => part.startsWith(word))) return true;
   if (word.length >= INITIALS_LENGTH && parts.map((part) => part[0]).join("").startsWith(word)) return true;
-  const matchesFrom = (rest, at) => !rest || parts.slice(at).some((part, skipped) => {
-    const isWhole = rest.startsWith(part);
-    return (isWhole && matchesFrom(rest.slice(part.length), at + skipped + 1)) || (rest !== word && part.startsWith(rest));
-  });
+  // Suffixes of the word that do not match from a part on: a name such as a_a_a_a has many ways to fail.
+  const failed = new Set();
+  const matchesFrom = (rest, at) => {
+    if (!rest) return true;
+    const key = `${rest.length} ${at}`;
+    if (failed.has(key)) return false;
+    const matches = parts.slice(at).some((part, skipped) => {
+      const isWhole = rest.startsWith(part);
+      return (isWhole && matchesFrom(rest.slice(part.length), at + skipped + 1)) || (rest !== word && part.startsWith(rest));
+    });
+    if (!matches) failed.add(key);
+    return matches;
+  };
   return matchesFrom(word, 0);
 }
 

@@ -1,11 +1,13 @@
 """The language server: answers the requests of the Language Server Protocol about XABSL files."""
 
 import difflib
+import logging
 from collections.abc import Callable
 from typing import TypeVar
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
+from pygls.protocol import json_rpc
 
 from vicode.findings import Severity
 from vicode.xabsl.parser import ParsedFile
@@ -41,11 +43,18 @@ _COMPLETION_KINDS = {
 
 def create_server() -> XabslLanguageServer:
     server = XabslLanguageServer()
+    # An answer with an error, such as a refusal to rename, is not a failure of the server.
+    logging.getLogger(json_rpc.__name__).addFilter(_is_failure)
     for register in (_register_document_sync, _register_completion, _register_queries, _register_outlines):
         register(server)
     for register in (_register_call_hierarchy, _register_rename, _register_edits):
         register(server)
     return server
+
+
+def _is_failure(record: logging.LogRecord) -> bool:
+    error = record.exc_info[1] if record.exc_info else None
+    return not (isinstance(error, JsonRpcException) and error.code == lsp.LSPErrorCodes.RequestFailed.value)
 
 
 def _register_document_sync(server: XabslLanguageServer) -> None:
