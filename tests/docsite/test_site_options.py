@@ -76,3 +76,12 @@ def test_an_address_without_a_path_is_refused(
     assert main(["docs", str(project), "--out", str(tmp_path / "site"), "--source-url", url]) == 2
     assert "--source-url must be an http or https address with {path}" in capsys.readouterr().err
     assert not (tmp_path / "site").exists()
+
+
+@pytest.mark.parametrize("option", ["--title", "--source-url"])
+def test_an_option_in_another_encoding_is_refused(
+    project: Path, tmp_path: Path, option: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = "https://example.org/M\udcfcller/{path}"
+    assert main(["docs", str(project), "--out", str(tmp_path / "site"), option, text]) == 2
+    assert "must be encoded in UTF-8" in capsys.readouterr().err

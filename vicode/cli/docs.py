@@ -81,8 +81,19 @@ def _find_option_problem(args: argparse.Namespace) -> str:
     is_markdown = args.format == "markdown"
     if args.watch and is_markdown:
         return "--watch cannot be combined with --format markdown; use the live reload of MkDocs or Sphinx"
+    if not _is_utf8(args.title + args.source_url):
+        return "--title and --source-url must be encoded in UTF-8"
     problem = find_source_url_problem(args.source_url)
     return problem or find_output_problem(args.out, args.path, is_markdown=is_markdown)
+
+
+def _is_utf8(text: str) -> bool:
+    """Whether an argument was decoded without errors; other bytes are surrogates."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _build(args: argparse.Namespace, options: Sequence[str], record_file: Path) -> int:

@@ -1,5 +1,6 @@
 """Loads the inputs of sites: projects of designs and XABSL behaviors."""
 
+import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -38,7 +39,7 @@ class LoadedSiteInput:
     def source_url(self, template: str) -> str:
         """The address of lines in a repository, with {path} from the root of this input."""
         repository = next((each for each in (self.root, *self.root.parents) if (each / ".git").exists()), self.root)
-        prefix = "".join(f"{quote(part)}/" for part in self.root.relative_to(repository).parts)
+        prefix = "".join(f"{quote(os.fsencode(part))}/" for part in self.root.relative_to(repository).parts)
         return template.replace("{path}", f"{prefix}{{path}}")
 
 

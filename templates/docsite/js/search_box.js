@@ -1,7 +1,7 @@
 // The search over all pages of the site.
 const RESULTS_PER_STEP = 30;
 
-const field = makeElement("input", { id: "search", type: "search", placeholder: "Search  (press /)", autocomplete: "off", spellcheck: false, role: "combobox" });
+const field = makeElement("input", { id: "search", type: "search", placeholder: "Search  (press /)", autocomplete: "off", spellcheck: false, maxLength: 200, role: "combobox" });
 const list = makeElement("ul", { id: "search-results", role: "listbox", hidden: true });
 const searchStatus = makeElement("span", { className: "visually-hidden", role: "status" });
 for (const [name, value] of Object.entries({ "aria-label": "Search names, docs and code", "aria-expanded": "false", "aria-controls": list.id, "aria-autocomplete": "list" })) {
