@@ -10,6 +10,7 @@ from tests.cpp_tools import STANDARD, WARNINGS, find_gpp, outputs, start, write_
 from tests.generators.code_tools import write_files
 from vicode.cli import main
 from vicode.generators import generate
+from vicode.generators.cpp.names import escape
 from vicode.model.design import Assign, Declaration, Design, Guard, State, Transition
 from vicode.model.project import Project
 
@@ -57,6 +58,20 @@ def large_project(count: int) -> Project:
     return Project(
         name="large", designs=(Design(component="Ring", outputs=values, initial=states[0].name, states=states),)
     )
+
+
+@pytest.mark.parametrize(
+    ("name", "taken", "escaped"),
+    [
+        ("M_PI", (), "M_PI_"),
+        ("FP_NAN", (), "FP_NAN_"),
+        ("M_PI", ("M_PI_",), "M_PI_2_"),
+        ("INT8_MAX", (), "INT8_MAX_"),
+        ("CLOCKS_PER_SEC", (), "CLOCKS_PER_SEC_"),
+    ],
+)
+def test_names_of_macros_get_an_underscore(name: str, taken: tuple[str, ...], escaped: str) -> None:
+    assert escape(name, taken) == escaped
 
 
 def test_no_compiler_warns(gpp: str, generated: dict[Path, str]) -> None:

@@ -74,6 +74,8 @@ _MEMBERS = frozenset(
 
 # With a trailing `_` these are data members of generated classes.
 _STORED = frozenset({"calls", "root", "state", "world"})
+# Private data members of bica::Component, which hide global names in its subclasses.
+_PRIVATE = frozenset({"entered_ns_", "left_", "name_", "period_ns_", "started_ns_", "transition_", "worked_ns_"})
 
 
 def namespace(package: PackagePlan) -> str:
@@ -82,8 +84,9 @@ def namespace(package: PackagePlan) -> str:
 
 # Macros of the standard headers and of POSIX; Arduino has more, which bica.hpp undefines.
 _MACRO_LIST = """
-BIG_ENDIAN BUFSIZ BYTE_ORDER EOF EXIT_FAILURE EXIT_SUCCESS FILENAME_MAX FOPEN_MAX HUGE_VAL INFINITY LITTLE_ENDIAN NAN
-NULL PDP_ENDIAN RAND_MAX SNAN TIME_UTC TMP_MAX WEOF alloca assert errno linux offsetof stderr stdin stdout unix
+BIG_ENDIAN BUFSIZ BYTE_ORDER CLOCKS_PER_SEC EOF EXIT_FAILURE EXIT_SUCCESS FILENAME_MAX FOPEN_MAX HUGE_VAL INFINITY
+LITTLE_ENDIAN NAN NULL PDP_ENDIAN RAND_MAX SNAN TIME_UTC TMP_MAX WEOF alloca assert errno linux offsetof
+stderr stdin stdout unix
 E2BIG EACCES EAGAIN EALREADY EBADE EBADF EBADR EBFONT EBUSY ECANCELED ECHILD ECOMM EDEADLK EDOM EDQUOT EEXIST EFAULT
 EFBIG EIDRM EILSEQ EINTR EINVAL EIO EISCONN EISDIR ELOOP EMFILE EMLINK ENFILE ENODATA ENODEV ENOENT ENOEXEC ENOLCK
 ENOLINK ENOMEM ENOMSG ENONET ENOSPC ENOSR ENOSTR ENOSYS ENOTBLK ENOTDIR ENOTSUP ENOTTY ENXIO EPERM EPIPE EPROTO ERANGE
@@ -91,7 +94,7 @@ EREMOTE EROFS ESPIPE ESRCH ESTALE ETIME ETIMEDOUT EUCLEAN EUNATCH EUSERS EXDEV E
 """
 _MACROS = frozenset(_MACRO_LIST.split())
 _MACRO_FAMILY = re.compile(
-    r"(INT|UINT|SIZE|PTRDIFF|SIG_ATOMIC|WINT|WCHAR)\w*_(MAX|MIN|WIDTH|C)|(CLOCK|CPU|FP|LC|M|MOD|SEEK|STA)_[A-Z0-9_]+",
+    r"(INT|UINT|SIZE|PTRDIFF|SIG_ATOMIC|WINT|WCHAR)\w*_(MAX|MIN|WIDTH|C)|(CLOCK|CPU|FP|LC|M|MOD|SEEK|STA)_[A-Z0-9_]*[A-Z0-9]",
     re.ASCII,
 )
 # Functions of generated code, such as do_kick() and when_kick_to_wait(), and its local variables.
@@ -105,6 +108,8 @@ def escape(name: str, taken: Iterable[str] = ()) -> str:
     while free in _KEYWORDS or free in taken or free in _MACROS or _MACRO_FAMILY.fullmatch(free):
         # Two `_` in a row are reserved.
         free = f"{name.rstrip('_')}_" if number == 1 and not name.endswith("_") else f"{name.rstrip('_')}_{number}"
+        # `M_PI_2` is a macro too.
+        free += "_" if number > 1 and _MACRO_FAMILY.fullmatch(free) else ""
         number += 1
     return free
 
@@ -165,10 +170,10 @@ class GlobalNames:
     @classmethod
     def of_project(cls, plan: ProjectPlan) -> "GlobalNames":
         # A namespace `world` of XABSL becomes a component `world_`.
-        taken = _GLOBAL_NAMES | {f"{name}_" for name in _STORED}
+        taken = _GLOBAL_NAMES | _PRIVATE | {f"{name}_" for name in _STORED}
         classes = {name: escape(name, taken | _members(plan, name)) for name in plan.project.interfaces()}
         names = {}
-        taken = _GLOBAL_NAMES | _MEMBERS | set(classes.values())
+        taken = _GLOBAL_NAMES | _PRIVATE | _MEMBERS | set(classes.values())
         for declared in [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]:
             names[declared] = escape(declared, taken)
             taken |= {names[declared]}
