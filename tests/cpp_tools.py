@@ -9,12 +9,13 @@ import pytest
 
 from tests.generators.code_tools import write_files
 from vicode.check import check_project
+from vicode.conformance.cpp import CppTools
 from vicode.findings import Severity, render_text
 from vicode.generators import generate
 from vicode.store import locate_findings, open_project
 
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror")
-STANDARD = ("-std=c++17", "-ffp-contract=off")
+STANDARD = ("-std=c++17",)
 
 
 def find_gpp() -> str:
@@ -22,6 +23,11 @@ def find_gpp() -> str:
     if path := shutil.which("g++"):
         return path
     pytest.skip("g++ is missing: run .ci/gpp, or 'sudo apt install g++'")
+
+
+def unoptimized(compiler: str) -> CppTools:
+    """A compiler that saves time with large programs."""
+    return CppTools(compiler=(compiler, "-O0"))
 
 
 def write_project(folder: Path, out: Path) -> str:

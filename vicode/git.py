@@ -82,6 +82,12 @@ class Repository:
         """The content of a file; None if the revision does not have it."""
         return self._try("cat-file", "blob", f"{revision}:{path}")
 
+    def find_content(self, path: str, content: bytes, *, limit: int) -> tuple[str, ...]:
+        """The revisions of all branches that added or removed a content of a file, newest first."""
+        blob = self._run("hash-object", "--stdin", "--no-filters", content=content).decode().strip()
+        found = self._run("log", "--all", "--format=%H", f"--find-object={blob}", f"--max-count={limit}", "--", path)
+        return tuple(found.decode().split())
+
     def list_changed(self, old: str, new: str | None, paths: Sequence[str] = ()) -> tuple[ChangedFile, ...]:
         """The files that differ between two revisions, or a revision and the work tree (None)."""
         options = ("--name-status", "-z", "-M", "--no-ext-diff", "--no-textconv", "--ignore-submodules=all")
@@ -164,8 +170,8 @@ class Repository:
             raise GitError(_first_line(done.stderr) or "git commit-tree failed")
         self._run("update-ref", "-m", "merge: generated files", "HEAD", done.stdout.decode().strip(), head)
 
-    def _run(self, *arguments: str) -> bytes:
-        done = _call_git([*_SAFE_OPTIONS, "-C", str(self.root), *arguments])
+    def _run(self, *arguments: str, content: bytes = b"") -> bytes:
+        done = _call_git([*_SAFE_OPTIONS, "-C", str(self.root), *arguments], content=content)
         if done.returncode:
             raise GitError(_first_line(done.stderr) or f"git {arguments[0]} failed")
         return done.stdout

@@ -223,6 +223,8 @@ def _spaced(line: str) -> str:
 def _lines_inside_strings(body: str) -> set[int]:
     """Numbers of the lines that start inside a Python string, whose value indentation would change."""
     fixed: set[int] = set()
+    if "\n" not in body or not ('"' in body or "'" in body):
+        return fixed
     begins: list[int] = []
     try:
         for token in tokenize.generate_tokens(io.StringIO(body).readline):

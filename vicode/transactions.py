@@ -1,7 +1,8 @@
 """Replaces several files as one: after a crash, the next command completes the replacement or drops it.
 
 The new texts are written to `.vicode/pending` in the root folder, then a journal that lists their targets. Then
-they are moved.
+they are moved. A file that another program has changed meanwhile keeps its new content, also if that is days after a
+crash.
 """
 
 import contextlib
@@ -11,6 +12,8 @@ import json
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager
+from hashlib import sha256
 from pathlib import Path
 
 from vicode.output import write_atomically
@@ -20,38 +23,49 @@ STATE_FOLDER = ".vicode"
 
 _PENDING = "pending"
 _JOURNAL = "journal.json"
+_BEFORE = "before.json"
+"""The hashes of the files that are replaced."""
 
 
 def replace_files(
-    root: Path, texts: Mapping[str, str | bytes | None], *, validate: Callable[[], None] = lambda: None
+    root: Path,
+    texts: Mapping[str, str | bytes | None],
+    *,
+    prepare: Callable[[], AbstractContextManager[object]] = contextlib.nullcontext,
 ) -> None:
     """Write or delete (None) files below a folder, all of them or none; symbolic links are followed.
 
     Args:
         root: The folder; it is created.
         texts: The new texts, or contents, by path relative to `root`.
-        validate: Raises an `OSError` if the files must not be replaced; no other program replaces files meanwhile.
+        prepare: Returns a context that is entered when only the moves are left, and sees an exception if these do not
+            happen. It raises an `OSError` if the files must not be replaced.
 
     Raises:
-        OSError: A file cannot be written; the error names it, and all files are unchanged.
+        OSError: A file cannot be written; the error names it, and all files are unchanged. Or another program changed a
+            file in the last moment; the error names it, and only this file is unchanged.
     """
     targets = {path: _resolve_target(root, path) for path in texts}
     for path in texts:
         _require_no_dangling_link(root / path)
     with _lock(root) as state:
         _complete_found(root, state)
-        validate()
         pending = state / _PENDING
         try:
             journal = _write_pending(pending, texts, targets)
             for target, text in zip(targets.values(), texts.values(), strict=True):
                 if text is not None:
                     _require_writable(target)
-            write_atomically(pending / _JOURNAL, json.dumps(journal))
+            before = {path: _hash(target) for path, target in targets.items()}
+            write_atomically(pending / _BEFORE, json.dumps(before))
+            with prepare():
+                write_atomically(pending / _JOURNAL, json.dumps(journal))
         except BaseException:
             shutil.rmtree(pending, ignore_errors=True)
             raise
-        _complete(state, journal, targets)
+        changed = _complete(state, journal, targets, before)
+    if changed:
+        raise OSError(errno.EAGAIN, "it was changed at the same time; run the command again", str(root / changed[0]))
 
 
 def is_interrupted(root: Path) -> bool:
@@ -117,7 +131,15 @@ def _complete_found(root: Path, state: Path) -> None:
             raise PermissionError(
                 errno.EACCES, f"{pending} would replace it, outside of {root}; delete that folder", path
             )
-    _complete(state, journal, targets)
+    _complete(state, journal, targets, _read_hashes(pending))
+
+
+def _read_hashes(pending: Path) -> dict[str, object]:
+    try:
+        hashes = json.loads((pending / _BEFORE).read_text("utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return {}
+    return hashes if isinstance(hashes, dict) else {}
 
 
 def _read_journal(pending: Path) -> dict[str, str | None]:
@@ -136,14 +158,30 @@ def _read_journal(pending: Path) -> dict[str, str | None]:
     return journal
 
 
-def _complete(state: Path, journal: Mapping[str, str | None], targets: Mapping[str, Path]) -> None:
+def _complete(
+    state: Path, journal: Mapping[str, str | None], targets: Mapping[str, Path], before: Mapping[str, object]
+) -> list[str]:
+    """Move the files; return the paths of those that another program wrote at the same time, which are kept."""
     pending = state / _PENDING
+    changed = []
     for path, name in journal.items():
-        _move(None if name is None else pending / name, targets[path])
+        source = None if name is None else pending / name
+        # Without a source, the file was moved before a crash.
+        is_due = source is None or source.exists()
+        if is_due and path in before and _hash(targets[path]) != before[path]:
+            changed.append(path)
+        else:
+            _move(source, targets[path])
     if pending.is_dir():
         # The journal goes first: without it, the rest means nothing.
         (pending / _JOURNAL).unlink(missing_ok=True)
         shutil.rmtree(pending)
+    return changed
+
+
+def _hash(file: Path) -> str | None:
+    """A hash of the content; None if there is no regular file."""
+    return sha256(file.read_bytes()).hexdigest() if file.is_file() else None
 
 
 def _move(source: Path | None, target: Path) -> None:

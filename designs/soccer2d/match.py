@@ -25,7 +25,7 @@ from rcss.world import World  # noqa: E402 - needs the paths
 from soccer.field_player import FieldPlayer  # noqa: E402
 from soccer.goalkeeper import Goalkeeper  # noqa: E402
 
-from vicode.bica import Root  # noqa: E402
+from vicode.bica import Root, WorldClock  # noqa: E402
 
 TEAMS = ("vicode", "bica")
 FORMATION = (
@@ -116,10 +116,10 @@ def join(team: str, options: argparse.Namespace, match: ExitStack) -> Iterator[R
     for number in range(options.players):
         world = World(team=team, goalkeeper=number == 0, server=("127.0.0.1", options.port))
         if number == 0:
-            root = Root(Goalkeeper, world=world, clock=world)
+            root = Root(Goalkeeper, world=world, clock=WorldClock(world))
         else:
             home_x, home_y = FORMATION[number - 1]
-            root = Root(FieldPlayer, world=world, clock=world, home_x=home_x, home_y=home_y)
+            root = Root(FieldPlayer, world=world, clock=WorldClock(world), home_x=home_x, home_y=home_y)
         match.enter_context(root)
         name = f"{team} {world.number}"
         if options.watch:
@@ -133,9 +133,10 @@ def play(roots: list[Root]) -> None:
     """Step all players in each cycle until the match is over."""
     while not any(root.world.finished for root in roots):
         for root in roots:
-            root.world.receive_cycle()
-            root.step()
-            root.world.send_commands()
+            if root.clock.wait():
+                root.step()
+                # Before the other players wait: a synchronous server continues when it has the commands of all.
+                root.world.send_commands()
 
 
 if __name__ == "__main__":

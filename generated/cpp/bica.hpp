@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +14,8 @@
 #include <limits>
 #include <type_traits>
 
+// BICA_NO_HOST leaves out clocks, threads and files; BICA_NO_NAMES the names of components, states and values, with teams,
+// observers and traces; BICA_FLOAT calculates with 32 bits.
 #if !defined(BICA_NO_HOST) && !defined(ARDUINO)
 #define BICA_HOST 1
 #include <chrono>
@@ -45,13 +48,78 @@
 
 #if defined(__GNUC__)
 #define BICA_NO_INLINE __attribute__((noinline))
+#define BICA_DROP_NAME inline __attribute__((always_inline))
 #define BICA_UNLIKELY(condition) __builtin_expect(condition, false)
 #else
 #define BICA_NO_INLINE
+#define BICA_DROP_NAME
 #define BICA_UNLIKELY(condition) (condition)
 #endif
 
+#if !defined(BICA_ALLOW_INEXACT)
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0)
+#error "With -ffast-math, states differ from those of the design: compile without it, or define BICA_ALLOW_INEXACT."
+#elif FLT_EVAL_METHOD != 0
+#error "Numbers are calculated with more digits than those of the design: compile with -msse2 -mfpmath=sse, or define BICA_ALLOW_INEXACT."
+#endif
+#endif
+
+// Files that are compiled with other macros or without exceptions have other names, so that they do not link with these.
+#if defined(BICA_HOST)
+#define BICA_HOST_TAG
+#else
+#define BICA_HOST_TAG _no_host
+#endif
+#if defined(BICA_NO_NAMES)
+#define BICA_NAMES_TAG _no_names
+#define BICA_NAMED
+#else
+#define BICA_NAMES_TAG
+#define BICA_NAMED override
+#endif
+#if defined(BICA_FLOAT)
+#define BICA_FLOAT_TAG _float
+#else
+#define BICA_FLOAT_TAG
+#endif
+#if defined(__cpp_exceptions)
+#define BICA_EXCEPTIONS_TAG
+#else
+#define BICA_EXCEPTIONS_TAG _no_exceptions
+#endif
+#if defined(BICA_HOST) && !defined(BICA_NO_NAMES) && !defined(BICA_FLOAT) && defined(__cpp_exceptions)
+#define BICA_OPEN
+#define BICA_CLOSE
+#else
+#define BICA_JOIN(host, names, numbers, exceptions) built##host##names##numbers##exceptions
+#define BICA_CONFIGURATION(host, names, numbers, exceptions) BICA_JOIN(host, names, numbers, exceptions)
+#define BICA_OPEN \
+    inline namespace BICA_CONFIGURATION(BICA_HOST_TAG, BICA_NAMES_TAG, BICA_FLOAT_TAG, BICA_EXCEPTIONS_TAG) {
+#define BICA_CLOSE }
+#endif
+
+// Generated code stands between BICA_BEGIN and BICA_END, where no multiplication is fused with an addition, which would
+// give another result. g++ inlines functions with this option only into others with it; BICA_EXACT marks such a function.
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#define BICA_BEGIN BICA_OPEN
+#define BICA_END BICA_CLOSE
+#define BICA_EXACT
+#elif defined(__GNUC__)
+#define BICA_BEGIN _Pragma("GCC push_options") _Pragma("GCC optimize(\"fp-contract=off\")") BICA_OPEN
+#define BICA_END \
+    BICA_CLOSE   \
+    _Pragma("GCC pop_options")
+#define BICA_EXACT __attribute__((optimize("fp-contract=off")))
+#else
+#define BICA_BEGIN BICA_OPEN
+#define BICA_END BICA_CLOSE
+#define BICA_EXACT
+#endif
+
 namespace bica {
+BICA_OPEN
 
 using Nanoseconds = std::int64_t;
 
@@ -60,10 +128,50 @@ using Nanoseconds = std::int64_t;
 inline constexpr double pi = 3.14159265358979323846;
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Converts an integer, exact to 2^53.
-constexpr double to_float(std::int64_t x) { return static_cast<double>(x); }
-constexpr double to_float(int x) { return x; }
-constexpr double to_float(double x) { return x; }
+#if defined(BICA_FLOAT)
+
+/// A number of a design with 32 bits. Numbers of C++ convert to it; `static_cast` converts it to them.
+class Real {
+public:
+    constexpr Real() = default;
+    template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
+    constexpr Real(Number x) : value_(static_cast<float>(x)) {}
+    template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
+    explicit constexpr operator Number() const {
+        return static_cast<Number>(value_);
+    }
+
+    constexpr Real operator-() const { return -value_; }
+    constexpr Real& operator+=(Real x) { return *this = *this + x; }
+    constexpr Real& operator-=(Real x) { return *this = *this - x; }
+    constexpr Real& operator*=(Real x) { return *this = *this * x; }
+    constexpr Real& operator/=(Real x) { return *this = *this / x; }
+    friend constexpr Real operator+(Real a, Real b) { return a.value_ + b.value_; }
+    friend constexpr Real operator-(Real a, Real b) { return a.value_ - b.value_; }
+    friend constexpr Real operator*(Real a, Real b) { return a.value_ * b.value_; }
+    friend constexpr Real operator/(Real a, Real b) { return a.value_ / b.value_; }
+    friend constexpr bool operator==(Real a, Real b) { return a.value_ == b.value_; }
+    friend constexpr bool operator!=(Real a, Real b) { return a.value_ != b.value_; }
+    friend constexpr bool operator<(Real a, Real b) { return a.value_ < b.value_; }
+    friend constexpr bool operator<=(Real a, Real b) { return a.value_ <= b.value_; }
+    friend constexpr bool operator>(Real a, Real b) { return a.value_ > b.value_; }
+    friend constexpr bool operator>=(Real a, Real b) { return a.value_ >= b.value_; }
+
+private:
+    float value_ = 0.0F;
+};
+
+#else
+
+/// A number of a design.
+using Real = double;
+
+#endif
+
+/// Converts an integer, exact to ±2^53 (`BICA_FLOAT`: ±2^24), else the nearest number.
+constexpr Real to_float(std::int64_t x) { return static_cast<Real>(x); }
+constexpr Real to_float(int x) { return static_cast<Real>(x); }
+constexpr Real to_float(Real x) { return x; }
 
 /// IEEE division: a division by 0 gives an infinity or nan.
 inline double divide(double a, double b) {
@@ -114,6 +222,52 @@ inline double xabsl_remainder(double a, double b) {
     return std::isfinite(a) && std::isfinite(b) && divisor != 0.0 ? std::fmod(std::trunc(a) + 0.0, divisor) : 0.0;
 }
 
+/// The greatest int that is stored, 2^53: a double represents it and all smaller ones exactly.
+inline constexpr std::int64_t max_int = 9007199254740992;
+
+/// An int that is stored: limited to ±2^53.
+constexpr std::int64_t limit(std::int64_t x) { return x > max_int ? max_int : (x < -max_int ? -max_int : x); }
+
+// Operations whose results are limited to 64 bits
+constexpr std::int64_t add(std::int64_t a, std::int64_t b) {
+    constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min();
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    if (b > 0 ? a > most - b : a < least - b) {
+        return b > 0 ? most : least;
+    }
+    return a + b;
+}
+
+constexpr std::int64_t subtract(std::int64_t a, std::int64_t b) {
+    constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min();
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    if (b > 0 ? a < least + b : a > most + b) {
+        return b > 0 ? least : most;
+    }
+    return a - b;
+}
+
+constexpr std::int64_t negate(std::int64_t x) { return subtract(0, x); }
+
+constexpr std::int64_t multiply(std::int64_t a, std::int64_t b) {
+    constexpr std::int64_t half = 0x7fffffff;
+    if (-half <= a && a <= half && -half <= b && b <= half) {
+        return a * b;
+    }
+    if (a == 0 || b == 0) {
+        return 0;
+    }
+    const bool is_negative = (a < 0) != (b < 0);
+    const std::uint64_t x = a < 0 ? 0 - static_cast<std::uint64_t>(a) : static_cast<std::uint64_t>(a);
+    const std::uint64_t y = b < 0 ? 0 - static_cast<std::uint64_t>(b) : static_cast<std::uint64_t>(b);
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    if (x > (static_cast<std::uint64_t>(most) + (is_negative ? 1 : 0)) / y) {
+        return is_negative ? std::numeric_limits<std::int64_t>::min() : most;
+    }
+    // One less, since the magnitude of the least integer is no int64_t.
+    return is_negative ? -static_cast<std::int64_t>(x * y - 1) - 1 : static_cast<std::int64_t>(x * y);
+}
+
 /// Converts an integral double, limited to 64 bits; nan gives 0.
 inline std::int64_t saturate(double x) {
     if (std::isnan(x)) {
@@ -125,24 +279,30 @@ inline std::int64_t saturate(double x) {
     return x > -9223372036854775808.0 ? static_cast<std::int64_t>(x) : std::numeric_limits<std::int64_t>::min();
 }
 
-inline std::int64_t to_int(double x) { return saturate(x); }
-inline std::int64_t floor(double x) { return saturate(std::floor(x)); }
-inline std::int64_t ceil(double x) { return saturate(std::ceil(x)); }
-
 /// The nearest integer; halves to the even one.
-inline std::int64_t round(double x) {
+inline double nearest(double x) {
     const double below = std::floor(x);
     const double rest = x - below;
     const bool is_up = rest > 0.5 || (rest == 0.5 && std::fmod(below, 2.0) != 0.0);
-    return saturate(is_up ? below + 1.0 : below);
+    return is_up ? below + 1.0 : below;
+}
+
+inline std::int64_t to_int(double x) { return limit(saturate(x)); }
+inline std::int64_t floor(double x) { return limit(saturate(std::floor(x))); }
+inline std::int64_t ceil(double x) { return limit(saturate(std::ceil(x))); }
+inline std::int64_t round(double x) { return limit(saturate(nearest(x))); }
+
+/// A time, rounded to whole nanoseconds and limited to 64 bits; nan never ends.
+inline Nanoseconds nanoseconds(double x) {
+    return std::isnan(x) ? std::numeric_limits<Nanoseconds>::max() : saturate(nearest(x));
 }
 
 template <class Number>
 constexpr Number abs(Number x) {
-    if constexpr (std::is_floating_point_v<Number>) {
-        return x < 0 || x == 0 ? 0 - x : x;
+    if constexpr (std::is_integral_v<Number>) {
+        return x < 0 ? negate(x) : x;
     } else {
-        return x < 0 ? -x : x;
+        return x < 0 || x == 0 ? 0 - x : x;
     }
 }
 
@@ -184,20 +344,76 @@ inline double asin(double x) { return std::asin(x); }
 inline double acos(double x) { return std::acos(x); }
 inline double atan(double x) { return std::atan(x); }
 inline double atan2(double y, double x) { return std::atan2(y, x); }
-inline double hypot(double x, double y) { return std::sqrt(x * x + y * y); }
+BICA_EXACT inline double hypot(double x, double y) { return std::sqrt(x * x + y * y); }
 constexpr double degrees(double x) { return x * (180.0 / pi); }
 constexpr double radians(double x) { return x * (pi / 180.0); }
 inline bool is_nan(double x) { return std::isnan(x); }
 
-// Teams
+#if defined(BICA_FLOAT)
+inline Real divide(Real a, Real b) { return b == 0.0 ? Real(divide(static_cast<double>(a), static_cast<double>(b))) : a / b; }
+inline Real modulo(Real a, Real b) { return modulo(static_cast<double>(a), static_cast<double>(b)); }
+inline Real floor_divide(Real a, Real b) { return floor_divide(static_cast<double>(a), static_cast<double>(b)); }
+constexpr Real xabsl_divide(Real a, Real b) { return a / (b == 0.0 ? Real(1e-7) : b); }
+inline Real xabsl_remainder(Real a, Real b) { return xabsl_remainder(static_cast<double>(a), static_cast<double>(b)); }
+inline std::int64_t to_int(Real x) { return to_int(static_cast<double>(x)); }
+inline std::int64_t floor(Real x) { return floor(static_cast<double>(x)); }
+inline std::int64_t ceil(Real x) { return ceil(static_cast<double>(x)); }
+inline std::int64_t round(Real x) { return round(static_cast<double>(x)); }
+inline Nanoseconds nanoseconds(Real x) { return nanoseconds(static_cast<double>(x)); }
+constexpr Real abs(Real x) { return x < 0.0 || x == 0.0 ? 0.0 - x : x; }
+constexpr Real min(Real a, Real b) { return b < a ? b : a; }
+template <class... More>
+constexpr Real min(Real a, Real b, Real c, More... more) {
+    return min(min(a, b), c, more...);
+}
+constexpr Real max(Real a, Real b) { return b > a ? b : a; }
+template <class... More>
+constexpr Real max(Real a, Real b, Real c, More... more) {
+    return max(max(a, b), c, more...);
+}
+constexpr Real clamp(Real x, Real low, Real high) { return clamp<Real>(x, low, high); }
+inline Real sqrt(Real x) { return std::sqrt(static_cast<float>(x)); }
+inline Real exp(Real x) { return std::exp(static_cast<float>(x)); }
+inline Real log(Real x) { return x == 0.0 ? -std::numeric_limits<float>::infinity() : std::log(static_cast<float>(x)); }
+inline Real sin(Real x) { return std::sin(static_cast<float>(x)); }
+inline Real cos(Real x) { return std::cos(static_cast<float>(x)); }
+inline Real tan(Real x) { return std::tan(static_cast<float>(x)); }
+inline Real asin(Real x) { return std::asin(static_cast<float>(x)); }
+inline Real acos(Real x) { return std::acos(static_cast<float>(x)); }
+inline Real atan(Real x) { return std::atan(static_cast<float>(x)); }
+inline Real atan2(Real y, Real x) { return std::atan2(static_cast<float>(y), static_cast<float>(x)); }
+BICA_EXACT inline Real hypot(Real x, Real y) { return sqrt(x * x + y * y); }
+constexpr Real degrees(Real x) { return x * (180.0 / pi); }
+constexpr Real radians(Real x) { return x * (pi / 180.0); }
+inline bool is_nan(Real x) { return x != x; }
+#endif
 
 class Component;
+
+// Teams
 
 /// A state that robots of a team enter together, or that a limited number of them may be in.
 struct StateKey {
     const char* component;
     const char* state;
 };
+
+#if defined(BICA_NO_NAMES)
+
+struct NoTeam {};
+
+/// Robots of a team tell each other the names of their states.
+class CooperativeState {
+public:
+    template <class Names = void>
+    CooperativeState(NoTeam, const Component&, StateKey, std::int64_t, bool) {
+        static_assert(!std::is_void_v<Names>, "states with capacity or synchronized need names: compile without BICA_NO_NAMES");
+    }
+    bool may_enter() { return true; }
+    bool is_full() const { return false; }
+};
+
+#else
 
 inline bool operator==(const StateKey& a, const StateKey& b) {
     return std::strcmp(a.component, b.component) == 0 && std::strcmp(a.state, b.state) == 0;
@@ -234,6 +450,8 @@ public:
     CooperativeState(Team& team, const Component& component, StateKey key, std::int64_t number, bool is_capacity);
     CooperativeState(const CooperativeState&) = delete;
     CooperativeState& operator=(const CooperativeState&) = delete;
+    /// Leaves the team, which may outlive the components.
+    ~CooperativeState();
 
     /// Whether this robot may enter the state now; if not, the team is told that it waits, unless it yields.
     bool may_enter();
@@ -247,7 +465,7 @@ private:
     bool can_enter_together();
     void reset();
 
-    Team& team_;
+    Team* team_;
     const Component& component_;
     StateKey key_;
     std::int64_t number_;
@@ -264,9 +482,19 @@ private:
 /// The cooperative states of this robot.
 class Team {
 public:
+    Team() = default;
+    Team(const Team&) = delete;
+    Team& operator=(const Team&) = delete;
+#if defined(BICA_HOST)
+    /// The components may outlive the team. On a controller, both live as long as the program.
+    ~Team();
+#endif
+
     std::int64_t priority = 0;
     /// The number of iterations until the team answers a message.
     std::int64_t ticks = 0;
+    /// The number of robots that are alive, with this one: those whose messages were heard for this iteration.
+    std::int64_t size = 1;
 
     /// Clears the messages of the last iteration; call it before `hear`.
     void prepare();
@@ -284,27 +512,41 @@ private:
     CooperativeState* last_ = nullptr;
 };
 
+#endif
+
 // Components
 
 /// Receives the values of a component, or its parameters.
 class ValueVisitor {
 public:
-    virtual ~ValueVisitor() = default;
     virtual void visit(const char* name, bool value) = 0;
     virtual void visit(const char* name, std::int64_t value) = 0;
     virtual void visit(const char* name, double value) = 0;
     /// An element of an enumeration.
     virtual void visit(const char* name, const char* enumeration, const char* element) = 0;
+#if defined(BICA_FLOAT)
+    void visit(const char* name, Real value) { visit(name, static_cast<double>(value)); }
+#endif
+
+protected:
+    // No object is deleted through a base class: a virtual destructor would need the heap of a controller.
+    ~ValueVisitor() = default;
 };
+
+#if !defined(BICA_NO_NAMES)
 
 /// Watches the steps of all components of a root.
 class Observer {
 public:
-    virtual ~Observer() = default;
     virtual void begin_step(const Component& component, bool is_modulated, bool works) = 0;
     virtual void end_step(const Component& component) = 0;
     virtual void error(const Component& component, const char* what) = 0;
+
+protected:
+    ~Observer() = default;
 };
+
+#endif
 
 /// The top of an activation tree: time, iteration, team, and what observes them.
 class Root {
@@ -332,8 +574,12 @@ public:
     /// Counts an error; without a handler or observer it is printed once per component.
     void report(Component& component, const char* what);
 
+#if defined(BICA_NO_NAMES)
+    static constexpr NoTeam team{};
+#else
     Team team;
     Observer* observer = nullptr;
+#endif
     /// Called with each error, instead of printing it.
     void (*on_error)(const Component& component, const char* what) = nullptr;
 
@@ -343,7 +589,9 @@ private:
     Nanoseconds now_ns_ = 0;
     Nanoseconds lag_ns_ = 0;
     std::int64_t iteration_ = 0;
+#if !defined(BICA_NO_NAMES)
     const Component* modulated_ = nullptr;
+#endif
 };
 
 /// The parameters of a component without any.
@@ -354,8 +602,11 @@ struct NoParameters {};
 /// A component written by hand implements `work`, and overrides `restart` if needed.
 class Component {
 public:
-    Component(Root& root_, const char* name, double frequency_hz = 0.0) : root(root_), name_(name), period_ns_(period(frequency_hz)) {}
-    virtual ~Component() = default;
+#if defined(BICA_NO_NAMES)
+    BICA_DROP_NAME Component(Root& root_, const char*, double frequency_hz = 0.0) : root(root_), period_ns_(period(frequency_hz)) {}
+#else
+    Component(Root& root_, const char* name, double frequency_hz = 0.0) : root(root_), period_ns_(period(frequency_hz)), name_(name) {}
+#endif
     Component(const Component&) = delete;
     Component& operator=(const Component&) = delete;
 
@@ -374,10 +625,14 @@ public:
         end_observed_step();
     }
 
+#if !defined(BICA_NO_NAMES)
     const char* name() const { return name_; }
     virtual const char* state_name() const { return ""; }
     virtual void visit_values(ValueVisitor&) const {}
+    /// The values that the component provides without work; those of a component of the world are read from it.
+    virtual void visit_inputs(ValueVisitor& visitor) const { visit_values(visitor); }
     virtual void visit_parameters(ValueVisitor&) const {}
+#endif
 
     using Parameters = NoParameters;
     void modulate(const NoParameters&) {}
@@ -385,24 +640,28 @@ public:
     /// Works at another frequency from now on; 0 means in each iteration. A generated component must have a frequency.
     void set_frequency(double hertz) { period_ns_ = period(hertz); }
 
-    double state_time() const { return to_float(state_time_ns()) / 1e9; }
-    double component_time() const { return to_float(component_time_ns()) / 1e9; }
+    Real state_time() const { return to_float(state_time_ns()) / 1e9; }
+    Real component_time() const { return to_float(component_time_ns()) / 1e9; }
     Nanoseconds state_time_ns() const { return root.now_ns_ - entered_ns_; }
     Nanoseconds component_time_ns() const { return root.now_ns_ - started_ns_; }
 
     /// Whether the component was in a final state after its last step, in this or the previous iteration.
     bool is_done() const { return in_final_state() && is_recent(); }
     bool was_stepped() const { return stepped_in_ == root.iteration_; }
+#if !defined(BICA_NO_NAMES)
     /// The state that the last step left, for observers; nullptr if it left none.
     const char* left_state() const { return left_; }
     /// The id of the transition that the last step took, for observers; nullptr if it has none.
     const char* transition() const { return transition_; }
+#endif
 
     Root& root;
     /// Number of reported errors.
     std::int64_t errors = 0;
 
 protected:
+    ~Component() = default;
+
     virtual void work() {}
     virtual void restart() {}
     virtual bool in_final_state() const { return false; }
@@ -411,18 +670,38 @@ protected:
     /// Runs one step of a generated component.
     template <class Machine>
     BICA_INLINE static void step_machine(Machine& machine, bool resume) {
+#if !defined(BICA_NO_NAMES)
         if (BICA_UNLIKELY(machine.root.observer != nullptr)) {
             step_observed(machine, resume);
-        } else {
-            run_step(machine, resume);
+            return;
         }
+#endif
+        run_step(machine, resume);
     }
 
+#if !defined(BICA_NO_NAMES)
     template <class Machine>
-    BICA_NO_INLINE static void step_observed(Machine& machine, bool resume) {
+    BICA_EXACT BICA_NO_INLINE static void step_observed(Machine& machine, bool resume) {
         machine.begin_observed_step(resume);
         run_step(machine, resume);
         machine.end_observed_step();
+    }
+#endif
+
+    /// The same for a component with many states: its decisions and actions exist once, observed or not.
+    template <class Machine>
+    BICA_INLINE static void step_large_machine(Machine& machine, bool resume) {
+#if !defined(BICA_NO_NAMES)
+        if (BICA_UNLIKELY(machine.root.observer != nullptr)) {
+            machine.begin_observed_step(resume);
+        }
+#endif
+        run_step(machine, resume);
+#if !defined(BICA_NO_NAMES)
+        if (BICA_UNLIKELY(machine.root.observer != nullptr)) {
+            machine.end_observed_step();
+        }
+#endif
     }
 
     /// Modulates and steps a component.
@@ -444,15 +723,19 @@ protected:
 
     template <class Target>
     void step_modulated(Target& target) {
+#if !defined(BICA_NO_NAMES)
         root.modulated_ = &target;
+#endif
         target.step();
     }
 
     /// Starts the time of the new state; tells observers which one was left.
-    BICA_INLINE void change_state(const char* transition) {
+    BICA_INLINE void change_state([[maybe_unused]] const char* transition) {
+#if !defined(BICA_NO_NAMES)
         if (BICA_UNLIKELY(root.observer != nullptr)) {
             record_change(transition);
         }
+#endif
         entered_ns_ = root.now_ns_;
     }
 
@@ -467,7 +750,7 @@ protected:
     /// Whether the component was inactive before this step, and does not resume.
     bool is_restarting(bool resume) const {
         const std::int64_t missed = root.iteration_ - stepped_in_;
-        return missed > 1 && (!resume || missed > root.iteration_);
+        return missed > 1 && (!resume || stepped_in_ == never_);
     }
 
     /// Remembers that the component is stepped; returns whether it restarts.
@@ -482,21 +765,21 @@ protected:
         worked_ns_ = root.now_ns_ - period_ns_;
     }
 
-    std::int64_t stepped_in_ = -1;
+    // An XabslComponent sets it two iterations back, which may be -1.
+    static constexpr std::int64_t never_ = -2;
+    std::int64_t stepped_in_ = never_;
 
 private:
     friend class Root;
 
+#if !defined(BICA_NO_NAMES)
     BICA_NO_INLINE void record_change(const char* transition) {
         left_ = state_name();
         transition_ = transition;
     }
+#endif
 
-    static Nanoseconds period(double hertz) { return hertz == 0.0 ? 0 : bica::round(1e9 / hertz); }
-
-    bool will_work(bool resume) const {
-        return is_restarting(resume) || root.now_ns_ - worked_ns_ >= period_ns_;
-    }
+    static Nanoseconds period(double hertz) { return hertz == 0.0 ? 0 : nanoseconds(1e9 / hertz); }
 
     BICA_INLINE bool must_work() {
         if (root.now_ns_ - worked_ns_ < period_ns_) {
@@ -526,9 +809,17 @@ private:
 
     /// A separate function, because compilers store both times at once, and then read the time of the root in a slow way.
     template <class Machine>
-    BICA_NO_INLINE static void restart_machine(Machine& machine) {
+    BICA_EXACT BICA_NO_INLINE static void restart_machine(Machine& machine) {
         machine.restart_times();
         machine.start();
+    }
+
+#if defined(BICA_NO_NAMES)
+    void begin_observed_step() {}
+    void end_observed_step() {}
+#else
+    bool will_work(bool resume) const {
+        return is_restarting(resume) || root.now_ns_ - worked_ns_ >= period_ns_;
     }
 
     void begin_observed_step(bool resume = false) {
@@ -545,6 +836,7 @@ private:
             root.observer->end_step(*this);
         }
     }
+#endif
 
     template <class Body>
     BICA_INLINE static void attempt(Component& component, Body body) {
@@ -562,13 +854,15 @@ private:
 #endif
     }
 
-    const char* name_;
-    const char* left_ = nullptr;
-    const char* transition_ = nullptr;
     Nanoseconds period_ns_;
     Nanoseconds started_ns_ = 0;
     Nanoseconds entered_ns_ = 0;
     Nanoseconds worked_ns_ = 0;
+#if !defined(BICA_NO_NAMES)
+    const char* name_;
+    const char* left_ = nullptr;
+    const char* transition_ = nullptr;
+#endif
 };
 
 /// The calls of the last work of a component with a frequency; they are repeated until it works again.
@@ -625,6 +919,8 @@ public:
     using Component::Component;
 
 protected:
+    ~XabslComponent() = default;
+
     /// A component that was inactive in the last iteration is restarted by each step of this one.
     void restart_again() {
         if (stepped_in_ == root.iteration() && restarted_in_ == root.iteration()) {
@@ -643,34 +939,54 @@ private:
 
 inline void Root::report(Component& component, const char* what) {
     ++component.errors;
+#if !defined(BICA_NO_NAMES)
     if (observer != nullptr) {
         observer->error(component, what);
     }
+#endif
     if (on_error != nullptr) {
         on_error(component, what);
     }
 #if defined(BICA_HOST)
     else if (component.errors == 1) {
+#if defined(BICA_NO_NAMES)
+        std::fprintf(stderr, "a component: %s (reported once)\n", what);
+#else
         std::fprintf(stderr, "%s, state '%s': %s (reported once)\n", component.name(), component.state_name(), what);
+#endif
     }
 #endif
 }
 
+#if !defined(BICA_NO_NAMES)
+
 inline CooperativeState::CooperativeState(Team& team, const Component& component, StateKey key, std::int64_t number, bool is_capacity)
-    : team_(team), component_(component), key_(key), number_(number), is_capacity_(is_capacity) {
+    : team_(&team), component_(component), key_(key), number_(number), is_capacity_(is_capacity) {
     (team.last_ != nullptr ? team.last_->next_ : team.first_) = this;
     team.last_ = this;
+}
+
+inline CooperativeState::~CooperativeState() {
+    if (team_ == nullptr) {
+        return;
+    }
+    CooperativeState* before = nullptr;
+    for (CooperativeState* state = team_->first_; state != this; state = state->next_) {
+        before = state;
+    }
+    (before != nullptr ? before->next_ : team_->first_) = next_;
+    team_->last_ = team_->last_ == this ? before : team_->last_;
 }
 
 inline bool CooperativeState::may_enter() { return is_capacity_ ? can_enter_within_capacity() : can_enter_together(); }
 
 inline bool CooperativeState::can_enter_within_capacity() {
     const bool is_contested = executing_ + others_entering_ >= number_;
-    if (is_contested && !is_full() && highest_priority_ == team_.priority) {
+    if (is_contested && !is_full() && highest_priority_ == team_->priority) {
         return false;  // robots with equal priority yield to each other
     }
-    const bool is_free = !is_full() && !(is_contested && highest_priority_ > team_.priority);
-    if (is_free && waiting_iterations_ >= team_.ticks) {
+    const bool is_free = !is_full() && !(is_contested && highest_priority_ > team_->priority);
+    if (is_free && waiting_iterations_ >= team_->ticks) {
         return true;
     }
     is_entering_ = true;
@@ -681,7 +997,7 @@ inline bool CooperativeState::can_enter_together() {
     is_entering_ = true;
     const bool has_enough_robots = in_component_ + 1 >= number_;
     const bool is_team_ready = executing_ + others_entering_ == in_component_;
-    return has_enough_robots && is_team_ready && waiting_iterations_ > team_.ticks / 2;
+    return has_enough_robots && is_team_ready && waiting_iterations_ > team_->ticks / 2;
 }
 
 inline void CooperativeState::reset() {
@@ -690,7 +1006,16 @@ inline void CooperativeState::reset() {
     is_entering_ = false;
 }
 
+#if defined(BICA_HOST)
+inline Team::~Team() {
+    for (CooperativeState* state = first_; state != nullptr; state = state->next_) {
+        state->team_ = nullptr;
+    }
+}
+#endif
+
 inline void Team::prepare() {
+    size = 1;
     for (CooperativeState* state = first_; state != nullptr; state = state->next_) {
         state->reset();
     }
@@ -705,6 +1030,7 @@ inline CooperativeState* Team::find(const StateKey& key) {
 }
 
 inline void Team::hear(const TeamMessage& message) {
+    ++size;
     for (const StateKey& key : message.executed) {
         if (CooperativeState* state = find(key)) {
             ++state->executing_;
@@ -740,6 +1066,8 @@ inline TeamMessage Team::tell() const {
     return message;
 }
 
+#endif
+
 #if defined(BICA_HOST)
 
 /// The monotonic clock of the machine.
@@ -760,6 +1088,8 @@ void run(Root& root, Main& main, Nanoseconds tick_ns, Stopping is_stopping) {
         std::this_thread::sleep_for(std::chrono::nanoseconds(due - passed));
     }
 }
+
+#if !defined(BICA_NO_NAMES)
 
 /// Times of the steps of one component, including those of the components that it steps.
 struct CycleTimes {
@@ -821,11 +1151,15 @@ public:
         std::fputs("{\"vicode-trace\": 1, \"runtime\": \"bica\", \"language\": \"cpp\"}\n", file_);
     }
 
-    /// Also writes the values that a component provides without work, such as shared variables, before each iteration.
+    /// Also writes the values that a component provides without work, such as those of the world, before each iteration.
+    /// `Components::add_inputs_to` adds all of them: a replay needs them.
     void add_input(const Component& component) { inputs_.push_back(&component); }
 
-    /// Writes the iteration that has just ended.
+    /// Writes the iteration that has just ended; nothing before the first one.
     void end_iteration(const Root& root) {
+        if (size_ == 0) {
+            return;
+        }
         std::fprintf(file_, "{\"iteration\": %lld, \"time_ns\": %lld, \"tree\": [", to_long(root.iteration()), to_long(root.now_ns()));
         for (std::size_t index = 0; index < size_; ++index) {
             std::fprintf(file_, "%s%s", index == 0 ? "" : ", ", steps_[index].c_str());
@@ -887,7 +1221,7 @@ private:
         for (const Component* component : inputs_) {
             input_text_.append(input_text_.back() == '{' ? "" : ", ").append(quoted(component->name())).append(": {");
             Values values(input_text_);
-            component->visit_values(values);
+            component->visit_inputs(values);
             input_text_.append("}");
         }
         input_text_.append("}");
@@ -950,4 +1284,7 @@ private:
 
 #endif
 
+#endif
+
+BICA_CLOSE
 }  // namespace bica

@@ -10,18 +10,22 @@
 
 #include "bica.hpp"
 
-namespace conformance {
+#if !defined(BICA_HOST) || defined(BICA_NO_NAMES)
+#error "Traces need names and files: compare without BICA_NO_NAMES and BICA_NO_HOST."
+#endif
+
+namespace bica::conformance {
 
 /// An output with arguments: its base value, and the weighted sum of its arguments.
 template <class Value>
 Value derive(double base, double total, std::int64_t elements) {
-    if constexpr (std::is_same_v<Value, double>) {
+    if constexpr (std::is_same_v<Value, bica::Real>) {
         return base + total;
     } else if constexpr (std::is_same_v<Value, std::int64_t>) {
         return bica::to_int(base + total);
     } else {
         const double size = std::fabs(total);
-        const std::int64_t steps = size < 9223372036854775807.0 ? bica::floor(size) : 0;
+        const std::int64_t steps = size < 9007199254740992.0 ? bica::floor(size) : 0;
         if constexpr (std::is_same_v<Value, bool>) {
             return (base != 0.0) != (steps % 2 == 1);
         } else {
@@ -73,12 +77,10 @@ inline void run(Robot* (*make)(), std::FILE* input, const std::vector<std::FILE*
         const std::vector<bica::TeamMessage> received = sent;
         for (std::size_t index = 0; index < robots.size(); ++index) {
             Robot& robot = *robots[index];
-            if (robots.size() > 1) {
-                robot.root.team.prepare();
-                for (std::size_t sender = 0; sender < received.size(); ++sender) {
-                    if (sender != index) {
-                        robot.root.team.hear(received[sender]);
-                    }
+            robot.root.team.prepare();
+            for (std::size_t sender = 0; sender < received.size(); ++sender) {
+                if (sender != index) {
+                    robot.root.team.hear(received[sender]);
                 }
             }
             robot.step(time_ns);
@@ -88,4 +90,4 @@ inline void run(Robot* (*make)(), std::FILE* input, const std::vector<std::FILE*
     }
 }
 
-}  // namespace conformance
+}  // namespace bica::conformance

@@ -58,6 +58,16 @@ class Lamp(Component):
             self._change_to("Dark")
 
 
+class Field:
+    """A world that counts how often it was held."""
+
+    def __init__(self) -> None:
+        self.holds = 0
+
+    def hold(self) -> None:
+        self.holds += 1
+
+
 class Viewer:
     """A connection; `get` steps the robot until a line arrives that fits."""
 
@@ -114,7 +124,7 @@ def advance(root: Root) -> None:
 
 
 def make_root() -> Root:
-    return Root(Lamp, clock=SimulatedClock())
+    return Root(Lamp, clock=SimulatedClock(), world=Field())
 
 
 @pytest.fixture

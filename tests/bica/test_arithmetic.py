@@ -79,7 +79,7 @@ def test_division_by_zero_is_that_of_ieee(a: float, b: float, quotient: float) -
     assert math.isnan(arithmetic.modulo(a, b))
 
 
-@given(x=st.floats(allow_nan=False, allow_infinity=False, min_value=-(2.0**62), max_value=2.0**62))
+@given(x=st.floats(allow_nan=False, allow_infinity=False, min_value=-(2.0**53), max_value=2.0**53))
 def test_rounding_is_that_of_python(x: float) -> None:
     assert arithmetic.to_int(x) == int(x)
     assert arithmetic.floor(x) == math.floor(x)
@@ -88,11 +88,17 @@ def test_rounding_is_that_of_python(x: float) -> None:
 
 
 @pytest.mark.parametrize("name", ["to_int", "floor", "ceil", "round_half_even"])
-def test_rounding_saturates(name: str) -> None:
+def test_rounding_is_limited(name: str) -> None:
     rounding = getattr(arithmetic, name)
     assert rounding(math.nan) == 0
-    assert rounding(math.inf) == rounding(1e300) == rounding(2.0**63) == 2**63 - 1
-    assert rounding(-math.inf) == rounding(-1e300) == rounding(-(2.0**63)) == -(2**63)
+    assert rounding(math.inf) == rounding(1e300) == rounding(2.0**63) == rounding(2.0**53 + 2) == 2**53
+    assert rounding(-math.inf) == rounding(-1e300) == rounding(-(2.0**63)) == -(2**53)
+
+
+@given(x=st.integers(-(2**70), 2**70))
+def test_ints_are_limited(x: int) -> None:
+    assert arithmetic.limit(x) == sorted((-(2**53), x, 2**53))[1]
+    assert arithmetic.saturate(x) == sorted((-(2**63), x, 2**63 - 1))[1]
 
 
 @given(a=NUMBERS, b=NUMBERS, c=NUMBERS)

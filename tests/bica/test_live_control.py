@@ -2,6 +2,7 @@
 
 import sys
 import time
+from itertools import pairwise
 from types import ModuleType
 from typing import Any
 
@@ -93,7 +94,7 @@ def test_frequencies_change_at_run_time(root: Root, control: Viewer) -> None:
     assert eyes._worked_ns == worked + 100_000_000
 
 
-def test_a_breakpoint_pauses_and_steps_go_on(root: Root) -> None:
+def test_a_breakpoint_pauses_and_steps_go_on(root: Root, capsys: pytest.CaptureFixture[str]) -> None:
     viewer = Viewer(root.watch(control=True), root)
     viewer.get(is_iteration)
     viewer.ask(do="break", places=[["Lamp", "Lit"]])
@@ -110,6 +111,21 @@ def test_a_breakpoint_pauses_and_steps_go_on(root: Root) -> None:
         assert root.main._stepped_in == iteration + 1
         viewer.send({"id": 2, "robot": "Lamp", "do": "break", "places": []}, {"id": 3, "robot": "Lamp", "do": "resume"})
         assert viewer.get(lambda line: is_iteration(line) and not line["paused"])
+    lines = [line.removeprefix("control: Lamp: ") for line in capsys.readouterr().err.splitlines()[1:]]
+    expected = ["breakpoints: Lamp Lit", "paused at the breakpoint Lamp Lit", "runs 1 iteration"]
+    assert lines == [*expected, "breakpoints: none", "resumed"]
+
+
+@pytest.mark.parametrize(
+    ("places", "words"),
+    [
+        ([["", "error"]], "errors"),
+        ([["Lamp", "", "Lit", None], ["Lamp", "Lit", "Dark", "an\x1bid"]], "Lamp any state → Lit, Lamp Lit → Dark"),
+        ([["Lamp", "Lit"]] * 12, f"{', '.join(['Lamp Lit'] * 10)} and 2 more"),
+    ],
+)
+def test_breakpoints_are_logged_in_words(control: Viewer, places: list[list[Any]], words: str) -> None:
+    assert control.ask(do="break", places=places)["done"] == f"breakpoints: {words}"
 
 
 @pytest.mark.parametrize("source", ["Lit", ""])
@@ -133,6 +149,21 @@ def test_a_pause_ends_with_the_viewer(root: Root) -> None:
         viewer.send({"id": 1, "robot": "Lamp", "do": "pause"})
         viewer.get(lambda line: line.get("paused"))
         viewer.socket.close()
+
+
+def test_missed_iterations_are_those_between_two_lines(root: Root) -> None:
+    viewer = Viewer(root.watch(control=True), root)
+    lines = [viewer.get(is_iteration)]
+    viewer.root = None
+    with Background(root):
+        viewer.send({"robot": "Lamp", "do": "pause"})
+        for _step in range(10):
+            before = lines[-1]["iteration"]
+            while not (lines[-1]["paused"] and lines[-1]["iteration"] > before):
+                lines.append(viewer.get(is_iteration))
+            viewer.send({"robot": "Lamp", "do": "step"})
+    for before, after in pairwise(lines):
+        assert after["missed"] == max(0, after["iteration"] - before["iteration"] - 1)
 
 
 def test_an_iteration_handles_a_limited_number_of_requests(root: Root, control: Viewer) -> None:

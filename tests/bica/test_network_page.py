@@ -17,5 +17,5 @@ def test_configurations_are_valid(text: str) -> None:
 
 
 def test_the_profile_is_valid() -> None:
-    (text,) = re.findall(r"```yaml\n(.*?)```", PAGE, re.DOTALL)
+    text = re.findall(r"```yaml\n(.*?)```", PAGE, re.DOTALL)[0]
     assert read_project_file(text).findings == ()

@@ -6,7 +6,7 @@ import json
 from types import SimpleNamespace
 
 from tests.bica.sample_player import Player
-from vicode.bica import Component, ErrorRecord, IterationRecord, Observer, Root, SimulatedClock
+from vicode.bica import Component, ErrorRecord, IterationRecord, Observer, Root, SimulatedClock, State
 
 
 class Run:
@@ -86,6 +86,46 @@ def test_values_are_the_designs_own() -> None:
     tree = Run(values=True).step()["tree"]
     assert tree[0]["values"] == {"side": "Side.left", "kicks": 0, "tries": 1}
     assert tree[1]["values"] == {"ball_seen": False, "ball_distance": 1000.0, "fallen": False}
+
+
+class Sensor(Component):
+    near = 1.5
+
+    @property
+    def far(self) -> float:
+        return 20.0
+
+    @property
+    def broken(self) -> float:
+        raise OSError
+
+    def ask(self) -> float:
+        return 0.0
+
+
+class Slots(Sensor):
+    __slots__ = ("middle",)
+
+    def __init__(self, root: Root) -> None:
+        super().__init__(root)
+        self.middle = 3
+        self.own = True
+
+
+class Asker(Component):
+    def __init__(self, root: Root) -> None:
+        super().__init__(root)
+        self.slots = root.component(Slots)
+        self._set_states(State("On", lambda _decide=True: None, requires=(self.slots,)))
+
+
+def test_no_value_of_a_step_is_hidden_wherever_it_is_defined() -> None:
+    observer = Observer(values=True)
+    Root(Asker, clock=SimulatedClock(), observer=observer).step()
+    [record] = observer.records
+    expected = {"near": 1.5, "far": 20.0, "middle": 3, "own": True}
+    assert record["inputs"] == {"Slots": expected}
+    assert [step["values"] for step in record["tree"]] == [{}, expected]
 
 
 def test_records_are_json_even_with_infinities() -> None:

@@ -45,9 +45,6 @@ class Rig:
     def read(self):
         return self.newest + 1
 
-    def update(self, message):
-        self.level = message
-
     def act(self):
         self.acted += 1
 
@@ -55,8 +52,17 @@ class Rig:
         Path("closed").write_text(str(self.acted))
 
 
-def connect():
-    yield from range(10)
+class ServerRig(Rig):
+    cycle = 0
+
+    def next_cycle(self):
+        self.act()
+        self.cycle += 1
+        self.level += 1
+        return 1
+
+    def now_ns(self):
+        return self.cycle * 100_000_000
 
 
 class Sensor(Component):

@@ -127,7 +127,7 @@ def test_a_signal_ends_the_run_after_the_iteration(folder: Path, number: signal.
 
 def test_a_signal_ends_a_run_that_a_viewer_has_paused(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("VICODE_WATCH", f"unix:{folder / 'live'}")
-    monkeypatch.setenv("VICODE_WATCH_CONTROL", "1")
+    monkeypatch.setenv("VICODE_WATCH_CONTROL", "without-hold")
     process = start(folder, "--stream", "--real-time", "--path", "run")
     assert process.stdout is not None
     process.stdout.readline()
@@ -143,6 +143,23 @@ def test_a_signal_ends_a_run_that_a_viewer_has_paused(folder: Path, monkeypatch:
             process.kill()
     assert process.returncode == 128 + signal.SIGTERM, err
     assert (read_summary(out)["stopped"], read_summary(out)["world"]) == ("interrupted", CLOSED)
+
+
+def test_viewers_see_the_name_in_the_environment(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("VICODE_ROBOT", "r1")
+    process = start(folder, "--stream", "--real-time", "--path", "run", "--watch", f"unix:{folder / 'live'}")
+    try:
+        assert process.stdout is not None
+        process.stdout.readline()
+        with socket.socket(socket.AF_UNIX) as viewer:
+            viewer.connect(str(folder / "live"))
+            viewer.sendall(b"{}\n")
+            with viewer.makefile() as lines:
+                description = json.loads(lines.readline())
+    finally:
+        process.terminate()
+        process.communicate(timeout=30)
+    assert [robot["name"] for robot in description["robots"]] == ["r1"]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -188,7 +205,7 @@ def test_a_failing_start_closes_what_was_created(folder: Path) -> None:
 def test_a_full_disk_ends_the_trace_and_not_the_run(folder: Path) -> None:
     process = start(folder, "--stream", "--ticks", "300", "--trace", "/dev/full", "--path", "limit")
     out, err = process.communicate(timeout=60)
-    assert process.returncode == 1
+    assert process.returncode == 3
     assert err == "error: cannot write the trace /dev/full: No space left on device; the run continues without it\n"
     assert (read_summary(out)["iterations"], read_summary(out)["world"]) == (300, CLOSED)
 

@@ -47,6 +47,18 @@ def test_a_robot_that_is_killed_leaves_room(
     assert not root.network.robots["r1"].is_connected
 
 
+def test_the_size_of_the_team_is_that_of_the_robots_that_are_alive(
+    make_root: MakeRoot, start_robot: Callable[..., "subprocess.Popen[str]"]
+) -> None:
+    process = start_robot("r1", "Blocker")
+    roots = [make_root(Blocker, name, team="blue") for name in ("r2", "r3")]
+    other = make_root(Blocker, "r4", team="red")
+    step_until(lambda: [root.team.size for root in roots] == [3, 3], *roots, other)
+    process.kill()
+    step_until(lambda: [root.team.size for root in roots] == [2, 2], *roots, other)
+    assert other.team.size == 1
+
+
 def test_other_teams_do_not_count(make_root: MakeRoot) -> None:
     blue, red = make_root(Blocker, "r1", team="blue"), make_root(Blocker, "r2", team="red")
     step_until(lambda: all(blocking(blue, red)), blue, red)

@@ -9,6 +9,8 @@ SESSIONS = (
     b'{"hello": {"robot": "r2", "pace": "client", "team": "a", "priority": 3}}\n{"AHEAD": 5, "tick": 0}\n',
     b'{"hello": {"pace": "client"}, "LASER": [1, 2.5]}\n{"time": 0.04, "INS": [1, 2], "tick": 0.05}\n{"tick": 1}\n',
     b'{"hello": {"robot": "r1"}}\n{"AHEAD": [0.5], "time": 12.5, "WHISTLE": true, "MODE": "slow"}\n{"BUTTON": 1}\n',
+    b"TEAM:red,3\nPACE:message\nACK:0\nTIME:12.5\nAHEAD:5\nACK:1\nTIME:12.55\nAHEAD:0.5\nACK:2\n",
+    b'{"hello": {"pace": "message", "wait": false}, "ack": 0}\n{"AHEAD": 5, "ack": 0.0}\n{"ack": 0.05, "AHEAD": 1}\n',
 )
 FRAGMENTS = (
     *(b"\n", b"\r\n", b":", b",", b"{", b"}", b"[", b'"', b"\\", b"\0", b"\xff", b"\xc3\xa9", b" ", b"-", b"."),

@@ -1,9 +1,11 @@
 """Behaviors and a world for the tests of the bridge, and a client in this process without a network."""
 
 import asyncio
+import contextlib
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import wraps
 from typing import Any
 
 from vicode.bica import Component, Root, State
@@ -16,6 +18,9 @@ TICK_NS = 50_000_000
 
 
 class SampleWorld(World):
+    """Without a watchdog, as tests of a server take time on a slow machine."""
+
+    max_age = None
     published = ("speed_wish",)
     range_ahead = Sensor("AHEAD", float, initial=9.0)
     pose = Sensor("INS", float, fields=("x", "y", "yaw"), range=(-1000, 1000))
@@ -29,6 +34,12 @@ class SampleWorld(World):
     @property
     def speed_wish(self) -> float:
         return float(self.range_ahead) / 10
+
+
+class WatchedWorld(SampleWorld):
+    """The watchdog stops the robot; a test with this world must set the time itself."""
+
+    max_age = World.max_age
 
 
 class AgingWorld(SampleWorld):
@@ -92,8 +103,10 @@ def make_catalog(default: str = "follow") -> DesignCatalog:
     return DesignCatalog(classes={key: f"{__name__}:{name}" for key, name in names.items()}, default=default)
 
 
-def make_server(options: BridgeOptions | None = None, default: str = "follow") -> BridgeServer:
-    return BridgeServer(make_catalog(default), SampleWorld, options or BridgeOptions(port=0, tick_ns=TICK_NS))
+def make_server(
+    options: BridgeOptions | None = None, default: str = "follow", world: type[World] = SampleWorld
+) -> BridgeServer:
+    return BridgeServer(make_catalog(default), world, options or BridgeOptions(port=0, tick_ns=TICK_NS))
 
 
 class RecordingTransport(asyncio.Transport):
@@ -173,3 +186,24 @@ class Client:
 
 def commands(lines: Sequence[str]) -> list[str]:
     return [line for line in lines if not line.startswith(("ERROR", "Robot"))]
+
+
+def in_event_loop(test: Callable[[], object]) -> Callable[[], None]:
+    """Run a test inside an event loop, which connections need to give way and to close."""
+
+    @wraps(test)
+    def run() -> None:
+        async def call() -> None:
+            test()
+
+        asyncio.run(call())
+
+    return run
+
+
+def tick(server: BridgeServer, number: int = 1) -> None:
+    """Tick all robots as the clock does; where it gives way to connections, which a slow machine makes it do, go on."""
+    ticking = server.tick_all(number * TICK_NS)
+    with contextlib.suppress(StopIteration):
+        while True:
+            ticking.send(None)

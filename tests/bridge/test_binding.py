@@ -1,7 +1,7 @@
 """Binding: what the world lacks is listed at once, and sensors get the types of the project."""
 
 from vicode.bridge import Command, Event, Sensor, World
-from vicode.bridge.binding import DeclaredType, Requirement, apply_types, find_missing, find_reserved_targets
+from vicode.bridge.binding import DeclaredType, Requirement, apply_types, find_declaration_problems, find_missing
 from vicode.bridge.frames import FrameError
 
 
@@ -52,13 +52,13 @@ def test_targets_of_the_protocol_and_repeated_ones() -> None:
         error = Command("ERROR")
         laser = Command("LASER")
 
-    assert find_reserved_targets(Wrong) == [
+    assert find_declaration_problems(Wrong) == [
         "target tick is reserved for the protocol",
         "target ROBOT is reserved for the protocol",
         "target ERROR is reserved for the protocol",
         "target LASER is declared twice",
     ]
-    assert find_reserved_targets(Half) == []
+    assert find_declaration_problems(Half) == []
 
 
 def test_sensors_get_the_types_of_the_project() -> None:

@@ -1,5 +1,6 @@
 """The programs of docs/bridge.md connect to the command and drive a circle; its world fits the page."""
 
+import os
 import re
 import shutil
 import signal
@@ -64,7 +65,7 @@ def test_the_client_in_python_and_the_end_of_the_command(bridge: tuple["subproce
     assert (process.returncode, errors) == (128 + signal.SIGTERM, "")
     assert re.search(r"r1: connected from 127\.0\.0\.1:\d+\n.* r1: runs drive_circle\n.* r1: disconnected", output)
     assert "commands sent" in output
-    assert "age of the data acted on: median" in output
+    assert "age of the data: median" in output
 
 
 def test_the_world_of_the_page() -> None:
@@ -87,3 +88,19 @@ def test_all_options_are_described(capsys: pytest.CaptureFixture[str]) -> None:
     described = PAGE[PAGE.index("## Options") : PAGE.index("## Protocol")]
     assert len(options) > 10
     assert options <= set(re.findall(r"--[a-z-]+", described))
+
+
+def test_the_tests_of_the_page(tmp_path: Path) -> None:
+    (tmp_path / "test_world.py").write_text(example("python", 2), encoding="utf-8")
+    path = os.pathsep.join((str(ROOT / "designs" / "rescue"), str(ROOT / "generated" / "python"), str(ROOT)))
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test_world.py"]
+    result = subprocess.run(
+        command,
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+    )
+    assert "3 passed" in result.stdout, result.stdout

@@ -41,7 +41,7 @@ async def attack(seeds: range) -> None:
         for number, seed in enumerate(seeds):
             await send_stream(server, Random(seed))
             if number % 20 == 0:
-                good.send(f"AHEAD:{5 + number % 9}\n".encode())
+                good.send(f"ACK:{number // 20}\nAHEAD:{5 + number % 9}\n".encode())
                 await server.tick_all(number * TICK_NS)
                 assert commands(good.lines()) == [f"DRIVE:{(5 + number % 9) / 10:g},0"]
             if number == _WARM_UP:

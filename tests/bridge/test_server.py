@@ -2,15 +2,14 @@
 
 import asyncio
 import json
-import shutil
 import ssl
-import subprocess
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
 from pathlib import Path
 
 import pytest
 
+from tests.bridge.certificates import make_certificate
 from tests.bridge.sample_robots import make_server
 from vicode.bridge.behaviors import DesignCatalog
 from vicode.bridge.server import BridgeOptions, BridgeServer, ListenError
@@ -120,27 +119,13 @@ def test_clients_that_misbehave_do_not_disturb_a_robot() -> None:
 
 
 def test_tls(tmp_path: Path) -> None:
-    if shutil.which("openssl") is None:
+    certificate = make_certificate(tmp_path)
+    if certificate is None:
         return  # nothing here can make a certificate
-    certificate, key = tmp_path / "cert.pem", tmp_path / "key.pem"
-    command = [
-        "openssl",
-        "req",
-        "-x509",
-        "-newkey",
-        "ec",
-        "-pkeyopt",
-        "ec_paramgen_curve:P-256",
-        "-nodes",
-        "-days",
-        "2",
-    ]
-    command += ["-subj", "/CN=localhost", "-addext", "subjectAltName=IP:127.0.0.1"]
-    subprocess.run([*command, "-keyout", str(key), "-out", str(certificate)], check=True, capture_output=True)
 
     async def talk() -> None:
         context = ssl.create_default_context(ssl.Purpose.CLIENT_AUTH)
-        context.load_cert_chain(certificate, key)
+        context.load_cert_chain(certificate)
         server = make_server(BridgeOptions(port=0, tick_ns=5_000_000, tls=context))
         async with running(server) as network:
             trusting = ssl.create_default_context(cafile=str(certificate))

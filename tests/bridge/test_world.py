@@ -1,16 +1,18 @@
 """A world: typed values of sensors, their age, events in order, commands on change."""
 
 import math
+import re
 import subprocess
 import sys
 from typing import Any
 
 import pytest
 
-from tests.bridge.sample_robots import AgingWorld, SampleWorld
+from tests.bridge.sample_robots import AgingWorld, SampleWorld, WatchedWorld
 from vicode.bridge import Command, Event, Sensor, World, cached_per_tick
 from vicode.bridge.frames import FrameError
 from vicode.bridge.parameters import ParameterTypes
+from vicode.bridge.readings import MAX_KEPT
 
 MS = 1_000_000
 
@@ -29,7 +31,7 @@ def tick(world: World, now_ms: float = 0) -> None:
 
 
 def end_tick(world: World) -> dict[str, tuple[Any, ...]]:
-    world.bridge.commands.end_tick(world.bridge.time_ns)
+    world.bridge.end_tick()
     return world.bridge.commands.take()
 
 
@@ -228,3 +230,161 @@ def test_worlds_need_the_standard_library_only() -> None:
     listed = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
     assert listed
     assert all(name.startswith("vicode.bridge") for name in listed)
+
+
+class FoldingWorld(World):
+    encoder = Sensor("ENC", int, fields=("left", "right"), fold="sum")
+    nearest = Sensor("NEAR", float, fold="minimum")
+    fastest = Sensor("FAST", float, fold="maximum", initial=-1.0)
+    marks = Sensor("MARK", str, fold="all")
+    bumper = Event("BUMP", fold="all")
+    key = Event("KEY", int, fold="all")
+
+
+def test_a_sensor_is_folded_between_ticks_as_declared() -> None:
+    world = FoldingWorld()
+    tick(world)
+    assert (world.encoder, world.nearest, world.fastest, world.marks, world.bumper, world.key) == (
+        *((0, 0), 0.0, -1.0),
+        *((), 0, ()),
+    )
+    for number in range(1, 11):
+        receive(world, "ENC", f"1,{number}".encode(), number)
+        for target in ("NEAR", "FAST"):
+            receive(world, target, [abs(number - 5)], number)
+        receive(world, "MARK", [f"m{number}"], number)
+        receive(world, "BUMP", b"", number)
+        receive(world, "KEY", [number], number)
+    tick(world, 20)
+    assert (world.encoder.left, world.encoder.right, world.nearest, world.fastest) == (10, 55, 0.0, 5.0)
+    assert world.marks == tuple(f"m{number}" for number in range(1, 11))
+    assert (world.bumper, world.key) == (10, tuple(range(1, 11)))
+    assert (world.encoder_age, world.bridge.counts.dropped, world.bridge.counts.events_dropped) == (0.01, 0, 0)
+    tick(world, 70)
+    assert (world.encoder, world.nearest, world.fastest) == ((0, 0), 0.0, 5.0)
+    assert (world.marks, world.bumper, world.key) == ((), 0, ())
+
+
+def test_no_increment_is_lost_whatever_the_ticks() -> None:
+    world = FoldingWorld()
+    total = 0
+    for number in range(1_000):
+        receive(world, "ENC", b"1,0", number)
+        if number % 7 == 0 or number == 999:
+            tick(world, number)
+            total += world.encoder.left
+    assert total == 1_000
+
+
+def test_a_malformed_value_is_no_part_of_a_fold() -> None:
+    world = FoldingWorld()
+    for raw in (b"1,2", b"1", b"x,1", b"3,4"):
+        receive(world, "ENC", raw)
+    tick(world)
+    assert world.encoder == (4, 6)
+    assert world.bridge.take_problems() == [
+        "ENC: found 1 parameters, expected 2",
+        "ENC: left is 'x', expected an integer",
+    ]
+
+
+def test_drops_are_reported_once_per_second_with_their_number() -> None:
+    world = FoldingWorld()
+    for _number in range(MAX_KEPT + 5):
+        receive(world, "MARK", ["m"])
+        receive(world, "KEY", [1])
+    tick(world)
+    assert (len(world.marks), len(world.key), world.bridge.counts.events_dropped) == (MAX_KEPT, MAX_KEPT, 10)
+    assert world.bridge.take_notices() == [
+        f"MARK: a value was dropped; {MAX_KEPT} are kept for a tick (5 times)",
+        f"KEY: an event was dropped; {MAX_KEPT} are kept for a tick (5 times)",
+    ]
+    other = SampleWorld()
+    reports = []
+    for now_ms in range(0, 2_000, 50):
+        for _event in range(10):
+            receive(other, "BUTTON", [1], now_ms)
+        tick(other, now_ms)
+        reports += other.bridge.take_notices()
+    # Nine of ten events of a tick wait; from the eighth tick on, there is no room for them.
+    assert [re.sub(r":.*; .* \(", " (", each) for each in reports] == ["BUTTON (9 times)", "BUTTON (180 times)"]
+    assert reports[0].startswith("BUTTON: an event was dropped: a tick reads one per target, and 64 wait; send fewer")
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"fold": "newest one"}, "X: fold is 'newest one', expected one of: newest, sum, minimum, maximum, all"),
+        ({"fold": "sum", "length": (1, 2)}, "X: fold sum needs a fixed number of parameters"),
+    ],
+)
+def test_a_fold_that_is_refused(keys: dict[str, Any], message: str) -> None:
+    with pytest.raises(TypeError, match=message):
+        Sensor("X", float, **keys)
+    with pytest.raises(TypeError, match="X: fold maximum needs numbers, the value is of type str"):
+        Sensor("X", str, fold="maximum")
+    with pytest.raises(TypeError, match="X: fold is 'sum'; an event has fold=\"all\" or none"):
+        Event("X", fold="sum")  # type: ignore[arg-type]
+
+
+def drive(world: SampleWorld, speed: float | None) -> dict[str, tuple[Any, ...]]:
+    """Drive in this tick, and return the commands to send."""
+    if speed is not None:
+        world.drive(speed)
+    world.bridge.end_tick()
+    return world.bridge.commands.take()
+
+
+def test_a_robot_that_falls_silent_is_stopped() -> None:
+    world = WatchedWorld()
+    sent = []
+    for number in range(50):
+        if number < 10 or number >= 45:
+            receive(world, "AHEAD", b"5", number * 50)
+        tick(world, number * 50)
+        sent.append((number, world.at_rest, drive(world, 0.5)))
+    assert [(number, commands) for number, _rests, commands in sent if commands] == [
+        (0, {"DRIVE": (0.5, 0)}),
+        (30, {"DRIVE": (0, 0)}),
+        (45, {"DRIVE": (0.5, 0)}),
+    ]
+    assert [number for number, rests, _commands in sent if rests] == list(range(30, 45))
+    assert world.bridge.take_notices() == ["commands are at rest: nothing has arrived for 1 s"]
+    assert world.bridge.counts.rests == 1
+
+
+def test_what_a_behavior_stopped_calling_is_stopped_too() -> None:
+    world = WatchedWorld()
+    receive(world, "AHEAD", b"5")
+    tick(world)
+    assert drive(world, 0.5) == {"DRIVE": (0.5, 0)}
+    tick(world, 50)
+    assert drive(world, None) == {}
+    tick(world, 2_000)
+    # A lamp has nothing to stop, and goes on.
+    world.lamp(3)
+    assert drive(world, None) == {"LAMP": (3,), "DRIVE": (0, 0)}
+
+
+def test_a_lost_sensor_stops_a_robot_that_sends_others() -> None:
+    world = AgingWorld()
+    receive(world, "AHEAD", b"5")
+    rests = []
+    for now_ms in range(0, 1_000, 50):
+        receive(world, "INS", b"1,2,3", now_ms)
+        tick(world, now_ms)
+        rests.append((now_ms, drive(world, 0.5)))
+    assert [each for each in rests if each[1]] == [(0, {"DRIVE": (0.5, 0)}), (550, {"DRIVE": (0, 0)})]
+    assert world.bridge.take_notices() == ["commands are at rest: AHEAD is older than 0.5 s"]
+
+
+def test_the_watchdog_can_be_off() -> None:
+    class Trusting(SampleWorld):
+        range_ahead = Sensor("AHEAD", float, max_age=0.5, watchdog=False)
+
+    for world, target in ((Trusting(), "AHEAD"), (AgingWorld(), "INS")):
+        # Of a sensor that was never sent, nobody knows whether the robot has it.
+        receive(world, target, b"1" if target == "AHEAD" else b"1,2,3")
+        tick(world, 60_000)
+        assert (world.at_rest, world.input_age, world.range_ahead_is_stale) == (False, 60.0, True)
+        assert drive(world, 0.5) == {"DRIVE": (0.5, 0)}

@@ -16,13 +16,13 @@ from tests.strategies.commented_behaviors import commented_behaviors
 from tests.strategies.project_edits import Edited, random_edit
 from tests.xabsl.xabsl_cases import CASES, PROGRAMS, load_texts
 from vicode.check import check_project
-from vicode.cli.behavior_update import UpdateProblem, generated_version, update_behavior
+from vicode.cli.behavior_update import EditedProject, UpdateProblem, generated_version, update_behavior
 from vicode.findings import Severity
 from vicode.model.project import Project
 from vicode.xabsl import tree
 from vicode.xabsl.patching.program_patch import ProgramVersion, patch_program
 from vicode.xabsl.patching.source_edits import SourceEdits
-from vicode.xabsl.source_loader import ProgramSource, decode_text, encode_text, load_source
+from vicode.xabsl.source_loader import ProgramSource, load_source
 
 ROOT = Path("/behavior")
 
@@ -35,7 +35,8 @@ def update(
     def read(path: Path) -> str:
         return texts[path.relative_to(ROOT).as_posix()]
 
-    changed, problems = update_behavior(load_texts(dict(texts)), project, folders or {}, read)
+    paths = {name: f"{folder}/{name}.yaml" for name, folder in (folders or {}).items()}
+    changed, problems = update_behavior(load_texts(dict(texts)), EditedProject(project=project, paths=paths), read)
     return {path.relative_to(ROOT).as_posix(): text for path, text in changed.items()}, problems
 
 
@@ -68,7 +69,7 @@ def assert_unchanged(source: ProgramSource) -> None:
     imported_project, compiled = import_checked(source)
     version = generated_version(imported_project.project, {})
     assert patch_program(ProgramVersion(source, compiled), version, version) == {}
-    assert update_behavior(source, imported_project.project, {}, lambda _path: "") == ({}, ())
+    assert update_behavior(source, EditedProject(project=imported_project.project), lambda _path: "") == ({}, ())
 
 
 @pytest.mark.parametrize("name", PROGRAMS)
@@ -152,8 +153,3 @@ def test_random_edits_of_recorded_programs(name: str) -> None:
         edited = draw_edit(chance, project)
         if edited is not None and edited.state:
             assert_only_the_state_changed(texts, updated(texts, edited.project), edited)
-
-
-@given(st.binary())
-def test_encoding_a_decoded_text_gives_the_same_bytes(data: bytes) -> None:
-    assert encode_text(decode_text(data), data) == data

@@ -79,11 +79,11 @@ def test_what_is_no_file_is_not_read(lamps: Path, capsys: pytest.CaptureFixture[
 def test_of_a_long_file_no_more_is_read_than_one_would_read(tmp_path: Path) -> None:
     long = tmp_path / "long.yaml"
     long.write_text("a\n" * (_MAX_BYTES // 2) + "never shown\n")
-    lines = _read_lines(str(long))
+    lines = _read_lines(str(long), encoding="")
     assert lines[0] == "a"
     assert "never shown" not in lines
     os.mkfifo(tmp_path / "pipe")
-    assert _read_lines(str(tmp_path / "pipe")) == ()
+    assert _read_lines(str(tmp_path / "pipe"), encoding="") == ()
 
 
 @pytest.mark.parametrize("command", ["check", "gen", "edit"])

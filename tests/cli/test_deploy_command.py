@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -154,20 +155,38 @@ def test_pipes_loops_and_earlier_deployments_are_not_copied(rig: Path, tmp_path:
 
 
 @pytest.mark.parametrize(
-    ("target", "folder", "program"),
+    ("target", "folder"),
     [
-        ("nao@robot:player", "%h/player", "%h/player/run"),
-        ("nao@robot:~/my player", "%h/my player", '"%h/my player/run"'),
-        ("nao@robot:/opt/50%/$x", "/opt/50%%/$x", "/opt/50%%/$$x/run"),
+        ("nao@robot:player", "%h/player"),
+        ("nao@robot:~/my player", "%h/my player"),
+        ("nao@robot:/opt/50%/$x", "/opt/50%%/$x"),
     ],
 )
-def test_the_unit_names_the_folder_as_systemd_reads_it(
-    rig: Path, tmp_path: Path, target: str, folder: str, program: str
-) -> None:
+def test_the_unit_names_the_folder_as_systemd_reads_it(rig: Path, tmp_path: Path, target: str, folder: str) -> None:
     args = argparse.Namespace(to=target, python="python3", arguments="")
     build_program(load_projects(["lamps/lamp.yaml"])[0], "Lamp", tmp_path / "built", args)
     unit = (tmp_path / "built/lamps.service").read_text()
-    assert f"\nWorkingDirectory={folder}\nExecStart={program}\n" in unit
+    assert f"\nWorkingDirectory={folder}\n" in unit
+    assert "\nExecStart=/bin/sh run\n" in unit
+
+
+@pytest.mark.parametrize("name", ["my robot", "50%", "$x", "it's", 'a "b"', "back\\slash", "ü"])
+def test_systemd_accepts_the_unit(rig: Path, tmp_path: Path, name: str) -> None:
+    program = shutil.which("systemd-analyze")
+    if program is None:
+        return  # nothing to read it with
+    assert vicode("deploy", "lamps/lamp.yaml", "--to", f"{tmp_path}/{name}") == 0
+    command = [program, "--user", "verify", f"{tmp_path}/{name}/lamps.service"]
+    environment = {**os.environ, "XDG_RUNTIME_DIR": str(tmp_path)}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment, timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_stopped_service_has_not_failed(rig: Path, tmp_path: Path) -> None:
+    """The exit code after SIGTERM is one that the unit names."""
+    assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot", "--python", sys.executable) == 0
+    unit = (tmp_path / "robot/lamps.service").read_text()
+    assert f"\nSuccessExitStatus={128 + signal.SIGTERM}\n" in unit
 
 
 SSH = '#!/bin/sh\n[ "$1" = -- ] && shift\nshift\nexec sh -c "$*"\n'
@@ -189,7 +208,7 @@ def test_a_robot_is_reached_over_ssh(
     place = tmp_path / "on the robot"
     assert vicode("deploy", "lamps/lamp.yaml", "--to", f"nao@10.0.0.7:{place}") == 0
     assert (place / "lamps/lamp.py").exists()
-    assert f'\nExecStart="{place}/run"\n' in (place / "lamps.service").read_text()
+    assert f"\nWorkingDirectory={place}\n" in (place / "lamps.service").read_text()
     (place / ".vicode-deployed").unlink()
     assert vicode("deploy", "lamps/lamp.yaml", "--to", f"nao@10.0.0.7:{place}") == 2
 

@@ -75,6 +75,42 @@ def test_comments_are_no_differences(repository: Path, capsys: pytest.CaptureFix
     assert capsys.readouterr().out == "lamp.yaml:\n  only comments or the form of the file differ\n"
 
 
+def test_what_is_not_understood_is_a_difference(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(repository, "lamp", LAMP.replace("after: pause", "after: pause, guard: bulb.on").replace("initial", "inital"))
+    project = (repository / "project.yaml").read_text(encoding="utf-8")
+    write(repository, "project", f"{project}langauges: [cpp]\n")
+    assert vicode("diff", "--html", "diff.html") == 1
+    assert capsys.readouterr().out == (
+        "lamp.yaml:\n"
+        "  ~ initial state: Dark → (none)\n"
+        "  + 'inital: Dark', which is not understood\n"
+        "  + 'guard: bulb.on', which is not understood, in states.Dark.transitions.0\n"
+        "project.yaml:\n"
+        "  + 'langauges: [cpp]', which is not understood\n"
+    )
+    assert "guard: bulb.on" in (repository / "diff.html").read_text(encoding="utf-8")
+    commit(repository, "misspelled")
+    assert vicode("diff") == 0
+    write(repository, "lamp", LAMP)
+    assert vicode("diff", "lamp.yaml") == 1
+    assert "  - 'inital: Dark', which is not understood\n" in capsys.readouterr().out
+
+
+def test_changed_lines_of_code_are_shown(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code = "self.count = 1\n      self.on = True"
+    write(repository, "lamp", LAMP.replace("self.count = 1", code))
+    assert vicode("diff", "--html", "diff.html", "--svg", "diff.svg") == 1
+    lines = "    + self.on = True\n"
+    shown = capsys.readouterr().out
+    assert shown.startswith("lamp.yaml:\n  ~ enter action of state Dark: 1 line → 2 lines (+1 -0)\n")
+    assert lines in shown
+    assert "+ self.on = True" in (repository / "diff.html").read_text(encoding="utf-8")
+    assert "+ self.on = True" in (repository / "diff.svg").read_text(encoding="utf-8")
+    assert vicode("diff", "--json") == 1
+    (file,) = json.loads(capsys.readouterr().out)["files"]
+    assert file["changes"][0]["lines"] == ["+ self.on = True"]
+
+
 def test_declarations_and_renamed_files(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
     git(repository, "mv", "bulb.yaml", "light.yaml")
     project = (repository / "project.yaml").read_text(encoding="utf-8")
@@ -99,6 +135,7 @@ def test_json(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
             "old": "pause",
             "new": "0.05",
             "text": EXPECTED.strip(),
+            "lines": [],
         }
     ]
 

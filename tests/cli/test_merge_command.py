@@ -52,10 +52,20 @@ def test_another_file_is_merged_by_lines(folder: Path) -> None:
     )
 
 
-def test_a_generated_file_is_ours(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_versions_of_a_generated_file_are_merged_by_lines(folder: Path) -> None:
+    base = add_header("a = 1\nb = 1\nc = 1\nd = 1\n", "lamp.yaml")
+    ours, theirs = base.replace("a = 1", "a = 2"), base.replace("d = 1", "d = 2")
+    assert merge(folder, base, ours, theirs, "--generated", "--path", "lamp.py") == (
+        0,
+        ours.replace("d = 1", "d = 2"),
+    )
+
+
+def test_versions_that_no_revision_generates_are_a_conflict(folder: Path) -> None:
     base, ours, theirs = (add_header(f"x = {number}\n", "lamp.yaml") for number in range(3))
-    assert merge(folder, base, ours, theirs, "--generated", "--path", "lamp.py") == (0, ours)
-    assert capsys.readouterr().err == "vicode: lamp.py: kept ours; the hooks or 'vicode gen' generate it again\n"
+    code, merged = merge(folder, base, ours, theirs, "--generated", "--path", "lamp.py")
+    assert code == 1
+    assert "<<<<<<< ours\nx = 1\n=======\nx = 2\n>>>>>>> theirs" in merged
 
 
 def test_edits_in_generated_files_are_not_lost(folder: Path) -> None:

@@ -1,8 +1,13 @@
 """docs/own-components.md: its example is sound, runs, and its tests pass."""
 
+import contextlib
+import json
+import os
 import re
+import socket
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
@@ -11,6 +16,11 @@ from tests.cli.command_runner import vicode
 
 ROOT = Path(__file__).parents[2]
 _BLOCK = re.compile(r"```(?:yaml|python)\n(?:# (?P<file>\S+\.(?:yaml|py))\n)?(?P<text>.*?)```", re.DOTALL)
+
+_ROBOT = """\
+profiles:
+  robot: {world: hardware.board:Board, clock: world}
+"""
 
 
 @pytest.fixture
@@ -26,13 +36,65 @@ def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_example_is_sound_and_runs(drive: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    assert sorted(path.name for path in drive.rglob("*.*")) == ["car.yaml", "project.yaml", "road.py", "test_road.py"]
+    names = ["board.py", "car.yaml", "main.py", "project.yaml", "road.py", "test_road.py"]
+    assert sorted(path.name for path in drive.rglob("*.*")) == names
     assert vicode("check", ".", "--strict") == 0
     assert vicode("run", "car.yaml", "--until-done") == 0
     out = capfd.readouterr().out
     assert "Car: Going → Standing" in out
     assert "stopped: done" in out
     assert "world: crashed False" in out
+
+
+def test_its_program_steps_the_root(drive: Path) -> None:
+    assert vicode("gen", ".") == 0
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(("generated/python", str(ROOT)))}
+    done = subprocess.run(
+        [sys.executable, "main.py"], env=environment, capture_output=True, text=True, check=False, timeout=60
+    )
+    found = re.fullmatch(r"Standing after (\S+) s, (\S+) m from the wall\n", done.stdout)
+    assert found is not None, done
+    assert 0 < float(found[2]) < 1.5
+
+
+def find_free_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port: int = free.getsockname()[1]
+        return port
+
+
+def test_its_board_sets_the_pace(drive: Path) -> None:
+    (drive / "project.yaml").write_text((drive / "project.yaml").read_text() + _ROBOT)
+    ports = [find_free_port(), find_free_port()]
+    board_file = drive / "hardware/board.py"
+    board_file.write_text(board_file.read_text().replace("7200", f"{ports[0]}").replace("7201", f"{ports[1]}"))
+    speeds: list[float] = []
+    is_over = threading.Event()
+
+    def run_board() -> None:
+        distance_m, cycle = 2.0, 500
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as board:
+            board.bind(("127.0.0.1", ports[1]))
+            board.settimeout(0.02)
+            while not is_over.is_set():
+                with contextlib.suppress(TimeoutError):
+                    speeds.append(float(board.recv(100)))
+                distance_m, cycle = distance_m - (speeds or [0.0])[-1] * 0.01, cycle + 1
+                board.sendto(f"{cycle * 10_000_000} {round(distance_m * 1000)}".encode(), ("127.0.0.1", ports[0]))
+
+    thread = threading.Thread(target=run_board)
+    thread.start()
+    try:
+        assert vicode("run", "car.yaml", "--profile", "robot", "--until-done", "--trace", "run.jsonl") == 0
+    finally:
+        is_over.set()
+        thread.join()
+    assert speeds[-1] == 0.0
+    assert 2.0 in speeds
+    lines = [json.loads(line) for line in Path("run.jsonl").read_text().splitlines()]
+    assert {line["time_ns"] % 10_000_000 for line in lines[1:-1]} == {0}
+    assert lines[-1]["summary"]["stopped"] == "done"
 
 
 def test_its_tests_pass(drive: Path) -> None:

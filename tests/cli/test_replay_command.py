@@ -1,6 +1,7 @@
 """vicode replay: the recorded inputs of a run, through the design as it is now."""
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -181,7 +182,7 @@ def test_the_record_of_a_robot_is_replayed_by_its_name(cars: Path, capsys: pytes
     ("old", "new", "message"),
     [
         ("", "", "the trace has no values; record it with --values"),
-        ("self.distance =", "self._distance =", "the trace has no value of Eye.distance; components must set outputs"),
+        ("self.distance =", "self._distance =", "the trace has no value of Eye.distance; an output must be a bool"),
     ],
 )
 def test_missing_values_are_reported(
@@ -189,11 +190,41 @@ def test_missing_values_are_reported(
 ) -> None:
     if old:
         change(cars / "hands.py", old, new)
-        change(cars / "hands.py", "class Eye(Component):", "class Eye(Component):\n    distance = 9.0\n")
+        distance = "property(lambda self: Decimal(self._distance))"
+        change(cars / "hands.py", "class Eye(Component):", f"class Eye(Component):\n    distance = {distance}\n")
+        change(cars / "hands.py", "from vicode.bica", "from decimal import Decimal\n\nfrom vicode.bica")
     record(1, *(["--values"] if old else ["--seed", "0"]))
     capsys.readouterr()
     assert vicode("replay", "run.jsonl", "--design", "cars") == 2
     assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("distance", ["9.0", "property(lambda self: self._distance)"])
+def test_an_output_is_recorded_wherever_it_is_defined(
+    cars: Path, capsys: pytest.CaptureFixture[str], distance: str
+) -> None:
+    change(cars / "hands.py", "self.distance =", "self._distance =")
+    change(cars / "hands.py", "class Eye(Component):", f"class Sensor(Component):\n    distance = {distance}")
+    change(cars / "hands.py", "    def __init__(self, root)", "\nclass Eye(Sensor):\n    def __init__(self, root)")
+    record(5)
+    assert vicode("replay", "run.jsonl", "--design", "cars") == 0, capsys.readouterr().out
+
+
+@pytest.mark.parametrize("is_hidden", [False, True])
+def test_a_component_of_the_world_that_a_state_requires_is_replayed(
+    cars: Path, capsys: pytest.CaptureFixture[str], is_hidden: bool
+) -> None:
+    change(cars / "car.yaml", "Drive:\n    requires: [eye]", "Drive:\n    requires: [eye, road]")
+    record()
+    steps = [json.loads(line).get("tree", ()) for line in Path("run.jsonl").read_text().splitlines()]
+    assert all(step["values"].keys() == {"slope"} for tree in steps for step in tree if step["component"] == "Road")
+    if is_hidden:
+        # So earlier versions wrote it.
+        text = Path("run.jsonl").read_text()
+        Path("run.jsonl").write_text(re.sub(r'"values": \{"slope": [^}]*\}', '"values": {}', text))
+    capsys.readouterr()
+    assert vicode("replay", "run.jsonl", "--design", "cars") == 0, capsys.readouterr().err
+    assert capsys.readouterr().out == "Car: same states in 750 iterations, 14.98 s\n"
 
 
 def test_outputs_with_arguments_return_what_they_returned(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:

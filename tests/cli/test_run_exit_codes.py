@@ -1,10 +1,12 @@
 """How a run ends that does not end by itself as it should: Ctrl-C, and programs that end themselves."""
 
+import os
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -123,3 +125,42 @@ def test_the_runtimes_own_stops_can_be_asked_for(lamps: Path, capfd: pytest.Capt
     (lamps / "lamp.yaml").write_text(LAMP.replace("self.count = 1", "1 / 0"), encoding="utf-8")
     assert vicode("run", "lamps/lamp.yaml", "--on-error", "stop") == 1
     assert "stopped: error" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("pace", [(), ("--real-time",)])
+@pytest.mark.parametrize("trace", ["/dev/full", "missing/run.jsonl"])
+def test_a_trace_that_cannot_be_written_has_its_own_code(
+    lamps: Path, trace: str, pace: tuple[str, ...], capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert vicode("run", "lamps/lamp.yaml", "--seconds", "0.1", "--trace", trace, *pace) == 3
+    assert f"error: cannot write the trace {trace}: No " in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("pace", [(), ("--real-time",)])
+def test_a_deployed_program_tells_lost_outputs_from_other_errors(
+    lamps: Path, tmp_path: Path, pace: tuple[str, ...]
+) -> None:
+    assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot", "--python", sys.executable, "--arguments=") == 0
+    (tmp_path / "robot/file").touch()
+
+    def start(*arguments: str, **options: Any) -> tuple[int, str]:
+        command = [tmp_path / "robot/run", "--ticks", "3", *pace, *arguments]
+        done = subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False, timeout=60, **options)
+        return done.returncode, done.stderr
+
+    assert start("--trace", "/dev/full")[0] == 3
+    assert start("--trace", "missing/run.jsonl")[0] == 3
+    assert start("--record", "file/run.jsonl") == (3, "error: cannot write the record file/run.jsonl: File exists\n")
+    assert start(env={**os.environ, "VICODE_RECORD": "file/run.jsonl"})[0] == 3
+    with Path("/dev/full").open("w") as full:
+        lost = (3, "error: cannot write the standard output: No space left on device\n")
+        assert start(stdout=full) == lost
+    assert start("--world", "nowhere:World")[0] == 2
+
+
+@pytest.mark.parametrize("words", [("run", "lamps/lamp.yaml", "--seconds", "1"), ("check", "lamps")])
+def test_a_full_disk_has_its_own_code(lamps: Path, words: tuple[str, ...]) -> None:
+    command = [sys.executable, "-m", "vicode", *words]
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False, timeout=60)
+    assert (done.returncode, done.stderr) == (3, "vicode: No space left on device\n")

@@ -1,5 +1,7 @@
 """`vicode sim`: options, summary, errors."""
 
+import re
+import sys
 from pathlib import Path
 
 import pytest
@@ -47,3 +49,45 @@ def test_a_map_of_the_user_is_read(tmp_path: Path, capsys: pytest.CaptureFixture
 def test_errors_are_one_line(arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["sim", *arguments]) == 2
     assert capsys.readouterr().err == f"vicode: {message}\n"
+
+
+def test_own_sensors_and_a_world_of_the_bridge(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    page = (Path(__file__).parents[2] / "docs" / "experiments.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    (tmp_path / "sonar.py").write_text(example, encoding="utf-8")
+    (tmp_path / "heading.py").write_text(
+        'from vicode.bridge import Sensor, World\n\nclass Heading(World):\n    ins = Sensor("INS", float, length=3)\n'
+    )
+    for arguments, targets in (
+        (["--robot", "sonar:SonarRobot"], {"SONAR", "BUMPS"}),
+        (["--world", "heading:Heading"], {"INS"}),
+    ):
+        received: list[str] = []
+        with fake_bridge_thread(received) as port:
+            options = ["--port", str(port), "--path", str(tmp_path), "--jxi", "--seconds", "0.2"]
+            assert main(["sim", "room", *options, *arguments]) == 0
+        names = {line.partition(":")[0] for line in received if line}
+        assert names - {"ROBOT", "ACK"} == targets
+    capsys.readouterr()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--robot", "nowhere:Robot"], "cannot load nowhere:Robot"),
+        (
+            ["--robot", "vicode.bridge:World"],
+            "vicode.bridge:World is not a RobotModel; derive it from vicode.simulated",
+        ),
+        (
+            ["--world", "vicode.bridge:Sensor"],
+            "vicode.bridge:Sensor is not a World; derive it from vicode.bridge.world",
+        ),
+    ],
+)
+def test_robots_that_cannot_be_loaded(arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sim", "room", *arguments]) == 2
+    assert message in capsys.readouterr().err

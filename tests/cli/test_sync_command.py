@@ -1,5 +1,6 @@
 """vicode sync: edits of generated code reach the design, and nothing is lost on the way."""
 
+import re
 import shutil
 import subprocess
 import sys
@@ -229,11 +230,36 @@ def test_edits_of_statements_are_shown_and_taken_over_on_request(
     err = capsys.readouterr().err
     assert "the design can express: time of Lit → Dark: 0.4" in err
     assert "+    Lamp.demo()" in err
+    assert f"{FILE}: the module: no edit of the design produces 'if __name__ == '__main__':'" in err
     assert (FILE.read_text(), DESIGN.read_text()) == (before, LAMP)
-    assert vicode("sync", "--outside-regions", "lamps") == 0
+    assert vicode("sync", "--outside-regions", "lamps") == 1
     assert DESIGN.read_text() == LAMP.replace("after: 0.2", "after: 0.4")
     assert "+    Lamp.demo()" in FILE.with_name("lamp.py.patch").read_text()
-    assert vicode("gen", "--check", "lamps") == 0
+    assert f"{FILE}: the module: no edit of the design produces 'if __name__ == '__main__':'" in capsys.readouterr().out
+    capsys.readouterr()
+    assert vicode("gen", "--check", "lamps") == 1
+    out = capsys.readouterr().out
+    assert f"{FILE}.patch:1:1: error G506" in out
+    assert out.count("error") == 1
+
+
+def test_methods_in_another_order_are_no_edit(generated: Path) -> None:
+    before = FILE.read_text()
+    head, *methods = re.split(r"^(?=    def _[a-z])", f"{before}\n", flags=re.MULTILINE)
+    FILE.write_text(f"{head}{''.join(reversed(methods)).rstrip()}\n")
+    assert FILE.read_text() != before
+    assert vicode("sync", "lamps") == 0
+    assert (FILE.read_text(), DESIGN.read_text()) == (before, LAMP)
+
+
+def test_an_edited_constant_belongs_to_the_project_file(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert vicode("gen", "lamps") == 0
+    edit(FILE.with_name("declarations.py"), "pause: Final = 0.1", "pause: Final = 0.2")
+    assert vicode("sync", "--outside-regions", "lamps") == 1
+    err = capsys.readouterr().err
+    assert "declarations.py:6:1: error G501" in err
+    assert "the constant 'pause' was edited here, but is declared in project.yaml" in err
+    assert "project.yaml:4:" in err
 
 
 def test_git_tells_what_a_design_without_project_file_generated(

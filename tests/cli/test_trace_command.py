@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.command_runner import LAMP, lamps, vicode
+from tests.cli.command_runner import LAMP, PROJECT, lamps, vicode
 
 __all__ = ["lamps"]
 
@@ -35,6 +35,24 @@ def test_states_and_transitions_of_several_runs_are_counted(lamps: Path, capsys:
     svg = Path("heat.svg").read_text()
     assert set(re.findall(r">(\d× \d+%|\d×|never)<", svg)) >= {"5×", "4×", "never"}
     assert "never entered" in svg
+
+
+def test_segments_of_one_run_are_one_run(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    record("whole", 1)
+    header, *lines, _summary = Path("whole").read_text().splitlines()
+    for run in (1, 2):
+        for segment in range(1, 6):
+            part = [json.dumps({**json.loads(header), "segment": segment}), *lines[segment * 10 - 10 : segment * 10]]
+            Path(f"robot.{run}.{segment:06}.jsonl").write_text("\n".join(part) + "\n")
+    capsys.readouterr()
+    assert vicode("trace", "stats", "whole") == 0
+    whole = capsys.readouterr().out
+    names = [f"robot.1.{segment:06}.jsonl" for segment in (3, 1, 5, 2, 4)]
+    for given in (names, [*names, names[0]], ["robot.jsonl"]):
+        assert vicode("trace", "stats", *given) == 0
+        assert capsys.readouterr().out == whole
+    assert vicode("trace", "stats", *names, *(str(path) for path in Path().glob("robot.2.*"))) == 0
+    assert capsys.readouterr().out.startswith("2 runs, 1.96 s\n")
 
 
 def test_two_runs_are_compared(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -82,6 +100,32 @@ def test_a_trace_is_exported_as_mcap(lamps: Path, capsys: pytest.CaptureFixture[
         ]
     assert messages[:2] == [("/Lamp", 0, "Dark"), ("/Lamp", 20_000_000, "Dark")]
     assert ("/Bulb", 100_000_000, "On") in messages
+
+
+def test_an_exported_topic_has_one_message_per_time_with_the_same_fields(
+    lamps: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from mcap.reader import make_reader
+
+    (lamps / "project.yaml").write_text(
+        PROJECT + "world: sky:Sky\ncomponents:\n  Sun: {implementation: world, outputs: {angle: float}}\n"
+    )
+    (lamps / "sky.py").write_text("class Sky:\n    angle = 30.0\n")
+    text = LAMP.replace("{bulb: Bulb}", "{bulb: Bulb, sun: Sun}").replace("Dark:\n", "Dark:\n    requires: [sun]\n")
+    (lamps / "lamp.yaml").write_text(text)
+    assert vicode("run", "lamps/lamp.yaml", "--seconds", "1", "--trace", "one", "--values") == 0
+    assert vicode("trace", "export", "one", "--mcap", "one.mcap") == 0
+    found: dict[str, dict[int, set[str]]] = {}
+    with Path("one.mcap").open("rb") as stream:
+        for _schema, channel, message in make_reader(stream).iter_messages():
+            times = found.setdefault(channel.topic, {})
+            assert message.log_time not in times
+            times[message.log_time] = set(json.loads(message.data))
+    assert len(found["/Sun"]) == 50
+    assert {topic: set.union(*times.values()) for topic, times in found.items()} == {
+        topic: set.intersection(*times.values()) for topic, times in found.items()
+    }
+    assert found["/Sun"][0] == {"angle", "state", "transition", "worked"}
 
 
 def test_the_export_says_which_package_is_missing(

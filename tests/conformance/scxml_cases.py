@@ -15,7 +15,7 @@ DOCUMENTS = sorted((Path(__file__).parent / "scxml").glob("*.scxml"))
 
 def scxml_run(file: Path) -> ConformanceRun:
     """The run of a document; each event lasts one iteration."""
-    project = import_scxml(file.read_bytes(), "Machine", "scxml")
+    project = import_scxml(file.read_bytes(), "Machine", "scxml").project
     events = [each.key for each in list_inputs(project, "Machine")]
     steps = []
     for index, given in enumerate(_read(file, "inputs").split()):

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.cpp_tools import find_gpp
+from tests.cpp_tools import find_gpp, unoptimized
 from tests.xabsl.xabsl_cases import CASES
 from vicode.conformance.cpp import CppProgram
-from vicode.conformance.inputs import ConformanceRun
+from vicode.conformance.inputs import ConformanceRun, iteration_times
 from vicode.conformance.random_inputs import random_run
 from vicode.conformance.traces import TraceDifference, TraceIteration, TraceNormalizer, first_difference, reduce_for
 from vicode.conformance.xabsl import XabslRobot
@@ -25,10 +25,10 @@ def run_engine(run: ConformanceRun, compiled: CompileResult, agent: str) -> list
     robot, normalizer = XabslRobot(run, compiled, 0), TraceNormalizer(run.project)
     assert robot.engine.select(agent)
     iterations = []
-    for count, step in enumerate(run.steps, start=1):
+    for count, (time_ns, step) in enumerate(zip(iteration_times(run), run.steps, strict=True), start=1):
         shared = robot.shared()
-        robot.step(step.time_ns, step.inputs[0])
-        record = {"iteration": count, "time_ns": step.time_ns, "tree": robot.tree(), "inputs": shared}
+        robot.step(time_ns, step.inputs[0])
+        record = {"iteration": count, "time_ns": time_ns, "tree": robot.tree(), "inputs": shared}
         iterations.append(normalizer.iteration(record))
     return iterations
 
@@ -45,7 +45,7 @@ def compare_agents(files: Mapping[str, Path], folder: Path, iterations: int) -> 
             run = random_run(project, agent.root, iterations=iterations, seed=1)
             key = f"{name}_{agent.name}".lower()  # a C++ namespace
             runs[key], expected[key] = run, run_engine(run, compiled, agent.name)
-    got = CppProgram(runs, folder, find_gpp(), programs=2).run()
+    got = CppProgram(runs, folder, unoptimized(find_gpp()), programs=2).run()
     return {
         name: first_difference(reduce_for("xabsl", expected[name]), reduce_for("xabsl", got[name])) for name in runs
     }

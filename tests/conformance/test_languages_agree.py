@@ -5,59 +5,37 @@ All C++ code is compiled together, once.
 
 import os
 import random
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 
 import pytest
 
+from tests.conformance.compared_runs import Traces, add_chosen, compare_all
 from tests.conformance.conformance_cases import CASES, LANGUAGES, Case, short_form
 from tests.conformance.random_designs import draw_projects
 from tests.conformance.scxml_cases import DOCUMENTS, expected_states, scxml_run
 from vicode.conformance.comparison import find_absent_languages
-from vicode.conformance.cpp import COMPILER_MISSING, CppProgram, find_compiler
-from vicode.conformance.inputs import ConformanceRun
-from vicode.conformance.python import run_python, run_simulator
-from vicode.conformance.random_inputs import random_run
+from vicode.conformance.cpp import COMPILER_MISSING, find_compiler
 from vicode.conformance.report import describe, explain
-from vicode.conformance.traces import EXPECTED_DIFFERENCES, TraceIteration, first_difference, reduce_for
-from vicode.conformance.xabsl import run_xabsl
+from vicode.conformance.traces import EXPECTED_DIFFERENCES, first_difference, reduce_for
 
 FILES = sorted(CASES.glob("*.yaml"))
 RANDOM_DESIGNS = 50
-ITERATIONS = 20
+ITERATIONS = 40
 FEATURES = {
     *("order", "groups", "timers", "common transitions", "requires and modulates", "restart", "resume", "periods"),
     *("nested components", "parameters", "enumerations", "arithmetic", "final states", "outputs and variables"),
     *("code", "arithmetic: xabsl", "time_unit: ms", "teams", "disabled", "names", "times"),
 }
 
-Traces = Mapping[str, Mapping[str, list[TraceIteration]]]
-
 
 @dataclass(frozen=True)
 class Session:
-    """The runs by name, and the traces by language and name."""
+    """The traces by language and name of the run."""
 
-    runs: Mapping[str, ConformanceRun]
     traces: Traces
-
-
-def compare_all(runs: Mapping[str, ConformanceRun], absent: Mapping[str, Mapping[str, str]], folder: Path) -> Traces:
-    """Run everything in each language that can."""
-    compiler = find_compiler()
-
-    def able(language: str) -> dict[str, ConformanceRun]:
-        return {name: run for name, run in runs.items() if language not in absent[name]}
-
-    return {
-        "python": run_python(able("python"), folder),
-        # Without a compiler, one test fails, and the other languages are compared.
-        "cpp": CppProgram(able("cpp"), folder, compiler, programs=2).run() if compiler else {},
-        "xabsl": {name: run_xabsl(run) for name, run in able("xabsl").items()},
-        "simulator": run_simulator(able("simulator"), folder),
-    }
 
 
 @pytest.fixture(scope="module")
@@ -70,17 +48,15 @@ def session(tmp_path_factory: pytest.TempPathFactory) -> Session:
         runs[f"scxml_{file.stem}"] = scxml_run(file)
         absent[f"scxml_{file.stem}"] = find_absent_languages(scxml_run(file))
     for number, project in enumerate(draw_projects(RANDOM_DESIGNS)):
-        name = f"random_{number}"
-        runs[name] = random_run(project, "Player", iterations=ITERATIONS, seed=number)
-        absent[name] = find_absent_languages(runs[name])
-    return Session(runs, compare_all(runs, absent, tmp_path_factory.mktemp("conformance")))
+        add_chosen(runs, absent, f"random_{number}", project, iterations=ITERATIONS, seed=number)
+    return Session(compare_all(runs, absent, tmp_path_factory.mktemp("conformance")))
 
 
 def differences(session: Session, name: str, language: str) -> str:
-    expected = reduce_for(language, session.traces["python"][name])
+    expected = reduce_for(language, session.traces["reference"][name])
     got = reduce_for(language, session.traces[language][name])
     found = first_difference(expected, got)
-    return "" if found is None else describe(explain(found, {"python": expected, language: got}))
+    return "" if found is None else describe(explain(found, {"reference": expected, language: got}))
 
 
 def test_there_is_a_compiler() -> None:
@@ -93,12 +69,12 @@ def test_case_gives_the_expected_trace_in_each_language(
     session: Session, file: Path, tmp_path: Path, accept: bool
 ) -> None:
     case = Case(file, tmp_path)
-    text = short_form(session.traces["python"][case.name], case.run.robots)
+    text = short_form(session.traces["reference"][case.name], case.run.robots)
     if accept:
         case.accept(text)
     else:
         assert text == case.expected
-    for language in LANGUAGES[1:]:
+    for language in LANGUAGES:
         is_compiled = language != "cpp" or find_compiler() is not None
         if language not in case.not_in and is_compiled:
             assert differences(session, case.name, language) == ""
@@ -114,10 +90,10 @@ def test_a_language_is_left_out_for_the_reason_that_the_check_reports(file: Path
 @pytest.mark.parametrize("file", DOCUMENTS, ids=lambda file: file.stem)
 def test_imported_scxml_passes_in_each_language(session: Session, file: Path) -> None:
     name = f"scxml_{file.stem}"
-    states = [iteration.steps[0].fields["state"] for iteration in session.traces["python"][name]]
+    states = [iteration.steps[0].fields["state"] for iteration in session.traces["reference"][name]]
     assert " ".join(state for state, _repeated in groupby(states)) == expected_states(file)
     assert states[-1] == "pass_"
-    for language in LANGUAGES[1:]:
+    for language in LANGUAGES:
         if name in session.traces[language]:
             assert differences(session, name, language) == ""
 
@@ -129,10 +105,12 @@ def test_each_feature_has_a_case() -> None:
 
 @pytest.mark.parametrize("number", range(RANDOM_DESIGNS))
 def test_languages_agree_on_random_designs(session: Session, number: int) -> None:
-    name = f"random_{number}"
-    for language in LANGUAGES[1:]:
-        if name in session.traces[language]:
-            assert differences(session, name, language) == ""
+    names = [name for name in session.traces["reference"] if name.startswith(f"random_{number}__")]
+    assert names
+    for language in LANGUAGES:
+        for name in names:
+            if name in session.traces[language]:
+                assert differences(session, name, language) == ""
 
 
 @pytest.mark.nightly
@@ -141,14 +119,13 @@ def test_languages_agree_on_many_random_designs(batch: int, tmp_path: Path) -> N
     seed = random.SystemRandom().randrange(10**6) if "VICODE_HYPOTHESIS" in os.environ else batch
     runs, absent = {}, {}
     for number, project in enumerate(draw_projects(50, seed=seed)):
-        runs[f"random_{number}"] = random_run(project, "Player", iterations=40, seed=number)
-        absent[f"random_{number}"] = find_absent_languages(runs[f"random_{number}"])
-    found = Session(runs, compare_all(runs, absent, tmp_path))
+        add_chosen(runs, absent, f"random_{number}", project, iterations=80, seed=number)
+    found = Session(compare_all(runs, absent, tmp_path))
     assert [text for text in _all_differences(found) if text] == [], f"seed {seed}"
 
 
 def _all_differences(session: Session) -> Iterator[str]:
-    for language in LANGUAGES[1:]:
+    for language in LANGUAGES:
         for name in session.traces[language]:
             text = differences(session, name, language)
             yield text and f"{name}: {text}"

@@ -60,6 +60,11 @@ class FakeServer:
         for each in (self._entrance, *self._players):
             each.close()
 
+    def stop(self) -> None:
+        """Play no more, as if all players had left."""
+        for each in self._players:
+            each.sendto(b"(bye)", each.getsockname())
+
     def _commands_of(self, player: socket.socket) -> list[str]:
         return self.commands[list(self._players).index(player)]
 

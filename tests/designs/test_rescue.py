@@ -55,7 +55,7 @@ def test_a_robot_without_distances_stands() -> None:
                 world.bridge.receive("LASER", laser, clock.now_ns())
             world.bridge.begin_tick(clock.now_ns(), clock.now_ns())
             root.step()
-            world.bridge.commands.end_tick(clock.now_ns())
+            world.bridge.end_tick()
             commands.append(world.bridge.commands.take().get("DIFFERENTIALDRIVE"))
 
     clock, commands = SimulatedClock(), list[object]()

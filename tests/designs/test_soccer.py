@@ -1,7 +1,9 @@
 """The soccer team understands the server, and plays."""
 
 import cmath
+import json
 import math
+import select
 import socket
 import stat
 import subprocess
@@ -126,10 +128,47 @@ def test_a_player_that_is_late_continues_with_the_newest_cycle() -> None:
         assert (world.cycle, world.ball_distance) == (3, 4)
 
 
+def test_after_a_long_stop_a_player_takes_the_newest_cycle_although_its_buffer_was_full() -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as server:
+        server.bind(("127.0.0.1", 0))
+        is_full = threading.Event()
+
+        def serve() -> None:
+            _text, player = server.recvfrom(100)
+            server.sendto(b"(init l 1 play_on)", player)
+            for number in range(1, 100_000):
+                for message in cycle(number, f"((b) {number / 10} 0)")[:-1]:
+                    server.sendto(message.encode(), player)
+                if number > 1000:
+                    is_full.set()
+                    if select.select([server], [], [], 0.02)[0] and server.recvfrom(100)[0] == b"(bye)":
+                        break
+
+        serving = threading.Thread(target=serve)
+        serving.start()
+        world = World(server=server.getsockname())
+        assert is_full.wait(10)
+        begun = world.next_cycle()
+        distance = world.ball_distance
+        world.close()
+        serving.join(10)
+        assert not serving.is_alive()
+    assert begun > 1000
+    assert distance == pytest.approx(begun / 10)
+
+
 def test_the_run_ends_when_the_server_is_silent() -> None:
     with joined([["(error)"]], timeout_s=0.1) as (world, _server):
         world.receive_cycle()
         assert world.finished
+
+
+def test_a_program_can_end_while_the_server_is_silent() -> None:
+    with joined([["(error)"]], timeout_s=1.5) as (world, _server):
+        begun = []
+        while not world.finished:
+            begun.append(world.next_cycle())
+        assert begun == [0, 0]
 
 
 def test_a_refused_player_does_not_start() -> None:
@@ -267,4 +306,80 @@ def test_a_match_is_played_recorded_and_replayed(tmp_path: Path) -> None:
         "designs/soccer2d",
     ]
     replayed = subprocess.run(replay, cwd=ROOT, check=False, capture_output=True, text=True, timeout=60)
-    assert "same states in 33 iterations" in replayed.stdout, replayed
+    assert "same states in 32 iterations" in replayed.stdout, replayed
+
+
+@contextmanager
+def watched_match(folder: Path) -> Iterator[subprocess.Popen[str]]:
+    """Two players of one process that are recorded and can be controlled."""
+    ball = "((b) 0.7 0 0 0)"
+    script = [cycle(0), cycle(0, ball, "kick_off_l")]
+    script += [cycle(n, ball if n % 60 < 30 else "", "play_on" if n == 1 else "") for n in range(1, 20_000)]
+    server = FakeServer(script)
+    serving = threading.Thread(target=server.serve)
+    serving.start()
+    command = [sys.executable, str(ROOT / "designs" / "soccer2d" / "match.py"), "--server", "", "--synchronous"]
+    command += ["--port", str(server.address[1]), "--teams", "1", "--players", "2", "--record", str(folder)]
+    command += ["--watch", f"unix:{folder / 'live'}", "--control"]
+    match = subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE, text=True)
+    try:
+        yield match
+    finally:
+        match.kill()
+        match.communicate(timeout=30)
+        server.stop()
+        serving.join(30)
+        assert not serving.is_alive()
+
+
+def test_a_match_that_is_paused_and_killed_can_be_replayed(tmp_path: Path) -> None:
+    with watched_match(tmp_path) as match, socket.socket(socket.AF_UNIX) as viewer:
+        assert match.stderr is not None
+        assert match.stderr.readline().startswith("watch: ")
+        viewer.settimeout(30)
+        viewer.connect(str(tmp_path / "live"))
+        lines = viewer.makefile("rw", encoding="utf-8")
+
+        def ask(**request: object) -> None:
+            lines.write(json.dumps({"robot": "vicode 2", **request}) + "\n")
+            lines.flush()
+
+        def wait_for(*, paused: bool) -> dict[str, Any]:
+            received = map(json.loads, lines)
+            return next(line for line in received if line.get("robot") == "vicode 2" and line.get("paused") is paused)
+
+        ask(rate_hz=200)
+        wait_for(paused=False)
+        ask(do="break", places=[["FieldPlayer", "LookForBall"]])
+        paused = wait_for(paused=True)
+        assert paused["tree"][0]["changed_from"] is not None
+        ask(do="step")
+        following = wait_for(paused=True)
+        assert following["iteration"] == paused["iteration"] + 1
+        assert following["time_ns"] == paused["time_ns"] + 100_000_000
+        for _attempt in range(1000):
+            if last_recorded(tmp_path, "vicode-2") == following["iteration"]:
+                break
+            time.sleep(0.01)
+        match.kill()
+        assert lines.read() == ""
+    assert last_recorded(tmp_path, "vicode-2") == following["iteration"]
+    replay = [
+        sys.executable,
+        "-m",
+        "vicode",
+        "replay",
+        str(tmp_path / "vicode-2.jsonl"),
+        "--design",
+        "designs/soccer2d",
+    ]
+    replayed = subprocess.run(replay, cwd=ROOT, check=False, capture_output=True, text=True, timeout=60)
+    assert replayed.returncode == 0, replayed
+    assert "FieldPlayer: same states in" in replayed.stdout
+
+
+def last_recorded(folder: Path, name: str) -> int:
+    """The number of the last iteration in a record, without a line that is being written."""
+    newest = max(folder.glob(f"{name}.1.*.jsonl"))
+    lines = newest.read_text(encoding="utf-8").split("\n")[1:-1]
+    return int(json.loads(lines[-1])["iteration"]) if lines else 0

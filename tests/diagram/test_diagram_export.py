@@ -12,7 +12,7 @@ from pypdf import PdfReader
 from tests.diagram.diagram_designs import HOSTILE_NAMES, ring_design, shipped_designs
 from vicode.diagram.diagram_model import build_diagram
 from vicode.diagram.edge_routing import route_edges
-from vicode.diagram.export_formats import EXPORT_FORMATS, ExportOptions
+from vicode.diagram.export_formats import EXPORT_FORMATS, ExportOptions, NotExportableError
 from vicode.diagram.palettes import DARK, LIGHT, ColorPalette
 from vicode.diagram.pdf import write_pdf
 from vicode.diagram.primitives import PathShape, ShapeGroup, TextShape, VectorImage
@@ -46,6 +46,10 @@ def everything() -> Design:
         common=CommonSection(transitions=(Transition(to="Look", guard=Guard(when="fallen")),)),
         states=(look, State(name="end", final=True), State(name="2nd")),
     )
+
+
+# SCXML is read by programs, and refuses what it cannot express.
+DIAGRAMS = [form for form in EXPORT_FORMATS if form != "scxml"]
 
 
 def export_design(design: Design, form: str, wish: ExportOptions | None = None) -> bytes:
@@ -86,7 +90,7 @@ def test_svg_bounds_contain_all_shapes() -> None:
         assert top < float(element.attrib["y"]) < top + height
 
 
-@pytest.mark.parametrize("form", list(EXPORT_FORMATS))
+@pytest.mark.parametrize("form", DIAGRAMS)
 def test_hostile_texts_are_escaped(form: str) -> None:
     states = tuple(
         State(name=name, doc=name, transitions=(Transition(to=name, doc=name, guard=Guard(when=name)),))
@@ -105,7 +109,7 @@ def test_hostile_texts_are_escaped(form: str) -> None:
         assert not [line for line in lines if "<script" in line or "<b>" in line]
 
 
-@pytest.mark.parametrize("form", list(EXPORT_FORMATS))
+@pytest.mark.parametrize("form", DIAGRAMS)
 def test_a_design_without_states_can_be_exported(form: str) -> None:
     assert export_design(Design(component="Nothing"), form)
 
@@ -348,3 +352,12 @@ def test_svg_fixes_the_width_of_texts_with_known_glyphs() -> None:
     image = VectorImage(title="", doc="", left=0, top=0, width=9, height=9, background="#ffffff", groups=(group,))
     lengths = [text.get("textLength") for text in ElementTree.fromstring(write_svg(image)).iter(f"{SVG}text")]
     assert lengths == ["21.7", "23.3", "22.2", None]
+
+
+@pytest.mark.parametrize(
+    ("states", "only", "words"),
+    [((), None, "has a state"), ((State(name="a"), State(name="b")), frozenset({"a"}), "whole design")],
+)
+def test_scxml_contains_a_whole_design(states: tuple[State, ...], only: frozenset[str] | None, words: str) -> None:
+    with pytest.raises(NotExportableError, match=words):
+        export_design(Design(component="Part", initial="a", states=states), "scxml", ExportOptions(only=only))

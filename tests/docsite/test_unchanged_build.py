@@ -21,9 +21,9 @@ class Builds:
         shutil.copytree(DESIGNS / "forward", self.folder)
         load = docs_inputs.load_site_inputs
 
-        def count(paths: list[Path]) -> object:
+        def count(paths: list[Path], encoding: str) -> object:
             self.loads += 1
-            return load(paths)
+            return load(paths, encoding)
 
         monkeypatch.setattr(docs_inputs, "load_site_inputs", count)
 

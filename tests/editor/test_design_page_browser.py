@@ -109,6 +109,13 @@ def test_a_declaration_without_a_name_is_told_and_not_taken(editor: str, page: P
 
 def test_escape_calls_off_a_dialog_that_is_still_on_its_way(editor: str, page: Page) -> None:
     open_player(page, editor)
+    # The dialog of a busy machine comes seconds after the key.
+    page.evaluate(
+        """() => {
+            const send = window.emitEvent;
+            window.emitEvent = (...message) => setTimeout(() => send(...message), 3000);
+        }"""
+    )
     page.keyboard.press("Control+Shift+E")
     page.keyboard.press("Escape")
     # When this is answered, the dialog has come.

@@ -1,11 +1,14 @@
 """Taking the drawing out: looked at, downloaded in every form, copied as text."""
 
+import re
 from pathlib import Path
 from xml.etree import ElementTree
 
+import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.editor.player_page import open_player, select_state
+from vicode.cli.entry_point import main
 
 
 def ask(page: Page) -> Locator:
@@ -76,3 +79,27 @@ def test_what_the_browser_does_not_allow_is_told(editor: str, page: Page) -> Non
     page.keyboard.type("copy as plantuml")
     page.keyboard.press("Enter")
     expect(page.get_by_text("Clipboard access denied")).to_be_visible()
+
+
+def test_the_dialog_has_the_formats_of_the_command_line(
+    editor: str, page: Page, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        main(["export", "--help"])
+    found = re.search(r"--format \{([a-z,]+)\}", capsys.readouterr().out)
+    assert found is not None
+    open_player(page, editor)
+    dialog = ask(page)
+    dialog.get_by_label("Format").click()
+    expect(page.get_by_role("option").first).to_be_visible()
+    offered = [text.split()[0].lower() for text in page.get_by_role("option").all_inner_texts()]
+    assert offered == found[1].split(",")
+
+
+def test_scxml_says_what_it_cannot_express_and_writes_what_it_can(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    dialog = ask(page)
+    choose(page, dialog, "Format", "SCXML")
+    expect(dialog.get_by_label("Preview")).to_contain_text("SCXML has no counterpart of frequency")
+    dialog.get_by_role("button", name="Download").click()
+    expect(page.get_by_role("alert").filter(has_text="SCXML has no counterpart of frequency")).to_be_visible()

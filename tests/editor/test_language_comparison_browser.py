@@ -16,11 +16,18 @@ def test_a_difference_leads_to_its_state(editor: str, page: Page, project: Path)
     page.keyboard.type("compare languages")
     page.keyboard.press("Enter")
     dialog = page.get_by_role("dialog", name="Compare languages of Player")
-    expect(dialog.get_by_role("status")).to_contain_text("Python, C++ and simulator: the traces differ", timeout=60_000)
-    words = ["C++ differs from Python", "Simulator agrees with Python", "XABSL is not compared: this code is missing"]
+    expect(dialog.get_by_role("status")).to_contain_text(
+        "Reference, Python, C++ and simulator: the traces differ", timeout=60_000
+    )
+    words = [
+        "Python agrees with reference",
+        "C++ differs from reference",
+        "Simulator agrees with reference",
+        "XABSL is not compared: this code is missing",
+    ]
     expect(dialog.get_by_role("listitem")).to_contain_text(words)
-    difference = dialog.get_by_role("region", name="Python and C++ differ in run 1")
-    expect(difference.get_by_text("Player: values.n: Python")).to_be_visible()
+    difference = dialog.get_by_role("region", name="reference and C++ differ in run 1")
+    expect(difference.get_by_text("Player: values.n: reference")).to_be_visible()
     difference.get_by_role("button", name="Player Far").last.click()
     expect(dialog).to_be_hidden()
     expect(page.get_by_label("State", exact=True)).to_have_value("Far")

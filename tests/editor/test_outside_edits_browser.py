@@ -6,6 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.editor.player_page import open_player, select_state, state
+from vicode.cli import main
 from vicode.generators import generate
 from vicode.output import apply_diffs, compare_files
 from vicode.store import open_project
@@ -79,3 +80,35 @@ def test_a_conflict_is_resolved_in_the_dialog(file: Path, editor: str, page: Pag
     expect(page.get_by_text("Conflict: generated code edited")).to_have_count(0)
     page.locator("header").get_by_role("button", name="Undo").click()
     expect(page.locator(".code-field", has_text="mine = 1")).to_be_visible()
+
+
+def test_a_statement_that_both_sides_changed_is_resolved_when_generating(
+    project: Path, editor: str, page: Page
+) -> None:
+    """All three texts are shown; that of the file goes into the design."""
+    design = project / "forward" / "player.yaml"
+    # The copies of the generated texts tell the edits of both sides apart.
+    assert main(["gen", str(project / "forward")]) == 0
+    file = project.parent / "generated" / "python" / "forward" / "player.py"
+    edit(file, "self.perception.ball_age > 77:", "self.perception.ball_age > lost_after:")
+    design.write_text(design.read_text().replace("ball_age > lost_after,", "ball_age > 88,"))
+    open_player(page, editor)
+    page.get_by_role("button", name="Generate").click()
+    dialog = page.get_by_role("dialog")
+    write = dialog.get_by_role("button", name="Apply and write")
+    for side in ("In the generated file", "In the design"):
+        expect(dialog.get_by_role("button", name=side)).to_have_count(2)
+    before = dialog.locator(".conflict-side", has_text="Generated before")
+    expect(before.first).to_contain_text("if self.perception.ball_age > lost_after")
+    expect(write).to_be_disabled()
+    dialog.get_by_role("button", name="In the generated file").first.click()
+    expect(write).to_be_disabled()
+    dialog.get_by_role("button", name="In the design").last.click()
+    edited = file.read_text()
+    write.click()
+    expect(dialog).to_have_count(0)
+    expect(page.get_by_text("Generated player.py")).to_be_visible()
+    assert design.read_text().count("ball_age > 77") == 1
+    assert design.read_text().count("ball_age > 88") == 1
+    assert file.read_text().count("ball_age > 77") == 1
+    assert file.with_name("player.py.edited").read_text() == edited

@@ -117,7 +117,7 @@ def test_a_component_written_by_hand_is_edited_where_it_is_used(editor: str, pag
     component.get_by_label("Frequency, Hz").fill("30")
     page.keyboard.press("Enter")
     expect(page.get_by_text("project.yaml saved: edit Perception")).to_be_visible()
-    assert "frequency: 30\n    doc: Finds ball" in file.read_text()
+    assert 'frequency: 30\n    doc: "Simulated vision' in file.read_text()
     undo(page)
     expect(component.get_by_label("Frequency, Hz")).to_have_value("15")
 

@@ -28,6 +28,7 @@ def test_design_and_xabsl_succeed_and_do_the_same(name: str, tmp_path: Path) -> 
     assert f"in {runs // 2} of {runs // 2} runs" in page
     assert page.count('class="path ') > runs
     assert ("Who waits for whom" in page) is (name == "meeting")
+    assert ("The option as printed in the thesis succeeded in" in page) is (name == "corridor")
 
 
 def test_a_page_is_one_file(tmp_path: Path) -> None:

@@ -1,5 +1,7 @@
 """Generated C++ compiles without warnings, is formatted, and does not allocate memory."""
 
+import platform
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -10,10 +12,18 @@ from tests.cpp_tools import STANDARD, WARNINGS, find_gpp, outputs, start, write_
 from tests.generators.code_tools import write_files
 from vicode.cli import main
 from vicode.generators import generate
-from vicode.generators.cpp.names import escape
+from vicode.generators.cpp.names import escape, namespace
+from vicode.generators.plan import PackagePlan
+from vicode.generators.plan.names import package_name
 from vicode.model.design import Assign, Declaration, Design, Guard, State, Transition
 from vicode.model.project import Project
+from vicode.templating import read_asset
 
+C_HEADERS = """
+cctype cerrno cfenv cinttypes clocale csetjmp csignal cstdlib ctime cwchar cwctype arpa/inet.h dirent.h dlfcn.h fcntl.h
+netdb.h poll.h pthread.h sched.h semaphore.h strings.h sys/ioctl.h sys/mman.h sys/select.h sys/socket.h sys/stat.h
+sys/wait.h syslog.h termios.h unistd.h
+"""
 DESIGNS = Path(__file__).parents[2] / "designs"
 CASES = Path(__file__).parent / "cpp_designs"
 FOLDERS = {
@@ -74,6 +84,24 @@ def test_names_of_macros_get_an_underscore(name: str, taken: tuple[str, ...], es
     assert escape(name, taken) == escaped
 
 
+def test_no_namespace_has_a_name_of_the_headers(gpp: str, tmp_path: Path) -> None:
+    """Of all words in the headers of C and POSIX, none is refused as the name of a project."""
+    includes = "".join(f"#include <{header}>\n" for header in C_HEADERS.split())
+    includes = f'#include "bica.hpp"\n{includes}'
+    (tmp_path / "headers.cpp").write_text(includes, encoding="utf-8")
+    (tmp_path / "bica.hpp").write_text(read_asset("cpp/bica.hpp"), encoding="utf-8")
+    (text,) = outputs([start([gpp, "-std=gnu++17", "-E", "-P", "headers.cpp"], tmp_path)])
+    words = {package_name(word) for word in re.findall(r"\b[a-z]\w*", text)} | {"main", "std", "class"}
+    assert len(words) > 3000
+    packages = (
+        PackagePlan(project=Project(name=word), name=word, modules={}, has_declarations=False) for word in sorted(words)
+    )
+    used = dict.fromkeys(namespace(each) for each in packages)
+    lines = "".join(f"namespace {name} {{}}\n" for name in used)
+    (tmp_path / "all.cpp").write_text(f"{includes}{lines}int main() {{}}\n", encoding="utf-8")
+    assert outputs([start([gpp, "-std=gnu++17", "-fsyntax-only", "all.cpp"], tmp_path)]) == [""]
+
+
 def test_no_compiler_warns(gpp: str, generated: dict[Path, str]) -> None:
     """With and without exceptions and run-time types, for a computer and for a controller."""
     compilers = [gpp, *filter(None, [shutil.which("clang++")])]
@@ -88,6 +116,47 @@ def test_no_compiler_warns(gpp: str, generated: dict[Path, str]) -> None:
         assert outputs([start(command, folder) for folder, command in commands[first : first + 4]]) == [""] * len(
             commands[first : first + 4]
         )
+
+
+PRODUCTS = """
+vicode: 1
+component: Product
+outputs: {x: 0.1, square: 0.0, hypotenuse: 0.0, angle: 0.0}
+initial: Equal
+common:
+  transitions: [{to: Other, when: x * square - angle > 100}]
+states:
+  Equal:
+    enter: [{set: {angle: x * 2.5 - square}}]
+    actions: [{set: {x: x + 0.1, square: (x + 0.1) * (x + 0.1), hypotenuse: "hypot(x, 0.3)", angle: degrees(x) + 0.1}}]
+    transitions: [{to: Other, when: x * x - square != 0}]
+  Other:
+    actions: [{set: {x: "x * x + max(x * 0.1 - 2, square)"}}]
+    leave: [{set: {x: x * square - 2}}]
+    transitions: [{to: Equal, when: radians(x) * square + x > 0}]
+"""
+FUSED = re.compile(r"^\s+(?:vfn?m(?:add|sub)\d*\w\w|fn?m(?:add|sub)|fml[as])\s", re.MULTILINE)
+
+
+TARGETS = [("aarch64-linux-gnu-g++", "")]
+if platform.machine() == "x86_64":
+    X86 = "-march=haswell"
+    TARGETS += [("g++", X86), ("g++", f"{X86} -ffp-contract=fast"), ("clang++", X86)]
+
+
+@pytest.mark.parametrize(("compiler", "flags"), TARGETS, ids=lambda value: str(value).replace(" ", ""))
+def test_no_compiler_fuses_multiplications(compiler: str, flags: str, tmp_path: Path) -> None:
+    """The only fused instruction is that of a function outside of generated code."""
+    if shutil.which(compiler) is None:
+        pytest.skip(f"{compiler} is missing: sudo apt install g++ clang g++-aarch64-linux-gnu")
+    (tmp_path / "products.yaml").write_text(PRODUCTS, encoding="utf-8")
+    package = write_project(tmp_path, tmp_path)
+    plain = "double plain(double a, double b, double c) { return a * b + c; }"
+    (tmp_path / "cpp" / "fused.cpp").write_text(f'{plain}\n#include "{package}_unit.cpp"\n', encoding="utf-8")
+    for level in ("-O2", "-O3", "-Os"):
+        command = [compiler, *STANDARD, level, *flags.split(), "-I.", "-S", "-o-", "fused.cpp"]
+        (assembly,) = outputs([start(command, tmp_path / "cpp")])
+        assert len(FUSED.findall(assembly)) == 1, level
 
 
 def test_code_for_controllers_includes_no_threads_and_streams(gpp: str, generated: dict[Path, str]) -> None:
@@ -136,18 +205,9 @@ Robot robot;
     assert "laser_max" in result.stderr
 
 
-@pytest.mark.skipif(shutil.which("cmake") is None, reason="cmake is missing: sudo apt install cmake")
-@pytest.mark.nightly
-def test_cmake_builds_a_static_library(gpp: str, generated: dict[Path, str], tmp_path: Path) -> None:
-    folder = next(folder for folder, package in generated.items() if package == "forward")
-    outputs([start(["cmake", "-S", str(folder / "forward"), "-B", str(tmp_path)], folder)])
-    outputs([start(["cmake", "--build", str(tmp_path)], folder)])
-    assert (tmp_path / "libforward.a").exists()
-
-
 def test_the_programs_of_the_documentation_compile(gpp: str, generated: dict[Path, str]) -> None:
     page = (DESIGNS.parent / "docs" / "cpp.md").read_text(encoding="utf-8")
-    program, head = (block.partition("```")[0] for block in page.split("```cpp\n")[1:])
+    program, head, *_recorded = (block.partition("```")[0] for block in page.split("```cpp\n")[1:])
     folders = {package: folder for folder, package in generated.items()}
     (folders["rescue"] / "main.cpp").write_text(program, encoding="utf-8")
     head = f'#include "forward/components.hpp"\n{head}\nbica::Root root;\nHead head(root);\n'

@@ -1,5 +1,6 @@
 """Imported names, comments, groups and declarations, and their files."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,6 +8,8 @@ import pytest
 
 from tests.importers.differential_harness import import_checked
 from tests.xabsl.xabsl_cases import CASES, PROGRAMS, load_texts
+from vicode.findings import DesignPath
+from vicode.importers import PlacedComment
 from vicode.model.design import Assign, Call, DecisionGroup, Design, Stay, Transition
 from vicode.model.project import INTERNAL, WORLD, Project
 from vicode.store import add_comments, read_design, read_project_file, save_design, save_project_file
@@ -86,6 +89,10 @@ option helper {
   initial state only { decision { if (@side == _initial) stay; else stay; } action { } }
 }
 """
+
+
+def pairs(comments: Iterable[PlacedComment]) -> list[tuple[DesignPath, str]]:
+    return [(comment.path, comment.text) for comment in comments]
 
 
 def texts() -> dict[str, str]:
@@ -199,11 +206,11 @@ def test_actions_keep_their_order(main: Design) -> None:
 
 def test_files_contain_every_comment() -> None:
     imported, _compiled = import_checked(load_texts(texts()))
-    text = add_comments(save_project_file(imported.project), imported.comments, is_project_file=True)
+    text = add_comments(save_project_file(imported.project), pairs(imported.comments), is_project_file=True)
     for words in ("nearer than this", "namespace acts: What it does", "the end", "Title: ignored here"):
         assert words in text
     for design, imported_design in zip(imported.project.designs, imported.designs, strict=True):
-        written = add_comments(save_design(design), imported_design.comments)
+        written = add_comments(save_design(design), pairs(imported_design.comments))
         assert read_design(written).design == design
         if design.component == "main":
             assert imported_design.path == "Options/main.yaml"
@@ -220,10 +227,10 @@ def test_files_load_as_the_imported_project(program: str) -> None:
     imported, _compiled = import_checked(source)
     again, _ = import_checked(source)
     assert again == imported
-    text = add_comments(save_project_file(imported.project), imported.comments, is_project_file=True)
+    text = add_comments(save_project_file(imported.project), pairs(imported.comments), is_project_file=True)
     assert read_project_file(text).project == replace(imported.project, designs=())
     for design, imported_design in zip(imported.project.designs, imported.designs, strict=True):
-        read = read_design(add_comments(save_design(design), imported_design.comments))
+        read = read_design(add_comments(save_design(design), pairs(imported_design.comments)))
         assert read.findings == ()
         assert read.design == design
 

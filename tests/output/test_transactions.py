@@ -5,6 +5,8 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -145,6 +147,66 @@ def test_a_replacement_interrupted_after_the_journal_is_completed(
     monkeypatch.undo()
     complete_interrupted(tmp_path)
     assert read(tmp_path) == {"a.py": "new", "c.py": "new"}
+
+
+@pytest.mark.parametrize("changed", ["a.py", "b.py"])
+def test_an_edit_after_a_crash_is_not_overwritten(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, changed: str
+) -> None:
+    replace_files(tmp_path, {"a.py": "old", "b.py": "old"})
+
+    def stop(source: Path | None, target: Path) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(transactions, "_move", stop)
+        with pytest.raises(KeyboardInterrupt):
+            replace_files(tmp_path, {"a.py": "new", "b.py": None})
+    (tmp_path / changed).write_text("edited")
+    complete_interrupted(tmp_path)
+    assert read(tmp_path) == ({"a.py": "edited"} if changed == "a.py" else {"a.py": "new", "b.py": "edited"})
+    assert not (tmp_path / ".vicode/pending").exists()
+
+
+@pytest.mark.parametrize("changed", ["a.py", "b.py", "new.py"])
+def test_a_file_that_changes_in_the_last_moment_keeps_its_content(tmp_path: Path, changed: str) -> None:
+    replace_files(tmp_path, {"a.py": "old", "b.py": "old"})
+    texts = {"a.py": "new", "b.py": None, "new.py": "new"}
+
+    @contextmanager
+    def interfere() -> Iterator[None]:
+        (tmp_path / changed).write_text("edited")
+        yield
+
+    with pytest.raises(OSError, match="changed at the same time"):
+        replace_files(tmp_path, texts, prepare=interfere)
+    expected = {path: text for path, text in (texts | {changed: "edited"}).items() if text is not None}
+    assert read(tmp_path) == expected
+
+
+def test_what_was_prepared_is_undone_if_nothing_is_moved(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    replace_files(tmp_path, {"a.py": "old"})
+    said: list[str] = []
+
+    @contextmanager
+    def prepare() -> Iterator[None]:
+        try:
+            yield
+        except OSError:
+            said.append("undone")
+            raise
+
+    def fail(path: Path, content: str | bytes, *, is_durable: bool = True) -> None:
+        if path.name == "journal.json":
+            raise OSError("full")
+        original(path, content, is_durable=is_durable)
+
+    original = transactions.write_atomically
+    with monkeypatch.context() as patch:
+        patch.setattr(transactions, "write_atomically", fail)
+        with pytest.raises(OSError, match="full"):
+            replace_files(tmp_path, {"a.py": "new"}, prepare=prepare)
+    assert (said, read(tmp_path)) == (["undone"], {"a.py": "old"})
 
 
 WRITER = """

@@ -3,6 +3,7 @@
 import asyncio
 import contextlib
 import json
+import ssl
 import threading
 from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager, contextmanager
@@ -10,21 +11,27 @@ from contextlib import asynccontextmanager, contextmanager
 
 @asynccontextmanager
 async def fake_bridge(
-    *, greeting: bytes = b"Robot connection accepted\n", error: str = "", messages: float = float("inf")
+    *,
+    greeting: bytes = b"Robot connection accepted\n",
+    error: str = "",
+    messages: float = float("inf"),
+    received: list[str] | None = None,
+    tls: ssl.SSLContext | None = None,
 ) -> AsyncIterator[int]:
     """Yield the port of a bridge that ends with the block; it closes connections after a number of messages."""
     tasks = []
+    lines = [] if received is None else received
 
     async def serve(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         tasks.append(asyncio.current_task())
         with contextlib.suppress(ConnectionError):
             writer.write(greeting)
-            await _drive(reader, writer, error, messages)
+            await _drive(_Reader(reader, lines), writer, error, messages)
         with contextlib.suppress(ConnectionError):
             writer.close()
             await writer.wait_closed()
 
-    server = await asyncio.start_server(serve, "127.0.0.1", 0)
+    server = await asyncio.start_server(serve, "127.0.0.1", 0, ssl=tls)
     try:
         yield server.sockets[0].getsockname()[1]
     finally:
@@ -33,14 +40,14 @@ async def fake_bridge(
 
 
 @contextmanager
-def fake_bridge_thread() -> Iterator[int]:
+def fake_bridge_thread(received: list[str] | None = None) -> Iterator[int]:
     """Yield the port of a bridge that runs in a thread."""
     ports: list[int] = []
     started, ended = threading.Event(), asyncio.Event()
     loop = asyncio.new_event_loop()
 
     async def run() -> None:
-        async with fake_bridge() as port:
+        async with fake_bridge(received=received) as port:
             ports.append(port)
             started.set()
             await ended.wait()
@@ -56,12 +63,26 @@ def fake_bridge_thread() -> Iterator[int]:
         loop.close()
 
 
-async def _drive(reader: asyncio.StreamReader, writer: asyncio.StreamWriter, error: str, messages: float) -> None:
-    turned, yaw, drive = 0.0, None, None
+class _Reader:
+    """Reads lines and keeps them."""
+
+    def __init__(self, reader: asyncio.StreamReader, lines: list[str]) -> None:
+        self._reader, self._lines = reader, lines
+
+    async def readline(self) -> bytes:
+        line = await self._reader.readline()
+        self._lines.append(line.decode().strip())
+        return line
+
+
+async def _drive(reader: _Reader, writer: asyncio.StreamWriter, error: str, messages: float) -> None:
+    turned, yaw, drive, number = 0.0, None, None, 0
     while (line := await reader.readline()) and messages > 0:
         messages -= 1
         is_json = line.startswith(b"{")
         message = json.loads(line) if is_json else _read_jxi(line)
+        if error and not is_json:
+            writer.write(f"ERROR: {error}\n".encode())
         if "hello" in message:
             writer.write(_json({"error": error} if error else {"welcome": {"robot": message["hello"]["robot"]}}))
         if "INS" not in message:
@@ -74,7 +95,8 @@ async def _drive(reader: asyncio.StreamReader, writer: asyncio.StreamWriter, err
         if "tick" in message:
             writer.write(_json({"tick": message["tick"], "commands": commands, "state": state, "age_ms": 0}))
         elif is_json:
-            writer.write(_json({"commands": commands, "state": state, "age_ms": 1.5}))
+            number += 1
+            writer.write(_json({"time": number, "commands": commands, "state": state, "age_ms": 1.5}))
         elif commands:
             writer.write(f"DIFFERENTIALDRIVE:{drive[0]},{drive[1]}\nUNKNOWN:?\n".encode())
 

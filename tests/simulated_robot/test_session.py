@@ -1,9 +1,12 @@
 """A simulated robot that a bridge drives: lock step, real time, the lines of JXI, and refusals."""
 
 import asyncio
+import ssl
+from pathlib import Path
 
 import pytest
 
+from tests.bridge.certificates import make_certificate
 from tests.simulated_robot.fake_bridge import fake_bridge
 from vicode.simulated_robot.arena import Arena
 from vicode.simulated_robot.client import BridgeError
@@ -66,6 +69,52 @@ def test_a_server_that_is_no_bridge_is_named() -> None:
 
     with pytest.raises(BridgeError, match="the server is no bridge: it greets with b'220 mail ready"):
         asyncio.run(run())
+
+
+def test_an_error_in_the_lines_of_jxi_is_passed_on() -> None:
+    async def run() -> None:
+        async with fake_bridge(error="choose a behavior: a, b") as port:
+            await SimulationSession(Arena(WorldMap()), BridgeAddress(port=port, is_jxi=True)).run_real_time(5)
+
+    with pytest.raises(BridgeError, match="the bridge reports: choose a behavior: a, b"):
+        asyncio.run(run())
+
+
+def test_each_command_is_acknowledged() -> None:
+    for is_jxi in (False, True):
+        messages: list[str] = []
+
+        async def run(is_jxi: bool = is_jxi, messages: list[str] = messages) -> None:
+            async with fake_bridge(received=messages) as port:
+                await SimulationSession(Arena(WorldMap()), BridgeAddress(port=port, is_jxi=is_jxi)).run_real_time(0.3)
+
+        asyncio.run(run())
+        acknowledged = [each for each in messages if "ack" in each.lower()]
+        assert acknowledged[:3] == (["ACK:0", "ACK:1", "ACK:2"] if is_jxi else ['{"ack":1}', '{"ack":2}', '{"ack":3}'])
+
+
+def test_a_bridge_with_tls_is_named(tmp_path: Path) -> None:
+    certificate = make_certificate(tmp_path)
+    if certificate is None:
+        return  # nothing here can make a certificate
+    context = ssl.create_default_context(ssl.Purpose.CLIENT_AUTH)
+    context.load_cert_chain(certificate)
+
+    async def drive(port: int, tls: ssl.SSLContext | None) -> None:
+        await SimulationSession(Arena(WorldMap()), BridgeAddress(port=port, tls=tls)).run_lock_step(0.2)
+
+    async def run() -> None:
+        async with fake_bridge(tls=context) as port:
+            await drive(port, ssl.create_default_context(cafile=certificate))
+            with pytest.raises(BridgeError, match="without a greeting; if it has a certificate, add --tls or --ca"):
+                await drive(port, None)
+            with pytest.raises(BridgeError, match="the certificate of the bridge is not trusted: self-signed"):
+                await drive(port, ssl.create_default_context())
+        async with fake_bridge() as port:
+            with pytest.raises(BridgeError, match="the bridge does not use TLS; leave out --tls and --ca"):
+                await drive(port, ssl.create_default_context())
+
+    asyncio.run(run())
 
 
 def test_a_refusal_of_the_bridge_is_passed_on() -> None:

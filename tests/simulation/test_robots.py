@@ -49,7 +49,7 @@ def test_what_is_no_address(text: str) -> None:
 
 def test_a_robot_describes_itself(tmp_path: Path) -> None:
     with Root(Idle, clock=SimulatedClock()) as root:
-        server = root.watch(token="right", control=True)
+        server = root.watch(token="right", control=True, without_hold=True)
         hello = try_address(server.address, "right")
         assert hello.control
         assert [(robot.name, list(robot.components)) for robot in hello.robots] == [("Idle", ["Idle"])]

@@ -214,6 +214,7 @@ profiles = st.builds(
     Profile,
     name=names,
     world=st.just("") | texts,
+    clock=st.sampled_from(["", "world"]),
     components=_unique(
         st.builds(ProfileClass, component=names, implementation=texts)
         | st.builds(RemoteReference, component=names, remote=texts, reliable=st.booleans(), max_age=frequencies),
@@ -233,7 +234,9 @@ projects = st.builds(
     doc=st.just("") | texts,
     languages=_tuples(st.sampled_from(["python", "cpp", "xabsl"]), 2),
     world=st.just("") | texts,
+    clock=st.sampled_from(["", "world"]),
     generated=st.sampled_from(["generated", "../out", ""]),
+    xabsl_encoding=st.sampled_from(["", "gbk", "koi8-r"]),
     enumerations=_unique(enumerations, "name", 2),
     constants=_unique(declarations(is_tunable=True), "name", 2),
     components=_unique(interfaces, "component", 2),

@@ -88,7 +88,7 @@ def test_an_edit_in_a_stale_file_is_reported(tmp_path: Path) -> None:
     differences = compare_files(files, tmp_path, is_generated=regions.has_header)
     (edits,) = find_file_edits(differences, files, lambda _path: [text_of()])
     assert [finding.rule.code for finding in describe_edits([edits])] == ["G504"]
-    assert "no such code any more" in next(describe_edits([edits])).message
+    assert "no longer contains this code" in next(describe_edits([edits])).message
 
 
 def test_an_edit_follows_a_renamed_state_and_component(tmp_path: Path) -> None:
@@ -118,16 +118,49 @@ def test_edits_of_the_same_line_are_a_conflict_with_both_sides(tmp_path: Path) -
     assert [code for code, _line, _message in describe(tmp_path, on_disk, text_of("self.a = 5"), text_of())] == ["G504"]
 
 
-def test_conflict_markers_of_git_hide_no_edit(tmp_path: Path) -> None:
-    ours = text_of(THREE).replace("a = 1", "a = 3")
-    theirs = text_of(THREE.replace("c = 1", "c = 5"))
-    mark = next(line for line in ours.split("\n") if "<vicode" in line)
-    other = next(line for line in theirs.split("\n") if "<vicode" in line)
-    conflict = f"<<<<<<< HEAD\n{mark}\n    self.a = 3\n=======\n{other}\n    self.a = 1\n>>>>>>> other"
-    on_disk = theirs.replace(f"{other}\n    self.a = 1", conflict)
-    (edits,) = find(tmp_path, on_disk, theirs, text_of(THREE))
-    assert [(region.id, region.merged) for region in edits.regions] == [
-        ("S.enter", "self.a = 3\nself.b = 1\nself.c = 5")
-    ]
-    assert not edits.is_edited_outside
-    assert find(tmp_path, on_disk.replace("self.a = 3", "self.a = 1"), theirs, text_of(THREE)) == ()
+def conflict(ours: str, theirs: str, base: str | None = None) -> str:
+    ancestor = "" if base is None else f"||||||| base\n{base}"
+    return f"<<<<<<< HEAD\n{ours}{ancestor}=======\n{theirs}>>>>>>> other\n"
+
+
+@pytest.mark.parametrize("base", [None, "    self.b = 1\n"])
+def test_conflict_markers_stop_everything_else(tmp_path: Path, base: str | None) -> None:
+    """Both sides of the region differ in one line; the file is also edited outside regions."""
+    inside = conflict("    self.b = 2\n", "    self.b = 3\n", base)
+    on_disk = text_of(THREE).replace("    self.b = 1\n", inside).replace("def f(", "def g(")
+    assert inside in on_disk
+    (edits,) = find(tmp_path, on_disk, text_of(THREE), text_of(THREE))
+    assert (edits.regions, edits.is_edited_outside) == ((), False)
+    (merge,) = edits.merge_conflicts
+    assert (merge.regions, merge.ours, merge.theirs) == (("S.enter",), "    self.b = 2\n", "    self.b = 3\n")
+    marked = tuple(number for number, line in enumerate(on_disk.split("\n"), 1) if line[:7] in MARKERS)
+    assert merge.lines == marked
+    (found,) = describe(tmp_path, on_disk, text_of(THREE))
+    assert (found[0], found[1]) == ("G504", marked[0])
+    assert ", ".join(map(str, marked)) in found[2]
+
+
+MARKERS = ("<" * 7, "|" * 7, "=" * 7, ">" * 7)
+
+
+@pytest.mark.parametrize("marker", ["<<<<<<< HEAD", "||||||| 1234", ">>>>>>> other", ">>>>>>>>> other"])
+def test_a_marker_that_was_left_is_found(tmp_path: Path, marker: str) -> None:
+    on_disk = text_of(THREE).replace("    self.b = 1\n", f"{marker}\n    self.b = 1\n")
+    assert [code for code, _line, _message in describe(tmp_path, on_disk, text_of(THREE))] == ["G505"]
+    assert [code for code, _line, _message in describe(tmp_path, f"{marker}\n{text_of()}", text_of())] == ["G505"]
+
+
+def test_generated_lines_are_no_markers(tmp_path: Path) -> None:
+    body = 'self.a = """\n<<<<<<< begin\n=======\n>>>>>>> end\n"""'
+    assert describe(tmp_path, text_of(body), text_of(body)) == []
+    assert describe(tmp_path, text_of(body), text_of(f"{body}\nself.b = 1"), text_of(body)) == []
+    assert describe(tmp_path, text_of(), text_of().replace("def f", "def g"), text_of()) == []
+
+
+def test_several_conflicts_are_told_apart(tmp_path: Path) -> None:
+    text = text_of(THREE).replace("    self.b = 1\n", conflict("    self.b = 2\n", "", "    self.b = 1\n"))
+    text = text.replace("class A:", conflict("class B:\n    pass\n", "class C:\n") + "class A:")
+    found = describe(tmp_path, text, text_of(THREE), text_of(THREE))
+    assert [code for code, _line, _message in found] == ["G505", "G504"]
+    assert "lines 2, 5, 7" in found[0][2]
+    assert "'S.enter'" in found[1][2]

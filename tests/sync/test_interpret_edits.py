@@ -26,6 +26,10 @@ UNDERSTOOD = {
         ("y=0.0)) < 30", "y=77)) < 30"),
         "guard of CircleBall → SearchNet: abs(perception.bearing_to(x=net_x, y=77)) < 30 or state_time > 10",
     ),
+    "sum in place of a number": (
+        ("y=0.0)) < 30", "y=0.0)) < 30 + net_x"),
+        "guard of CircleBall → SearchNet: abs(perception.bearing_to(x=net_x, y=0)) < 30 + net_x or state_time > 10",
+    ),
     "operator": (
         ("decide and not self.perception.fallen", "decide and self.perception.ball_age > 3 * (1 + net_x)"),
         "guard of GetUp → LookForBall: perception.ball_age > 3 * (1 + net_x)",
@@ -33,6 +37,10 @@ UNDERSTOOD = {
     "common guard": (
         ("if self.perception.fallen:", "if self.perception.fallen and self.state_time > 1:"),
         "guard of common → GetUp: perception.fallen and state_time > 1",
+    ),
+    "guard that reads the team": (
+        ("if self.perception.fallen:", "if self.perception.fallen and self.root.team.size < 3:"),
+        "guard of common → GetUp: perception.fallen and team_size < 3",
     ),
     "nested guard": (
         ("(self.perception.net_bearing) < lateral_limit", "(self.perception.net_bearing) <= lateral_limit"),
@@ -197,8 +205,8 @@ def test_lines_are_those_of_the_edited_file() -> None:
     assert found == {
         "modulation": "self._call(self.follow_ball, speed=250.0)",
         "module": "import math",
-        # The last statement before the place of what was removed, or the first one behind it.
-        "removed": "return",
+        # The first statement of the method behind what was removed.
+        "removed": "self._call(self.search_ball)",
     }
 
 

@@ -17,7 +17,8 @@ from vicode.model.edits import rename_state, replace_decision, update_decisions,
 from vicode.model.project import Project
 from vicode.model.traversal import iter_decisions
 from vicode.sync.interpret import interpret_edits
-from vicode.sync.interpret.normal_form import build_normal_form, collect_parts
+from vicode.sync.interpret.leftover import with_bodies
+from vicode.sync.interpret.verification import is_same_program
 from vicode.sync.same_code import is_same_code
 
 KINDS = (
@@ -148,11 +149,7 @@ def is_equivalent(result: str, after: str, before: str) -> bool:
 
     A region of `before` with another body in `after` counts as an edit of the region, which others apply.
     """
-    parts = collect_parts(before)
-    form, wanted = (
-        build_normal_form(text, parts, is_generated=is_result) for text, is_result in ((result, True), (after, False))
-    )
-    return is_same_code(result, after) or (form.keys == wanted.keys and form.imports == wanted.imports)
+    return is_same_code(result, after) or is_same_program(result, with_bodies(after, before))
 
 
 # Shrinking would generate thousands of times.

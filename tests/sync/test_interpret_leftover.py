@@ -1,14 +1,17 @@
 """Edits of a generated file without a clear meaning in the design stay a patch of the generated code."""
 
+import re
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from tests.sync.patches import apply_patch
 from tests.sync.player_edits import FORWARD, PLAYER, edited_player, interpret, text_of
+from vicode.generators import component_generator
 from vicode.model.design import Assign, DecisionGroup, Declaration, Design, Guard, State, Transition, Use
 from vicode.model.project import Project
-from vicode.sync.interpret import interpret_edits
+from vicode.sync.interpret import interpret_edits, search
 from vicode.sync.same_code import is_same_code
 
 SPEED = ("speed=210.0", "speed=250")
@@ -49,6 +52,51 @@ def test_an_edit_that_stays_a_patch(name: str, tmp_path: Path) -> None:
     assert 1 <= len(changed) <= 4
     patched = apply_patch(text_of(FORWARD, result.design), result.leftover, tmp_path)
     assert is_same_code(patched, edited.replace("speed=250", "speed=250.0"))
+
+
+REASONS = {
+    "statement in a decision": """_decide_common(): no edit of the design produces 'log.info('x')'""",
+    "comment with another time": "# after 0.7 s'",
+    "comment": "_enter_kick(): no edit of the design produces '# once more'",
+    "base class": "class Player: no edit of the design produces 'class Player(Component, Mixin):'",
+    "undeclared name": "_in_look_for_ball(): no edit of the design produces 'if self.perception.ball_color:'",
+    "function": "_in_look_for_ball(): no edit of the design produces 'if self.perception.look(3):'",
+    "another state": """_in_look_for_ball(): no edit of the design produces 'self._change_to('Nowhere')'""",
+    "local name": "_in_get_up(): no edit of the design produces 'tries = 3'",
+    "return": "_in_get_up(): no edit of the design produces 'if self.kicks:'",
+    "removed import": "no edit of the design removes 'from field.walk import Walk'",
+    "annotation": "__init__(): no edit of the design produces 'self.kicks: int = 0'",
+    "generated method": "_in_kick(): no edit of the design produces 'def _in_kick(self, decide: bool=False) -> None:'",
+    "decorator": "_in_kick(): no edit of the design produces '@override'",
+}
+
+
+@pytest.mark.parametrize("name", LEFT_OVER)
+def test_a_reason_names_the_first_statement_that_no_edit_gives(name: str) -> None:
+    (reason,) = interpret(edited_player(LEFT_OVER[name], SPEED)).reasons
+    assert reason.endswith(REASONS[name])
+
+
+def test_a_reason_is_given_where_nothing_is_read() -> None:
+    assert interpret(edited_player(("def _in_kick(", "def ("))).reasons == ("line 225 is not Python: invalid syntax",)
+    assert interpret(edited_player(("class Player(", "class Plyer("))).reasons == ("class Player is missing",)
+
+
+def test_the_search_ends_after_some_proposals(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(search, "_MIN_TRIES", 20)
+    monkeypatch.setattr(search, "_MAX_LINES", 0)
+    written: list[Design] = []
+
+    def count(*values: object) -> Callable[[Design], object]:
+        write = component_generator(*values)  # type: ignore[arg-type]
+        return lambda design: written.append(design) or write(design)  # type: ignore[func-returns-value]
+
+    monkeypatch.setattr(search, "component_generator", count)
+    edited = re.sub(r"self\.(?!_)(\w+)", r"self.\1_now", PLAYER)
+    result = interpret(edited)
+    assert len(written) == 20
+    assert "_in_get_up(): the search ended after 20 proposals; make fewer edits at once" in result.reasons
+    assert is_same_code(apply_patch(text_of(FORWARD, result.design), result.leftover, tmp_path), edited)
 
 
 def test_text_that_is_not_python_is_a_patch(tmp_path: Path) -> None:

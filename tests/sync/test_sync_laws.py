@@ -21,7 +21,15 @@ from vicode.model.edits import rename_state
 from vicode.model.project import Project
 from vicode.model.traversal import iter_code
 from vicode.regions import find_regions, wrap_region
-from vicode.sync import GeneratedHistory, GenerationInput, GenerationPlan, Side, plan_generation, write_generated
+from vicode.sync import (
+    Choices,
+    GeneratedHistory,
+    GenerationInput,
+    GenerationPlan,
+    Side,
+    plan_generation,
+    write_generated,
+)
 from vicode.sync.apply_regions import set_code
 
 _T = TypeVar("_T")
@@ -57,7 +65,7 @@ class Workspace:
             generate=lambda project: generate(project, languages=["python"]),
             history=GeneratedHistory(folder=self.folder),
         )
-        return plan_generation(job, applies_edits=applies_edits, take=take)
+        return plan_generation(job, applies_edits=applies_edits, choices=Choices(default=take))
 
     def sync(self, take: Side | None = None) -> tuple[str, ...]:
         """Apply edits and write; return the codes of the findings that prevent it."""

@@ -3,7 +3,7 @@
 The package uses only the standard library. Copied into a robot program, it runs without vicode.
 """
 
-from .clock import Clock, PacedClock, RealClock, SimulatedClock
+from .clock import Clock, PacedClock, PacingWorld, RealClock, SimulatedClock, StoppableClock, WorldClock
 from .component import RESERVED_NAMES, Component, State
 from .errors import ComponentError, CyclicUseError, ErrorRecord
 from .observer import IterationRecord, Observer, StepRecord
@@ -23,12 +23,15 @@ __all__ = [
     "IterationRecord",
     "Observer",
     "PacedClock",
+    "PacingWorld",
     "RealClock",
     "Root",
     "SimulatedClock",
     "State",
     "StepRecord",
+    "StoppableClock",
     "Team",
     "TeamMessage",
+    "WorldClock",
     "XabslComponent",
 ]

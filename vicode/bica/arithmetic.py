@@ -1,14 +1,14 @@
 """IEEE arithmetic for guards and actions: no function raises, and all generated languages give the same results.
 
-Numbers are doubles and integers that are exact to ±2**53. Where Python raises, the result is that of C's libm:
-nan or an infinity. docs/semantics.md lists the rules.
+Numbers are doubles and integers within ±2**53, which doubles represent exactly. Where Python raises, the result is that
+of C's libm: nan or an infinity. docs/semantics.md lists the rules.
 """
 
 import math
 from collections.abc import Callable
 
-INT_MIN = -(2**63)
-INT_MAX = 2**63 - 1
+MAX_INT = 2**53
+"""Stored ints lie between -MAX_INT and MAX_INT."""
 
 
 def divide(a: float, b: float) -> float:
@@ -134,24 +134,39 @@ def radians(x: float) -> float:
     return x * _RADIANS_PER_DEGREE
 
 
+def limit(x: int) -> int:
+    """Return an int that is stored: x limited to ±2**53."""
+    # Python reads numbers faster than names.
+    if -9007199254740992 <= x <= 9007199254740992:
+        return x
+    return MAX_INT if x > 0 else -MAX_INT
+
+
+def saturate(x: int) -> int:
+    """Return the result of an operation on ints: x limited to 64 bits."""
+    if _INT64_MIN <= x <= _INT64_MAX:
+        return x
+    return _INT64_MAX if x > 0 else _INT64_MIN
+
+
 def to_int(x: float) -> int:
-    """Return x truncated towards zero and saturated to 64 bits; 0 for nan."""
-    return _saturate(x, int)
+    """Return x truncated towards zero and limited to ±2**53; 0 for nan."""
+    return _limited(x, int)
 
 
 def floor(x: float) -> int:
-    """Return the greatest integer <= x, saturated as in `to_int`."""
-    return _saturate(x, math.floor)
+    """Return the greatest integer <= x, limited as in `to_int`."""
+    return _limited(x, math.floor)
 
 
 def ceil(x: float) -> int:
-    """Return the least integer >= x, saturated as in `to_int`."""
-    return _saturate(x, math.ceil)
+    """Return the least integer >= x, limited as in `to_int`."""
+    return _limited(x, math.ceil)
 
 
 def round_half_even(x: float) -> int:
-    """Return the nearest integer, ties to even, saturated as in `to_int`."""
-    return _saturate(x, round)
+    """Return the nearest integer, ties to even, limited as in `to_int`."""
+    return _limited(x, round)
 
 
 def minimum(a: float, *others: float) -> float:
@@ -180,6 +195,7 @@ def is_nan(x: float) -> bool:
     return x != x  # noqa: PLR0124 - only true for nan, and faster than a call
 
 
+_INT64_MIN, _INT64_MAX = -(2**63), 2**63 - 1
 _DEGREES_PER_RADIAN = 180.0 / math.pi
 _RADIANS_PER_DEGREE = math.pi / 180.0
 
@@ -200,9 +216,9 @@ def _log_with(function: Callable[[float], float], x: float) -> float:
     return -math.inf if x == 0 else math.nan
 
 
-def _saturate(x: float, rounding: Callable[[float], int]) -> int:
+def _limited(x: float, rounding: Callable[[float], int]) -> int:
     if is_nan(x):
         return 0
-    if x >= INT_MAX:
-        return INT_MAX
-    return rounding(x) if x > INT_MIN else INT_MIN
+    if x >= MAX_INT:
+        return MAX_INT
+    return rounding(x) if x > -MAX_INT else -MAX_INT

@@ -115,7 +115,8 @@ class Component:
         self._cooperative_states: dict[str, CooperativeState] = {}
         self._reads_action_done = False
         self._transition: str | None = None
-        self._stepped_in = -1
+        # An XabslComponent sets it two iterations back, which may be -1.
+        self._stepped_in = -2
         self._started_ns = self._entered_ns = self._worked_ns = 0
 
     def step(self) -> None:
@@ -126,7 +127,7 @@ class Component:
             missed = iteration - self._stepped_in
             self._stepped_in = iteration
             if missed > 1:
-                self._start(is_first=missed > iteration)
+                self._start(is_first=missed > iteration + 1)
             current = self._current
             if current.requires:
                 for component in current.requires:

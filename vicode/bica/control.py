@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
+from .arithmetic import limit
 from .errors import make_error_record
 
 if TYPE_CHECKING:
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from .observer import IterationRecord, StepRecord
     from .root import Root
 
+_MAX_LOGGED = 10
+"""So many breakpoints are listed in the log."""
 _MIN_FREQUENCY_HZ, _MAX_FREQUENCY_HZ = 0.001, 10_000.0
 
 
@@ -33,6 +36,8 @@ class Controller:
         self._root = root
         self._paused_by: object = None
         self._steps_left = 0
+        self.last_iteration = 0
+        """The number of the iteration before the requests."""
         self._breakpoints: dict[object, frozenset[tuple[str | None, ...]]] = {}
         self._held: dict[tuple[str, str], tuple[object, Any]] = {}
         self._injected: dict[str, str] = {}
@@ -60,7 +65,7 @@ class Controller:
         return bool(self._held or self._injected)
 
     def apply(self, viewer: object, request: dict[str, Any]) -> str:
-        """Apply a request and return what was done, for the log; "" for what needs no line.
+        """Apply a request and return what was done, for the log; "" if nothing was.
 
         Raises:
             ControlError: The request is not valid.
@@ -70,18 +75,20 @@ class Controller:
             raise ControlError(f"unknown request {request.get('do')!r}; known are {', '.join(self._actions)}")
         return action(viewer, request)
 
-    def check_breakpoints(self, record: IterationRecord) -> None:
-        """Pause if an iteration entered a state or took a transition with a breakpoint; count steps."""
+    def check_breakpoints(self, record: IterationRecord) -> str:
+        """Pause if an iteration reached a breakpoint, and return the first reached for the log, or ""; count steps."""
         if self._steps_left:
             self._steps_left -= 1
         if not self._breakpoints:
-            return
+            return ""
         reached = {place for step in record["tree"] if step["changed_from"] is not None for place in _places(step)}
         if record["errors"]:
             reached.add(("", "error"))
-        for viewer, places in self._breakpoints.items():
-            if not reached.isdisjoint(places):
-                self._paused_by, self._steps_left = viewer, 0
+        found = [(viewer, place) for viewer, places in self._breakpoints.items() for place in places & reached]
+        if not found:
+            return ""
+        self._paused_by, self._steps_left = found[-1][0], 0
+        return min(map(_describe_place, (place for _viewer, place in found)))
 
     def prepare_step(self, component: Component, plain_step: Callable[[], None]) -> Callable[[], None]:
         """The step of a component with injected errors and held values."""
@@ -118,7 +125,7 @@ class Controller:
         if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= 1_000_000:
             raise ControlError("'count' must be a whole number from 1")
         self._paused_by, self._steps_left = viewer, count
-        return ""
+        return f"runs {count} iteration{'s' * (count != 1)}"
 
     def _break(self, viewer: object, request: dict[str, Any]) -> str:
         """Replace the breakpoints of a viewer: [component, state], or [component, source, target, id] of a transition.
@@ -133,7 +140,9 @@ class Controller:
             if unknown:
                 raise ControlError(f"{component} has no state '{unknown[0]}'")
         self._breakpoints[viewer] = frozenset(map(tuple, places))
-        return ""
+        words = [_describe_place(tuple(place)) for place in places]
+        more = f" and {len(words) - _MAX_LOGGED} more" if len(words) > _MAX_LOGGED else ""
+        return f"breakpoints: {', '.join(words[:_MAX_LOGGED]) or 'none'}{more}"
 
     def _set(self, viewer: object, request: dict[str, Any]) -> str:
         component, name = self._component(request.get("component")), str(request.get("name"))
@@ -155,7 +164,7 @@ class Controller:
         new = component._states.get(str(request.get("state")))
         if new is None:
             raise ControlError(f"{name} has no state '{request.get('state')}'")
-        if self._root.iteration - component._stepped_in > 1:
+        if component._stepped_in != self.last_iteration:
             raise ControlError(f"{name} is not active: it was not stepped in the last iteration")
         old = component._current
         if old.leave is not None:
@@ -204,6 +213,8 @@ class Controller:
             self._paused_by, self._steps_left = None, 0
         self._breakpoints.pop(viewer, None)
         self._held = {key: held for key, held in self._held.items() if held[0] is not viewer}
+        # Whatever the viewer commanded last must not go on; the behavior commands the robot again.
+        self._root.hold()
         return "resumed, as the viewer that paused has left" if was_paused else ""
 
     def _component(self, name: object) -> Component:
@@ -217,6 +228,14 @@ def _is_place(place: object) -> bool:
     if not isinstance(place, list) or len(place) not in (2, 4):
         return False
     return all(isinstance(part, str) for part in place[:3]) and isinstance(place[-1], str | None)
+
+
+def _describe_place(place: tuple[str | None, ...]) -> str:
+    """A breakpoint in words; without the id, which the viewer may have invented."""
+    component, *states = place[:3]
+    if not component:
+        return "errors"
+    return f"{component} {' → '.join(state or 'any state' for state in states)}"
 
 
 def _places(step: StepRecord) -> Iterator[tuple[str | None, ...]]:
@@ -260,4 +279,4 @@ def convert_value(value: object, old: Any, name: str) -> Any:
             return math.nan if value == "nan" else math.copysign(math.inf, -1 if value == "-inf" else 1)
     if type(value) is not type(old):
         raise ControlError(f"{name} must be a value of type {type(old).__name__}")
-    return value
+    return limit(value) if isinstance(value, int) and not isinstance(value, bool) else value

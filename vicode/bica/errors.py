@@ -131,6 +131,10 @@ def describe_exception(error: BaseException) -> str:
     return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
 
+class OutputError(Exception):
+    """An output of a run cannot be written: its trace, its record or the standard output."""
+
+
 def print_error(message: str, *, kind: str = "error") -> None:
     """Write a message to standard error; it is lost if standard error is missing, closed or broken."""
     with suppress(Exception):

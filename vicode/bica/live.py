@@ -12,19 +12,36 @@ if TYPE_CHECKING:
     from .root import Root
 
 ADDRESS, TOKEN, CONTROL, NAME = "VICODE_WATCH", "VICODE_WATCH_TOKEN", "VICODE_WATCH_CONTROL", "VICODE_ROBOT"
+WITHOUT_HOLD = "without-hold"
 
 _servers: list[LiveServer] = []
 
 
+class NoHoldError(OSError):
+    """Viewers could pause the robot, but not stop it."""
+
+
 def watch_root(
-    root: Root, address: str | int = 0, *, token: str = "", control: bool = False, name: str = ""
+    root: Root,
+    address: str | int = 0,
+    *,
+    token: str = "",
+    control: bool = False,
+    without_hold: bool = False,
+    name: str = "",
 ) -> LiveServer:
     """Let viewers connect to a root; roots of one process with the same address share a server.
 
     Raises:
+        NoHoldError: Viewers could control the root, but its world has no `hold`.
         OSError: The address is in use or invalid, or shared with another token or permission to control, or the root
             is watched already.
     """
+    if control and not without_hold and not callable(getattr(root.world, "hold", None)):
+        owner = (
+            "the robot has no world" if root.world is None else f"the world {type(root.world).__name__} has no hold()"
+        )
+        raise NoHoldError(f"{owner}: a paused robot would keep moving; define hold() in its world")
     if any(each.shows(root) for each in _servers):
         raise OSError("the root is watched already")
     server = next((each for each in _servers if each.serves(address)), None)
@@ -50,13 +67,17 @@ def find_address(root: Root) -> str:
 
 def watch_from_environment(root: Root) -> None:
     """Watch a root as the environment says; a robot also starts if that is impossible."""
+    control = os.environ.get(CONTROL, "")
     try:
         watch_root(
             root,
             os.environ[ADDRESS],
             token=os.environ.get(TOKEN, ""),
-            control=os.environ.get(CONTROL, "") not in ("", "0"),
+            control=control not in ("", "0"),
+            without_hold=control == WITHOUT_HOLD,
             name=os.environ.get(NAME, ""),
         )
+    except NoHoldError as error:
+        print_error(f"cannot be controlled, so it is not watched: {error}, or set {CONTROL}={WITHOUT_HOLD}")
     except (OSError, ValueError, OverflowError) as error:
         print_error(f"cannot be watched at {os.environ[ADDRESS]}: {error}")

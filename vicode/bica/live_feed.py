@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypedDict
+from typing import TYPE_CHECKING, Any, Protocol, TypedDict
 
 from .control import ControlError, Controller
 from .errors import print_error
@@ -37,6 +37,27 @@ class StateChangeRecord(TypedDict):
     source: str
     target: str
     transition: str | None
+
+
+class Feed(Protocol):
+    """What the server delivers of one robot; see `LiveFeed`."""
+
+    name: str
+    is_watched: bool
+    is_focused: bool
+    version: int
+
+    @property
+    def root(self) -> object: ...
+    @property
+    def newest(self) -> tuple[int, Mapping[str, Any]]: ...
+    @property
+    def changes(self) -> Iterable[Any]: ...
+    @property
+    def answers(self) -> deque[tuple[object, dict[str, Any]]]: ...
+    def describe(self) -> dict[str, Any]: ...
+    def request(self, viewer: object, request: dict[str, Any], /) -> bool: ...
+    def forget(self, viewer: object, /) -> None: ...
 
 
 class LiveFeed:
@@ -98,16 +119,17 @@ class LiveFeed:
 
     def _step(self) -> None:
         if self._requests:
-            self._handle_requests()
+            self._handle_requests(self.root.iteration - 1)
         if self.is_watched is not self._is_observing:
             self._set_observing(self.is_watched)
         if not self._is_observing:
             self._plain_step()
             return
-        if self._controller.is_paused:
-            self._wait_while_paused()
         self._observer.has_values = self.is_focused
         self._observed_step()
+        # After the iteration, not before the next one, whose inputs would be as old as the pause is long.
+        if self._controller.is_paused:
+            self._wait_while_paused()
 
     def _set_plain_step(self, step: Callable[[], None]) -> None:
         self._plain_step = step
@@ -147,18 +169,20 @@ class LiveFeed:
                         "transition": step["transition"],
                     }
                 )
-        self._controller.check_breakpoints(record)
+        if reached := self._controller.check_breakpoints(record):
+            print_error(f"{self.name}: paused at the breakpoint {reached}", kind="control")
         message = {
             **record,
             "robot": self.name,
-            "paused": self._controller.is_paused,
+            "paused": False,
             "errors_total": root.errors.total(),
         }
         self.newest = (self.newest[0] + 1, message)
         self._notify()
 
-    def _handle_requests(self) -> None:
+    def _handle_requests(self, last_iteration: int) -> None:
         self._has_requests.clear()
+        self._controller.last_iteration = last_iteration
         # Later requests wait for the next iteration, which must not be delayed.
         for _ in range(len(self._requests)):
             viewer, request = self._requests.popleft()
@@ -180,14 +204,14 @@ class LiveFeed:
 
     def _wait_while_paused(self) -> None:
         """Handle requests until one of them continues; the time of the components stands still."""
-        begin_ns = self.root.clock.now_ns()
-        number, message = self.newest
-        self.newest = (number + 1, {**message, "paused": True})
-        self._notify()
-        while self._controller.is_paused and self.is_watched and not self.root._is_stopping():
-            self._has_requests.wait(_PAUSED_POLL_S)
-            self._handle_requests()
-        self.root._skip_time(self.root.clock.now_ns() - begin_ns)
+        with self.root._stopped_time():
+            # Only now: who reads that the robot is paused may rely on it.
+            number, message = self.newest
+            self.newest = (number + 1, {**message, "paused": True})
+            self._notify()
+            while self._controller.is_paused and self.is_watched and not self.root._is_stopping():
+                self._has_requests.wait(_PAUSED_POLL_S)
+                self._handle_requests(self.root.iteration)
 
 
 class _LiveObserver(Observer):

@@ -15,12 +15,14 @@ import threading
 import time
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from .errors import print_error
-from .live_feed import LiveFeed
+from .live_feed import Feed, LiveFeed
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .root import Root
 
 PROTOCOL_VERSION = 1
@@ -35,6 +37,9 @@ _MAX_UNSENT_BYTES = 1_000_000
 _HANDSHAKE_LIMIT_S = 5.0
 _UNIX = "unix:"
 _RECEIVED_BYTES = 65_536
+
+
+F = TypeVar("F", bound=Feed)
 
 
 class LiveServer:
@@ -58,7 +63,7 @@ class LiveServer:
         self._asked_address = str(address)
         self._listener, self.address = _listen(str(address))
         self.token = token or ("" if self.address.startswith(_UNIX) else secrets.token_hex(12))
-        self._feeds: list[LiveFeed] = []
+        self._feeds: list[Feed] = []
         self._viewers: list[_Viewer] = []
         self._selector = selectors.DefaultSelector()
         self._wake_reader, self._wake_writer = socket.socketpair()
@@ -73,18 +78,22 @@ class LiveServer:
 
     def add(self, root: Root, name: str = "") -> LiveFeed:
         """Let viewers see a root, until it is closed, under a name, by default that of its main component."""
-        name = name or type(root.main).__name__
+        feed = self.add_feed(name or type(root.main).__name__, lambda unique, wake: LiveFeed(root, unique, wake))
+        root._closing.callback(self.remove, feed)
+        return feed
+
+    def add_feed(self, name: str, make: Callable[[str, Callable[[], None]], F]) -> F:
+        """Let viewers see a feed until it is removed; `make` gets its unique name, and what to call after messages."""
         taken = {feed.name for feed in self._feeds}
         unique, number = name, 2
         while unique in taken:
             unique, number = f"{name} {number}", number + 1
-        feed = LiveFeed(root, unique, self._wake)
+        feed = make(unique, self._wake)
         self._feeds = [*self._feeds, feed]
-        root._closing.callback(self.remove, feed)
         self._wake()
         return feed
 
-    def remove(self, feed: LiveFeed) -> None:
+    def remove(self, feed: Feed) -> None:
         """End the view of a root; the server closes with the last one, unless it stays open."""
         feed.is_watched = False
         self._feeds = [each for each in self._feeds if each is not feed]
@@ -217,7 +226,7 @@ class LiveServer:
         self._greet(viewer)
 
     @property
-    def _versions(self) -> list[tuple[LiveFeed, int]]:
+    def _versions(self) -> list[tuple[Feed, int]]:
         """The feeds, which are described again when their code was exchanged."""
         return [(feed, feed.version) for feed in self._feeds]
 
@@ -265,13 +274,14 @@ class LiveServer:
             if not is_rest_due and not viewer.looks_at(feed):
                 continue
             number, message = feed.newest
-            last, last_change = viewer.seen.get(feed, (0, 0))
+            last, last_iteration, last_change = viewer.seen.get(feed, (0, 0, 0))
             if number == last:
                 continue
             changes = [change for change in [*feed.changes] if change["number"] > last_change]
             newest_change = changes[-1]["number"] if changes else last_change
-            viewer.seen[feed] = (number, newest_change)
-            missed = max(0, number - last - 1) if last else 0
+            viewer.seen[feed] = (number, message["iteration"], newest_change)
+            # Not by the numbers of messages: another one of the same iteration says that the robot is paused.
+            missed = max(0, message["iteration"] - last_iteration - 1) if last else 0
             lines.append(_encode({**message, "changes": changes, "missed": missed}))
         if lines:
             viewer.due_s = now_s + viewer.period_s
@@ -316,14 +326,14 @@ class LiveServer:
         """When to do something for a viewer; None before there is news."""
         if not viewer.is_admitted:
             return viewer.connected_s + _HANDSHAKE_LIMIT_S
-        news = [feed for feed in self._feeds if feed.newest[0] != viewer.seen.get(feed, (0, 0))[0]]
+        news = [feed for feed in self._feeds if feed.newest[0] != viewer.seen.get(feed, (0, 0, 0))[0]]
         if viewer.unsent or not news:
             return None
         return viewer.due_s if any(map(viewer.looks_at, news)) else max(viewer.due_s, viewer.rest_due_s)
 
 
 class _Viewer:
-    """A connection; `seen` are the numbers of the last message and state change sent, by robot.
+    """A connection; `seen` are the numbers of the last message, iteration and state change sent, by robot.
 
     `focus` is the robot that it looks at; others are sent less often.
     """
@@ -351,10 +361,10 @@ class _Viewer:
         self.period_s = 1 / DEFAULT_RATE_HZ
         self.due_s = self.rest_due_s = 0.0
         self.focus = ""
-        self.greeted: list[tuple[LiveFeed, int]] = []
-        self.seen: dict[LiveFeed, tuple[int, int]] = {}
+        self.greeted: list[tuple[Feed, int]] = []
+        self.seen: dict[Feed, tuple[int, int, int]] = {}
 
-    def looks_at(self, feed: LiveFeed) -> bool:
+    def looks_at(self, feed: Feed) -> bool:
         return not self.focus or feed.name == self.focus
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .component import Component
-from .errors import ComponentError, CyclicUseError, NetworkError, describe_exception, find_region
+from .errors import ComponentError, CyclicUseError, NetworkError, OutputError, describe_exception, find_region
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -78,7 +78,7 @@ def wrap_user_errors(message: str, *, only_user_code: bool = False) -> Iterator[
     """
     try:
         yield
-    except (UserCodeError, ComponentError, CyclicUseError, NetworkError):
+    except (UserCodeError, ComponentError, CyclicUseError, NetworkError, OutputError):
         raise
     except Exception as error:
         place = _find_user_location(error)

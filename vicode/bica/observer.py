@@ -47,6 +47,7 @@ class StepRecord(TypedDict):
         done: Whether it is done.
         action_done: Whether a component that the state calls is done, if a guard reads that.
         conflict: Whether other robots fill the capacity of the state, if it has one.
+        team_size: Number of robots of the team that are alive, if there are others.
         component_time_ns: Time since the restart.
         values: Outputs, variables and parameters.
     """
@@ -63,6 +64,7 @@ class StepRecord(TypedDict):
     done: bool
     action_done: NotRequired[bool]
     conflict: NotRequired[bool]
+    team_size: NotRequired[int]
     component_time_ns: NotRequired[int]
     values: NotRequired[dict[str, Any]]
 
@@ -85,7 +87,8 @@ class IterationRecord(TypedDict):
         tree: The steps in the order of their start.
         errors: The first exceptions.
         still_done: Components that are done although this iteration did not step them.
-        inputs: The values of components that only provide values, before the iteration.
+        inputs: The values of components that only provide values, before the iteration, whether they are stepped in it
+            or not.
         calls: What outputs with arguments returned.
         dropped: Number of iterations before this one that were not recorded.
     """
@@ -227,9 +230,11 @@ class Observer:
             record["action_done"] = component.action_done
         if component._cooperative_states:
             record["conflict"] = component.conflict
+        if component.root.team.size != 1:
+            record["team_size"] = component.root.team.size
         if self.has_values:
             record["component_time_ns"] = component.root.now_ns - component._started_ns
-            record["values"] = to_json_value(_collect_values(component))
+            record["values"] = to_json_value(read_values(component))
 
 
 class ObservedFunction:
@@ -287,30 +292,31 @@ def to_json_value(value: object) -> Any:
     return type(value).__name__
 
 
-def _collect_values(component: Component) -> dict[str, object]:
-    """Return the public attributes with plain values; references to other components are left out.
+def read_values(component: Component) -> dict[str, object]:
+    """Return the values of a component: all public attributes with plain values, also properties and those of classes.
 
-    The copy is needed because threads of a component may add attributes.
+    This is the only definition of what records, the live view and other robots see. References to other components are
+    left out, and attributes that raise an exception.
     """
-    return {
+    # The copy is needed because threads of a component may add attributes.
+    values: dict[str, object] = {
         name: value
         for name, value in vars(component).copy().items()
         if not name.startswith("_") and isinstance(value, _PLAIN_TYPES)
     }
-
-
-def read_values(component: Component) -> dict[str, object]:
-    """Return the plain values of a component, including those of its properties."""
-    values = _collect_values(component)
-    for name in _property_names(cast("type", type(component))):
-        with suppress(Exception):
-            value = getattr(component, name)
-            if isinstance(value, _PLAIN_TYPES):
-                values[name] = value
+    for name in _find_class_attributes(cast("type", type(component))):
+        if name not in values:
+            with suppress(Exception):
+                value = getattr(component, name)
+                if isinstance(value, _PLAIN_TYPES):
+                    values[name] = value
     return values
 
 
 @lru_cache(maxsize=1024)
-def _property_names(component_class: type) -> tuple[str, ...]:
-    attributes = vars(component_class).items()
-    return tuple(name for name, value in attributes if isinstance(value, property) and not name.startswith("_"))
+def _find_class_attributes(component_class: type) -> tuple[str, ...]:
+    """The public names in a class and its bases below `Component` that may be values: no methods."""
+    bases = component_class.__mro__
+    attributes = [each for base in reversed(bases[: bases.index(Component)]) for each in vars(base).items()]
+    kinds = {name: not callable(value) and not isinstance(value, classmethod) for name, value in attributes}
+    return tuple(name for name, is_value in kinds.items() if is_value and name[0] != "_" and name not in RESERVED_NAMES)

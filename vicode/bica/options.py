@@ -6,17 +6,22 @@ import argparse
 import math
 from collections.abc import Mapping
 
+TICKS, WORLD = "ticks", "world"
+"""Who sets the pace of a run."""
+HOLD_AFTER_S = 0.5
+
 _MAX_TICK_MS = 3_600_000.0
 
 
 def make_parser(
-    components: Mapping[str, str] | None = None, *, world: str = "", program: str = ""
+    components: Mapping[str, str] | None = None, *, world: str = "", clock: str = TICKS, program: str = ""
 ) -> argparse.ArgumentParser:
     """Make the parser.
 
     Args:
         components: Classes as module:Class by name, of which the first is the default; None for any class.
         world: The default world as module:Class.
+        clock: Who sets the pace by default.
         program: The name of the command.
     """
     description = "Run a component in a world."
@@ -24,23 +29,13 @@ def make_parser(
     add = parser.add_argument
     _add_root_arguments(parser, components, world)
     add("--reload", action="store_true", help=argparse.SUPPRESS)
-    add("--watch", metavar="ADDRESS", help="let viewers connect: PORT, HOST:PORT or unix:PATH")
-    add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
-    add("--net", metavar="NAME", help="connect to other robots under this name, with --real-time")
-    add("--team", metavar="TEAM", help="with --net: coordinate with the robots of this team")
-    add("--on-call", action="store_true", help="with --net: step the component only while other robots call it")
+    _add_connections(parser)
     add("--path", metavar="DIR", action="append", default=[], help="add DIR to the import path; may be repeated")
     add("--seed", type=int, default=0, metavar="N", help="seed of the world (default: 0)")
     add("--ticks", type=count, metavar="N", help="stop after N iterations")
     add("--seconds", type=seconds, metavar="S", help="stop after S seconds of real or simulated time")
     add("--until-done", action="store_true", help="stop when the root component is done")
-    add(
-        "--tick-ms",
-        type=tick_ms,
-        metavar="MS",
-        help="time between iterations (default: a period that fits the frequencies, at most 20 ms)",
-    )
-    add("--real-time", action="store_true", help="run in real time instead of simulated time")
+    _add_pace(parser, clock)
     add(
         "--on-error",
         choices=("continue", "stop"),
@@ -71,6 +66,45 @@ def _add_root_arguments(parser: argparse.ArgumentParser, components: Mapping[str
         metavar="MODULE:CLASS",
         default=world or None,
         help=f"the world; created with seed=N if it has that parameter{default}",
+    )
+
+
+def _add_connections(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("--watch", metavar="ADDRESS", help="let viewers connect: PORT, HOST:PORT or unix:PATH")
+    add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
+    add(
+        "--without-hold",
+        action="store_true",
+        help="with --control: also if the world has no hold(), so that a paused robot keeps moving",
+    )
+    add("--net", metavar="NAME", help="connect to other robots under this name, with --real-time")
+    add("--team", metavar="TEAM", help="with --net: coordinate with the robots of this team")
+    add("--on-call", action="store_true", help="with --net: step the component only while other robots call it")
+
+
+def _add_pace(parser: argparse.ArgumentParser, clock: str) -> None:
+    add = parser.add_argument
+    add(
+        "--tick-ms",
+        type=tick_ms,
+        metavar="MS",
+        help="time between iterations (default: a period that fits the frequencies, at most 20 ms)",
+    )
+    add("--real-time", action="store_true", help="run in real time instead of simulated time")
+    add(
+        "--clock",
+        choices=(TICKS, WORLD),
+        default=clock,
+        help=f"who sets the pace: ticks of this program, or the world (default: {clock})",
+    )
+    add(
+        "--hold-after",
+        type=seconds,
+        default=HOLD_AFTER_S,
+        metavar="S",
+        help="in real time: hold the robot when an iteration is late by more than S seconds; 0: never "
+        "(default: %(default)s)",
     )
 
 

@@ -72,6 +72,8 @@ class Recorder:
         self._header = {**TRACE_HEADER, **{name: value for name, value in (origin or {}).items() if value}}
         self._waiting: deque[IterationRecord] = deque()
         self._unreported = 0
+        self.is_incomplete = False
+        """Whether an error of the disk has ended the record."""
         self._has_failed = False
         self._lock = threading.Lock()
         self._run = _start_run(self.path)
@@ -104,7 +106,7 @@ class Recorder:
             try:
                 self._write_waiting()
             except (OSError, ValueError) as error:
-                self._has_failed = True
+                self._has_failed = self.is_incomplete = True
                 self._waiting.clear()
                 reason = getattr(error, "strerror", None) or str(error)
                 print_error(f"cannot write the record {self.path}: {reason}; the run continues without it")
@@ -180,14 +182,20 @@ def segment_file(path: Path, run: int, segment: int) -> Path:
     return path.with_name(f"{path.stem}.{run}.{segment:06}{path.suffix or '.jsonl'}")
 
 
+def split_segment(file: Path) -> tuple[Path, int, int] | None:
+    """The record, run and segment that the name of a file tells; None if it is not the name of a segment."""
+    found = re.fullmatch(r"(.+)\.(\d+)\.(\d{6,})(\.[^.]+)", file.name)
+    return (file.with_name(found[1] + found[4]), int(found[2]), int(found[3])) if found is not None else None
+
+
 def find_segments(path: Path) -> dict[int, list[Path]]:
     """The segments of a record by run, the oldest first."""
-    pattern = re.compile(re.escape(path.stem) + r"\.(\d+)\.(\d{6,})" + re.escape(path.suffix or ".jsonl"))
+    record = path if path.suffix else path.with_name(f"{path.name}.jsonl")
     runs: dict[int, list[tuple[int, Path]]] = {}
     for file in path.parent.iterdir() if path.parent.is_dir() else ():
-        found = pattern.fullmatch(file.name)
-        if found is not None:
-            runs.setdefault(int(found[1]), []).append((int(found[2]), file))
+        place = split_segment(file)
+        if place is not None and place[0] == record:
+            runs.setdefault(place[1], []).append((place[2], file))
     return {run: [file for _number, file in sorted(runs[run])] for run in sorted(runs)}
 
 
@@ -199,7 +207,12 @@ def record_root(root: Root, path: str | os.PathLike[str], *, minutes: float, val
     """
     recorder = Recorder(path, minutes=minutes, origin=origin)
     root._add_observer(Observer(recorder.add, values=values))
-    root._closing.callback(recorder.close)
+
+    def close() -> None:
+        recorder.close()
+        root._has_lost_output |= recorder.is_incomplete
+
+    root._closing.callback(close)
     return recorder
 
 
@@ -210,6 +223,7 @@ def record_from_environment(root: Root) -> None:
         minutes = float(os.environ.get(MINUTES) or DEFAULT_MINUTES)
         record_root(root, path, minutes=minutes, values=True)
     except (OSError, ValueError) as error:
+        root._has_lost_output = True
         print_error(f"cannot record to {path}: {error}")
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeVar, cast
 
-from .clock import Clock, RealClock
+from .clock import Clock, RealClock, StoppableClock
 from .component import Component
 from .errors import ComponentError, CyclicUseError, ErrorRecord, describe_exception, make_error_record, print_error
 from .team import Team
@@ -77,6 +77,10 @@ class Root:
         self._cycle_times: dict[str, CycleTimes] | None = None
         self._is_stopping: Callable[[], bool] = bool
         """Whether the run ends after this iteration, so that nothing may hold it up."""
+        self._has_lost_output = False
+        """Whether a record could not be written."""
+        self._is_time_stopped = self._is_closed = False
+        self._hold_failures: set[str] = set()
         self._closing = ExitStack()
         self._closing.callback(self._close_world)
         try:
@@ -159,7 +163,15 @@ class Root:
         self.iteration += 1
         step_main()
 
-    def watch(self, address: str | int = 0, *, token: str = "", control: bool = False, name: str = "") -> LiveServer:
+    def watch(
+        self,
+        address: str | int = 0,
+        *,
+        token: str = "",
+        control: bool = False,
+        without_hold: bool = False,
+        name: str = "",
+    ) -> LiveServer:
         """Let viewers connect (`vicode attach`); the robot never waits for them.
 
         Args:
@@ -167,14 +179,15 @@ class Root:
                 the same address share a server.
             token: What viewers must know, by default a random text, which is printed; a Unix socket needs none.
             control: Whether viewers may pause the robot and change values and states.
+            without_hold: Whether they may also if the world has no `hold`, so that a paused robot keeps moving.
             name: The name of the robot, by default that in the network, or else that of its main component.
 
         Raises:
-            OSError: The address is in use or invalid, or the root is watched already.
+            OSError: The address is in use or invalid, the root is watched already, or the world has no `hold`.
         """
         from .live import watch_root  # noqa: PLC0415 - off by default
 
-        return watch_root(self, address, token=token, control=control, name=name)
+        return watch_root(self, address, token=token, control=control, without_hold=without_hold, name=name)
 
     def record(
         self,
@@ -223,11 +236,29 @@ class Root:
 
         return connect_root(self, name, team=team, fields=fields, on_call=on_call)
 
+    def hold(self) -> None:
+        """Call `hold` of the world, if it has one: the robot stops moving until a later iteration commands it again.
+
+        An exception in it is printed once and not raised, because the caller stops for another reason.
+        """
+        hold = getattr(self.world, "hold", None)
+        if callable(hold):
+            try:
+                hold()
+            except Exception as error:
+                message = f"hold() of the world failed: {describe_exception(error)}"
+                if message not in self._hold_failures:
+                    self._hold_failures.add(message)
+                    print_error(f"{message}; the robot may move (reported once)")
+
     def close(self) -> None:
-        """Call `close` of each component, the last created first, and then of the world; later calls do nothing.
+        """Hold the robot, then close each component, the last created first, and the world, each once.
 
         All are called, even if one raises: errors of components are reported, other exceptions are raised at the end.
         """
+        if not self._is_closed:
+            self._is_closed = True
+            self.hold()
         self._closing.close()
 
     def report(self, record: ErrorRecord) -> None:
@@ -273,6 +304,23 @@ class Root:
         """Return the time of the last iteration, from which time continues after the clock was set back."""
         self._skip_time(clock_ns - self.now_ns)
         return self.now_ns
+
+    @contextmanager
+    def _stopped_time(self) -> Iterator[None]:
+        """Hold the robot, and let no time pass in this context, between two iterations."""
+        clock, begin_ns = self.clock, self.clock.now_ns()
+        self._is_time_stopped = True
+        if isinstance(clock, StoppableClock):
+            clock.stop_time()
+        self.hold()
+        try:
+            yield
+        finally:
+            if isinstance(clock, StoppableClock):
+                clock.continue_time()
+            else:
+                self._skip_time(clock.now_ns() - begin_ns)
+            self._is_time_stopped = False
 
     def _skip_time(self, ns: int) -> None:
         """Leave out a time that passed on the clock."""

@@ -1,6 +1,7 @@
 """The command that runs a component in a world.
 
-Exit codes: 0 success, 1 a component failed with `--on-error stop`, 2 could not run, 128 + number of a signal.
+Exit codes: 0 success, 1 a component failed with `--on-error stop`, 2 could not run, 3 an output could not be written,
+128 + number of a signal.
 """
 
 from __future__ import annotations
@@ -15,15 +16,17 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TextIO
 
-from .clock import PacedClock, SimulatedClock
-from .errors import ComponentError, CyclicUseError, print_error
+from .clock import PacedClock, SimulatedClock, WorldClock
+from .errors import ComponentError, CyclicUseError, OutputError, print_error
+from .live import NoHoldError
 from .loader import UserCodeError, describe_user_error, load_component, make_world, wrap_user_errors
 from .observer import TRACE_HEADER, IterationRecord, Observer, to_json_value
-from .options import make_parser
+from .options import TICKS, WORLD, make_parser
 from .reload import Reloader
 from .root import Root
 from .stop_signals import StopSignals
 from .tick import choose_tick_ns, describe_wrong_frequencies
+from .watchdog import Watchdog
 
 if TYPE_CHECKING:
     import argparse
@@ -32,21 +35,28 @@ if TYPE_CHECKING:
     from .component import Component
 
 
+EXIT_OUTPUT_LOST = 3
+"""A trace, a record or the standard output could not be written, whatever else happened."""
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code."""
     return _run_command(make_parser().parse_args(arguments))
 
 
-def run_project(components: Mapping[str, str], *, world: str = "", arguments: Sequence[str] | None = None) -> int:
+def run_project(
+    components: Mapping[str, str], *, world: str = "", clock: str = TICKS, arguments: Sequence[str] | None = None
+) -> int:
     """Run the command of a project, `python -m PACKAGE [COMPONENT]`, and return its exit code.
 
     Args:
         components: The root components as "module:Class" by name; the first is the default.
         world: The default world as "module:Class".
+        clock: Who sets the pace by default: "ticks" or "world".
         arguments: By default those of the process.
     """
     package = next(iter(components.values())).partition(".")[0]
-    options = make_parser(components, world=world, program=package).parse_args(arguments)
+    options = make_parser(components, world=world, clock=clock, program=package).parse_args(arguments)
     options.component = components[options.component]
     return _run_command(options)
 
@@ -62,13 +72,20 @@ def _run_command(options: argparse.Namespace) -> int:
             with ExitStack() as files:
                 return _run(*_prepare(options, files), signals)
         except UserCodeError as error:
-            return _fail(str(error), is_streamed=options.stream)
+            return _fail(str(error), 2, is_streamed=options.stream)
+        except OutputError as error:
+            return _fail(str(error), EXIT_OUTPUT_LOST, is_streamed=options.stream)
     except KeyboardInterrupt:
         return signals.exit_code
     except BrokenPipeError:
-        # The reader of the stream closed it. Redirect standard output, or the final flush of the interpreter fails.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # The reader of the stream closed it.
+        _discard_output()
         return 1
+
+
+def _discard_output() -> None:
+    """Redirect the standard output, or the final flush of the interpreter fails."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _open_missing_streams() -> None:
@@ -83,13 +100,11 @@ def _open_missing_streams() -> None:
 
 
 def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[Root, _RecordWriter]:
+    _check_pace_options(options)
     _check_network_options(options)
     component_class = load_component(options.component)
     try:
-        # An open descriptor, such as the standard output, keeps what is there.
-        mode: Literal["a", "w"] = "a" if str(options.trace).startswith("/dev/fd/") else "w"
-        trace = Path(options.trace).open(mode, encoding="utf-8") if options.trace else None  # noqa: SIM115 - by the writer
-        writer = _RecordWriter(trace=trace, options=options)
+        writer = _RecordWriter(trace=_open_trace(options.trace), options=options)
         files.callback(writer.close_trace)
         origin = {"design": options.design, "revision": options.revision}
         writer.write_trace({**TRACE_HEADER, **{name: value for name, value in origin.items() if value}})
@@ -100,23 +115,54 @@ def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[Root, _Reco
         raise UserCodeError(str(error)) from error
 
 
+def _open_trace(path: str | None) -> TextIO | None:
+    if not path:
+        return None
+    # An open descriptor, such as the standard output, keeps what is there.
+    mode: Literal["a", "w"] = "a" if path.startswith("/dev/fd/") else "w"
+    try:
+        return Path(path).open(mode, encoding="utf-8")
+    except OSError as error:
+        raise OutputError(f"cannot write the trace {path}: {error.strerror}") from error
+
+
+def _check_pace_options(options: argparse.Namespace) -> None:
+    for name, is_given in {"--real-time": options.real_time, "--tick-ms": options.tick_ms is not None}.items():
+        if options.clock == WORLD and is_given:
+            raise UserCodeError(f"{name} has no effect if the world sets the pace (clock: world); leave it out")
+    if options.without_hold and not options.control:
+        raise UserCodeError("--without-hold has no effect without --control; leave it out")
+
+
 def _check_network_options(options: argparse.Namespace) -> None:
-    if options.net is not None and not options.real_time:
+    if options.net is not None and not options.real_time and options.clock != WORLD:
         raise UserCodeError("--net needs --real-time: other robots do not wait for simulated time")
     for name, is_given in {"--team": options.team is not None, "--on-call": options.on_call}.items():
         if is_given and options.net is None:
             raise UserCodeError(f"{name} has no effect without --net; add --net and the name of this robot")
 
 
-def _fail(message: str, *, is_streamed: bool) -> int:
+def _fail(message: str, code: int, *, is_streamed: bool) -> int:
     """Write the error to standard error, and to the stream so that its reader recognizes the failure."""
     # Errors are one line each.
     line = " ".join(message.split("\n"))
     print_error(line)
-    if is_streamed:
-        sys.stdout.write(json.dumps({"failed": line}) + "\n")
-        sys.stdout.flush()
-    return 2
+    try:
+        _print_output(json.dumps({"failed": line}) + "\n" if is_streamed else "", is_flushed=True)
+    except OutputError:
+        _discard_output()
+    return code
+
+
+def _print_output(text: str, *, is_flushed: bool = False) -> None:
+    try:
+        sys.stdout.write(text)
+        if is_flushed:
+            sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise OutputError(f"cannot write the standard output: {error.strerror}") from error
 
 
 @dataclass(slots=True, kw_only=True)
@@ -155,9 +201,8 @@ class _RecordWriter:
         if self.trace is not None:
             self.write_trace(record)
         if self.options.stream:
-            sys.stdout.write(json.dumps({**record, "world": _call_optional(world, "snapshot")}) + "\n")
-            if self.options.real_time:
-                sys.stdout.flush()
+            line = json.dumps({**record, "world": _call_optional(world, "snapshot")})
+            _print_output(f"{line}\n", is_flushed=self.options.real_time or self.options.clock == WORLD)
 
     def write_summary(self, root: Root, stopped: str, tick_ns: int, world_summary: Any) -> None:
         summary = {
@@ -172,16 +217,16 @@ class _RecordWriter:
         # The trace excludes measured times: it must be the same for each run with one seed.
         self.write_trace({"summary": summary})
         self.close_trace()
-        summary["tick_ms"] = tick_ns / 1e6
+        if isinstance(root.clock, WorldClock):
+            summary.update(root.clock.as_plain())
+        else:
+            summary["tick_ms"] = tick_ns / 1e6
         if isinstance(root.clock, PacedClock):
             summary["overruns"] = root.clock.overruns
         targets = {type(each).__name__: {"target_hz": each.frequency_hz} for each in root.components}
         cycle_times = {name: {**times.as_plain(), **targets[name]} for name, times in root.cycle_times.items()}
-        if self.options.stream:
-            sys.stdout.write(json.dumps({"summary": {**summary, "cycle_times": cycle_times}}) + "\n")
-        else:
-            sys.stdout.write(_format_summary(summary, cycle_times))
-        sys.stdout.flush()
+        text = json.dumps({"summary": {**summary, "cycle_times": cycle_times}}) + "\n"
+        _print_output(text if self.options.stream else _format_summary(summary, cycle_times), is_flushed=True)
 
 
 def _make_root(component_class: type[Component], world: Any, writer: _RecordWriter) -> Root:
@@ -189,16 +234,14 @@ def _make_root(component_class: type[Component], world: Any, writer: _RecordWrit
     is_observed = writer.trace is not None or options.stream
     root = Root(
         component_class,
-        clock=PacedClock() if options.real_time else SimulatedClock(),
+        clock=_make_clock(options, world),
         world=world,
         on_error=options.on_error,
         observer=Observer(partial(writer.write_iteration, world), values=options.values) if is_observed else None,
     )
     root.measure = True
     if options.record:
-        root.record(
-            options.record, minutes=options.minutes, design=options.design or "", revision=options.revision or ""
-        )
+        _record(root, options)
     if options.net is not None:
         root.connect(options.net, team=options.team or "", on_call=options.on_call)
     if options.watch is not None:
@@ -206,9 +249,36 @@ def _make_root(component_class: type[Component], world: Any, writer: _RecordWrit
     return root
 
 
+def _record(root: Root, options: argparse.Namespace) -> None:
+    design, revision = options.design or "", options.revision or ""
+    try:
+        root.record(options.record, minutes=options.minutes, design=design, revision=revision)
+    except OSError as error:
+        raise OutputError(f"cannot write the record {options.record}: {error.strerror}") from error
+
+
+def _make_clock(options: argparse.Namespace, world: Any) -> PacedClock | SimulatedClock | WorldClock:
+    if options.clock != WORLD:
+        return PacedClock() if options.real_time else SimulatedClock()
+    missing = [name for name in ("now_ns", "next_cycle") if not callable(getattr(world, name, None))]
+    if missing:
+        raise UserCodeError(
+            f"the world {options.world or 'None'} cannot set the pace (clock: world): it has no {missing[0]}()"
+        )
+    return WorldClock(world)
+
+
 def _watch(root: Root, options: argparse.Namespace) -> None:
     try:
-        root.watch(options.watch, token=os.environ.get("VICODE_WATCH_TOKEN", ""), control=options.control)
+        root.watch(
+            options.watch,
+            token=os.environ.get("VICODE_WATCH_TOKEN", ""),
+            control=options.control,
+            without_hold=options.without_hold,
+            name=os.environ.get("VICODE_ROBOT", ""),
+        )
+    except NoHoldError as error:
+        raise UserCodeError(f"--control is refused: {error}, or add --without-hold") from error
     except (OSError, OverflowError) as error:
         number = getattr(error, "errno", None)
         reason = os.strerror(number) if number and number > 0 else error
@@ -216,7 +286,12 @@ def _watch(root: Root, options: argparse.Namespace) -> None:
 
 
 def _find_tick_ns(root: Root, options: argparse.Namespace) -> int:
-    """Return the given tick or one that fits the frequencies; warn of frequencies that it does not fit."""
+    """Return the given tick or one that fits the frequencies; warn of frequencies that it does not fit.
+
+    It is 0 if the world sets the pace.
+    """
+    if options.clock == WORLD:
+        return 0
     frequencies_hz = [component.frequency_hz for component in root.components if component.frequency_hz]
     tick_ns = round(options.tick_ms * 1e6) if options.tick_ms else choose_tick_ns(frequencies_hz)
     for warning in describe_wrong_frequencies(root.components, tick_ns):
@@ -250,37 +325,61 @@ def _run(root: Root, writer: _RecordWriter, signals: StopSignals) -> int:
     writer.write_summary(root, stopped, tick_ns, world_summary)
     if failure is not None:
         raise failure
-    return {"error": 1, "interrupted": signals.exit_code}.get(stopped, int(writer.is_incomplete))
+    if writer.is_incomplete or root._has_lost_output:
+        return EXIT_OUTPUT_LOST
+    return {"error": 1, "interrupted": signals.exit_code}.get(stopped, 0)
 
 
 def _loop(root: Root, options: argparse.Namespace, tick_ns: int, signals: StopSignals) -> str:
     """Run iterations and return the reason for the end."""
-    world, clock = root.world, root.clock
+    clock = root.clock
     most_iterations = math.inf if options.ticks is None else options.ticks
     end_ns = math.inf if options.seconds is None else round(options.seconds * 1e9)
-    advance_world = getattr(world, "advance", None)
     reloader = Reloader(root, options.path) if options.reload else None
     root._is_stopping = signals.was_received
     signals.is_deferred = True
     if isinstance(clock, PacedClock):
         clock.start()
-    while root.iteration < most_iterations and clock.now_ns() < end_ns and not signals.was_received():
-        for message in reloader.reload_if_asked() if reloader is not None else ():
-            print_error(message, kind="reload")
-        if advance_world is not None:
-            advance_world(clock.now_ns())
-        root.step()
-        if signals.was_received():
-            break
-        if getattr(world, "finished", False):
-            return "finished"
-        if options.until_done and root.main.is_done:
-            return "done"
-        if isinstance(clock, PacedClock):
-            clock.wait(tick_ns, end_ns=end_ns, is_cancelled=signals.was_received)
-        elif isinstance(clock, SimulatedClock):
-            clock.advance(tick_ns)
+    with _make_watchdog(root, options, tick_ns) as watchdog:
+        while root.iteration < most_iterations and not signals.was_received():
+            is_due = not isinstance(clock, WorldClock) or clock.wait()
+            if clock.now_ns() >= end_ns or signals.was_received():
+                break
+            if is_due:
+                for message in reloader.reload_if_asked() if reloader is not None else ():
+                    print_error(message, kind="reload")
+                watchdog.begin()
+                _run_iteration(root)
+                watchdog.end()
+            if (reason := _find_end(root, options)) or signals.was_received():
+                return reason if not signals.was_received() else "interrupted"
+            if isinstance(clock, PacedClock):
+                clock.wait(tick_ns, end_ns=end_ns, is_cancelled=signals.was_received)
+            elif isinstance(clock, SimulatedClock):
+                clock.advance(tick_ns)
     return "interrupted" if signals.was_received() else "limit"
+
+
+def _make_watchdog(root: Root, options: argparse.Namespace, tick_ns: int) -> Watchdog:
+    """The watchdog of a run in real time; in simulated time, the world waits for its robot."""
+    if isinstance(root.clock, SimulatedClock) or not options.hold_after:
+        return Watchdog(root, 0.0)
+    return Watchdog(root, options.hold_after + (tick_ns / 1e9 if isinstance(root.clock, PacedClock) else 0.0))
+
+
+def _run_iteration(root: Root) -> None:
+    """Advance the world, unless it sets the pace itself, and step the root."""
+    advance_world = getattr(root.world, "advance", None)
+    if advance_world is not None and not isinstance(root.clock, WorldClock):
+        advance_world(root.clock.now_ns())
+    root.step()
+
+
+def _find_end(root: Root, options: argparse.Namespace) -> str:
+    """Why the run ends after an iteration, "" if it goes on."""
+    if getattr(root.world, "finished", False):
+        return "finished"
+    return "done" if options.until_done and root.main.is_done else ""
 
 
 def _call_optional(world: Any, name: str) -> Any:

@@ -98,10 +98,12 @@ class Team:
     Attributes:
         priority: Priority of this robot, where only one may enter a state.
         ticks: Number of iterations until the other robots have answered a message.
+        size: Number of robots that are alive: this one, and those whose messages were received for this iteration.
     """
 
     priority: int = 0
     ticks: int = 0
+    size: int = 1
     _states: dict[StateKey, tuple[Component, CooperativeState]] = field(default_factory=dict)
 
     def join(self, component: Component, state: str, *, capacity: int | None, synchronized: int) -> CooperativeState:
@@ -113,11 +115,13 @@ class Team:
 
     def prepare(self) -> None:
         """Clear the messages of the last iteration. Call it once per iteration, before `hear`."""
+        self.size = 1
         for _component, state in self._states.values():
             state.reset()
 
     def hear(self, message: TeamMessage) -> None:
         """Process the message of another robot; unknown states are ignored."""
+        self.size += 1
         for key in message.executed:
             if key in self._states:
                 self._states[key][1].executing += 1

@@ -87,7 +87,7 @@ def will_work(component: Component) -> bool:
     missed = root.iteration - component._stepped_in
     if missed == 0 and getattr(component, "_restarted_in", -1) == root.iteration:
         missed = 2  # as in the step of an XabslComponent
-    is_restart = missed > 1 and (missed > root.iteration or not component.resume)
+    is_restart = missed > 1 and (missed > root.iteration + 1 or not component.resume)
     return is_restart or root.now_ns - component._worked_ns >= component._period_ns
 
 

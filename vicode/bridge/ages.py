@@ -1,5 +1,7 @@
 """Figures of many ages in constant memory."""
 
+from collections.abc import Iterable
+
 _BITS = 3
 """A bucket is an eighth of a power of two: quantiles are at most 12.5 % too high."""
 
@@ -42,6 +44,14 @@ class AgeFigures:
             if missing <= 0:
                 return min(_upper_bound(bucket), self.greatest)
         return self.greatest
+
+
+def merge_ages(parts: Iterable[AgeFigures]) -> AgeFigures:
+    """The distribution of all ages of some distributions."""
+    figures = AgeFigures()
+    for each in parts:
+        figures.merge(each)
+    return figures
 
 
 def _find_bucket(age_ns: int) -> int:

@@ -47,7 +47,7 @@ class Behavior(Protocol):
         """The message to the team after a tick; None if there is nothing to say."""
 
     def hear(self, messages: Iterable[Any]) -> None:
-        """Take what the team mates said, before a tick."""
+        """Take what the teammates sent, before a tick."""
 
     def close(self) -> None:
         """Close the components; the world is that of the robot."""
@@ -167,7 +167,9 @@ class XabslBehavior:
     """An agent or option in its own engine."""
 
     def __init__(self, catalog: XabslCatalog, name: str, setup: BehaviorSetup) -> None:
-        self._report_line = setup.report
+        self._report_line, self._clock = setup.report, setup.clock
+        self.on_step: Callable[[int], None] = lambda _time_ns: None
+        self.on_close: Callable[[], None] = lambda: None
         self.engine = Engine(catalog.program, setup.world, symbols=catalog.symbols, clock=setup.clock.now_ms)
         self.engine.team.priority, self.engine.team.ticks = setup.priority, TEAM_TICKS
         if not self.engine.select(name):
@@ -179,6 +181,7 @@ class XabslBehavior:
         except (Exception, SystemExit) as error:
             # The options that were not finished restart in the next tick, as after a cycle without them.
             self._report_line(describe_user_error(error))
+        self.on_step(self._clock.ns)
 
     def active_states(self) -> list[ActiveState]:
         return [(view.name, view.state) for view in self.engine.active_options]
@@ -193,7 +196,7 @@ class XabslBehavior:
             self.engine.process_incoming_message(message)
 
     def close(self) -> None:
-        """Nothing to close: the engine has no components."""
+        self.on_close()
 
 
 def _describe_unknown(name: str, names: Iterable[str]) -> str:

@@ -43,15 +43,16 @@ def find_missing(world: World, requirements: Iterable[Requirement]) -> list[str]
     return list(dict.fromkeys(f"{each.place}: {each.description}{problem}" for each, problem in problems if problem))
 
 
-def find_reserved_targets(world_class: type[World]) -> list[str]:
-    """Describe targets that belong to the protocol, and those that are declared twice."""
+def find_declaration_problems(world_class: type[World]) -> list[str]:
+    """Describe targets that belong to the protocol or are declared twice, and values that cannot be folded."""
     received = _list_received(world_class)
     sent = list_declarations(world_class, Command)
     reserved = [each.target for each in (*received, *sent) if each.target in RESERVED_TARGETS]
     problems = [f"target {target} is reserved for the protocol" for target in reserved]
     for targets in ([each.target for each in received], [each.target for each in sent]):
         problems += [f"target {each} is declared twice" for each in dict.fromkeys(targets) if targets.count(each) > 1]
-    return problems
+    folded = [(each.target, each.fold_problem) for each in received if isinstance(each, Sensor)]
+    return problems + [f"{target}: {problem}" for target, problem in folded if problem]
 
 
 def apply_types(world_class: type[World], types: Mapping[str, DeclaredType]) -> None:

@@ -5,11 +5,11 @@ import hmac
 import socket
 import time
 from collections import deque
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from vicode.bridge.behaviors import BehaviorError
 from vicode.bridge.dialects import Dialect, JoinRequest, JsonDialect, JxiDialect, Pace, RefusedError
+from vicode.bridge.flow_control import FlowControl
 from vicode.bridge.frames import GREETING, FrameError, LineDecoder, is_json, shorten, show_bytes
 from vicode.bridge.parameters import Raw
 from vicode.bridge.robot import Robot
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 _READ_BYTES = 32_768
 TURN_S = 0.002
 """So long a connection handles lines before others get their turn."""
-QUIET_SEND_S = 0.25
-"""A robot that sends nothing gets commands so often: whether it reads them is not known."""
 _MAX_UNSENT_BYTES = 65_536
 _ERROR_BURST, _ERRORS_PER_S = 5, 1.0
 _CLOSE_S = 1.0
@@ -45,14 +43,14 @@ class Connection(asyncio.BufferedProtocol):
         self._decoder = LineDecoder()
         self._lines: deque[bytes] = deque()
         self._dialect: Dialect | None = None
-        self._has_heard = True
-        self._sent_s = 0.0
+        self._flow = FlowControl(time.monotonic_ns(), server.options.command_rate_hz)
         self._sends_state = False
         self._error_credit, self._error_s, self._hidden_errors = float(_ERROR_BURST), self.connected_s, 0
         self._clock_offset = ClockOffset()
         self._tick_ns: int | None = None
         self._sent_ticks = 0
         self._is_unread = False
+        self._has_new_values = False
         self.turn_s = TURN_S
         self.is_working = False
         """Whether lines wait for the next turn."""
@@ -110,7 +108,9 @@ class Connection(asyncio.BufferedProtocol):
                 lines.clear()
             if time.perf_counter() >= end_s:
                 break
-        self._has_heard = True
+        if self._has_new_values and self.pace == "message":
+            self._has_new_values = False
+            self.server.tick_by_message(self)
         self.flush()
         was_working, self.is_working = self.is_working, bool(lines)
         if lines:
@@ -144,6 +144,7 @@ class Connection(asyncio.BufferedProtocol):
             raise FrameError("the robot has its name already; name it before the first sensor")
         self.pace, self._sends_state = hello.pace, hello.sends_state
         self.robot = self.server.join(hello, self)
+        self.robot.data.flow = None if self.pace == "client" else self._flow
         return self.robot.name
 
     def select(self, behavior: str) -> str:
@@ -163,8 +164,24 @@ class Connection(asyncio.BufferedProtocol):
         if not robot.data.receive(target, raw, self._to_server_time(time_ns)):
             shown = show_bytes(target.encode("ascii", "replace"))
             raise UnknownTargetError(f"no sensor or event {shown}; the world has {', '.join(robot.data.targets)}")
+        self._has_new_values = True
         if robot.behavior is None:
             self.select("")
+
+    @property
+    def awaited(self) -> list[str]:
+        return [] if self.robot is None else self.robot.awaited
+
+    def acknowledge(self, *, lines: int | None = None, time_ns: int | None = None) -> None:
+        if self.pace == "client":
+            raise FrameError("in lock step, commands are not acknowledged; leave out ack")
+        now_ns, age_ns = time.monotonic_ns(), None
+        if lines is not None:
+            age_ns = self._flow.acknowledge_lines(lines, now_ns)
+        if time_ns is not None:
+            age_ns = self._flow.acknowledge_time(time_ns, now_ns)
+        if age_ns is not None and self.robot is not None:
+            self.robot.command_ages.add(age_ns)
 
     def tick(self, time_ns: int) -> None:
         robot = self._require_robot()
@@ -175,10 +192,14 @@ class Connection(asyncio.BufferedProtocol):
         self._tick_ns = time_ns
         self.server.tick(robot, at_ns=time_ns, now_ns=time_ns)
         more: dict[str, Any] = {"tick": shorten(time_ns / 1e9)} | self._describe(robot)
-        reports = robot.take_reports()
-        if reports:
+        if reports := robot.take_reports():
             more["errors"] = reports
-        self._write_commands(robot, more)
+        if notices := robot.data.take_notices():
+            more["notices"] = notices
+            for line in notices:
+                self.server.on_event(robot.name, line)
+        assert self._dialect is not None
+        self.send(self._dialect.encode_commands(robot.data.commands.take(), more))
 
     def _require_robot(self) -> Robot:
         if self.robot is None:
@@ -199,15 +220,27 @@ class Connection(asyncio.BufferedProtocol):
         self._transport.write(line)
 
     def flush(self) -> None:
-        """Send the commands that wait, if the robot is likely to have read those before."""
+        """Send the commands that wait, if the robot has read those before, and at once if they stop it."""
         robot = self.robot
-        if robot is None or self.pace == "client" or not self._may_send():
+        if robot is None or self.pace == "client":
+            return
+        if not self._may_send(robot.data.commands.is_urgent):
+            if self._flow.is_overdue(time.monotonic_ns()):
+                robot.data.notices.add("newer commands wait: the previous ones have not been acknowledged for 1 s")
             return
         ticks = robot.data.counts.ticks
         if robot.data.commands.has_waiting or (self._sends_state and ticks != self._sent_ticks):
             self._sent_ticks = ticks
-            self._has_heard, self._sent_s = False, time.monotonic()
-            self._write_commands(robot, self._describe(robot))
+            self._send_commands(robot)
+
+    def _send_commands(self, robot: Robot) -> None:
+        assert self._dialect is not None
+        commands, more, now_ns = robot.data.commands.take(), self._describe(robot), time.monotonic_ns()
+        if (age_ns := self._flow.age_ns(now_ns)) is not None:
+            more["command_age_ms"] = round(age_ns / 1e6, 3)
+        lines = len(commands) if isinstance(self._dialect, JxiDialect) else 1
+        more["time"] = self._flow.add(lines, robot.ticked_ns, now_ns)
+        self.send(self._dialect.encode_commands(commands, more))
 
     def stop(self) -> None:
         """Send the commands that stop the robot, and close the connection."""
@@ -232,6 +265,11 @@ class Connection(asyncio.BufferedProtocol):
         self.send(self._dialect.encode_error(text + hidden))
         return is_rare
 
+    def notify(self, text: str) -> None:
+        """Send a notice; each of them is rare."""
+        if self._dialect is not None and self._transport.get_write_buffer_size() <= _MAX_UNSENT_BYTES:
+            self.send(self._dialect.encode_notice(text))
+
     def refuse(self, text: str) -> None:
         """Send an error and close the connection."""
         if not self._transport.is_closing():
@@ -243,24 +281,18 @@ class Connection(asyncio.BufferedProtocol):
         self._transport.close()
         asyncio.get_running_loop().call_later(_CLOSE_S, self._transport.abort)
 
-    def _may_send(self) -> bool:
-        is_free = self._has_heard or time.monotonic() - self._sent_s >= QUIET_SEND_S
+    def _may_send(self, is_urgent: bool) -> bool:
+        is_free = is_urgent or self._flow.may_send(time.monotonic_ns())
         return is_free and not self._transport.get_write_buffer_size() and not self._transport.is_closing()
 
     def _describe(self, robot: Robot) -> dict[str, Any]:
-        """What a message has in addition to commands: age of the data acted on, active states if asked for."""
+        """What a message has in addition to commands: age of the data, active states if requested."""
         more: dict[str, Any] = {}
         if (age_ns := robot.data.readings.age_ns) is not None:
             more["age_ms"] = round(age_ns / 1e6, 3)
         if self._sends_state and robot.behavior is not None:
             more["state"] = {"active": robot.behavior.active_states()}
         return more
-
-    def _write_commands(self, robot: Robot, more: Mapping[str, Any]) -> None:
-        assert self._dialect is not None
-        line = self._dialect.encode_commands(robot.data.commands.take(), more)
-        if line:
-            self.send(line)
 
 
 def keep_alive(transport: asyncio.Transport) -> None:

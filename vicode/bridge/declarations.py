@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any, Self, overload
+from typing import TYPE_CHECKING, Any, Literal, Self, get_args, overload
 
 from vicode.bridge.parameters import ParameterTypes
 
@@ -12,9 +12,13 @@ if TYPE_CHECKING:
 
 _NS_PER_S = 1_000_000_000
 
+Fold = Literal["newest", "sum", "minimum", "maximum", "all"]
+"""How the values that arrive between two ticks become one."""
+ARITHMETIC_FOLDS: tuple[Fold, ...] = ("sum", "minimum", "maximum")
+
 
 class Sensor:
-    """A value that the robot sends again and again; only the newest one counts.
+    """A value that the robot sends again and again; `fold` says what a tick reads of the values since the tick before.
 
     `laser = Sensor("LASER", float, length=181)` also gives the world `laser_age`, in seconds, and `laser_is_stale`.
 
@@ -25,11 +29,14 @@ class Sensor:
         fields: Names of the parameters: the value is a named tuple.
         range: The least and the greatest number; a line with another one is malformed.
         unit: For documentation.
-        max_age: In seconds; an older value is stale: the sensor reads as `initial` then.
+        max_age: In seconds; an older value is stale: the sensor reads as `initial` then, and commands go to rest.
+        watchdog: Whether a stale value lets commands go to rest.
+        required: Whether the behavior starts only when a value has arrived.
         initial: The value before the first line, by default zeros.
+        fold: "newest"; "sum", "minimum" and "maximum" of each parameter; "all" values as a tuple.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - the keys of a declaration
         self,
         target: str,
         value_type: type[Any] | None = None,
@@ -40,7 +47,10 @@ class Sensor:
         range: tuple[float, float] | None = None,  # noqa: A002 - the name in project.yaml
         unit: str = "",
         max_age: float | None = None,
+        watchdog: bool = True,
+        required: bool = False,
         initial: Any = None,
+        fold: Fold = "newest",
     ) -> None:
         least, most = length if isinstance(length, tuple) else (length or len(fields) or 1,) * 2
         self.target, self.unit, self.name = target, unit, ""
@@ -53,7 +63,23 @@ class Sensor:
             bounds=range,
         )
         self.max_age_ns = math.inf if max_age is None else round(max_age * _NS_PER_S)
+        self.watchdog, self.required, self.fold = watchdog, required, fold
         self._initial = initial
+        if fold not in get_args(Fold):
+            raise TypeError(f"{target}: fold is {fold!r}, expected one of: {', '.join(get_args(Fold))}")
+        if problem := self.fold_problem:
+            raise TypeError(f"{target}: {problem}")
+
+    @property
+    def fold_problem(self) -> str:
+        """Why the values cannot be folded as declared; "" if they can."""
+        if self.fold not in ARITHMETIC_FOLDS:
+            return ""
+        if self.parameters.value_type not in (None, float, int):
+            return f"fold {self.fold} needs numbers, the value is of type {self.parameters.value_type.__name__}"
+        if self.parameters.least != self.parameters.most:
+            return f"fold {self.fold} needs a fixed number of parameters"
+        return ""
 
     def __set_name__(self, owner: type[Any], name: str) -> None:
         self.name = name
@@ -63,7 +89,9 @@ class Sensor:
 
     @property
     def initial(self) -> Any:
-        return self.parameters.default() if self._initial is None else self._initial
+        if self._initial is not None:
+            return self._initial
+        return () if self.fold == "all" else self.parameters.default()
 
     @overload
     def __get__(self, world: None, owner: type[Any]) -> Self: ...
@@ -78,6 +106,9 @@ class Event:
 
     Without a type, an event reads as true in its tick and as false otherwise. With one, it reads as its parameter (with
     `fields`, as a named tuple) in its tick, and as `initial` otherwise.
+
+    With `fold="all"`, a tick sees all events since the tick before: their number, or with a type, the tuple of their
+    parameters.
     """
 
     def __init__(
@@ -88,12 +119,18 @@ class Event:
         *,
         fields: Sequence[str] = (),
         initial: Any = None,
+        fold: Literal["", "all"] = "",
     ) -> None:
-        self.target, self.name = target, ""
+        if fold not in ("", "all"):
+            raise TypeError(f'{target}: fold is {fold!r}; an event has fold="all" or none')
+        self.target, self.name, self.reads_all = target, "", fold == "all"
         self.has_value = value_type is not None or bool(fields)
         number = len(fields) or 1
         self.parameters = ParameterTypes(value_type=value_type, least=number, most=number, fields=tuple(fields))
-        self.initial = (self.parameters.default() if initial is None else initial) if self.has_value else False
+        if self.reads_all:
+            self.initial: Any = () if self.has_value else 0
+        else:
+            self.initial = (self.parameters.default() if initial is None else initial) if self.has_value else False
 
     def __set_name__(self, owner: type[Any], name: str) -> None:
         self.name = name

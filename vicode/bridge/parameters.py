@@ -48,10 +48,18 @@ class ParameterTypes:
         """The value before the first line."""
         value_type = self.value_type or float
         value = self.elements[0] if self.elements else value_type()
-        return self._shape([value] * self.least)
+        return self.shape([value] * self.least)
 
     def convert(self, raw: Raw) -> Any:
         """Return the value of the parameters.
+
+        Raises:
+            FrameError: They are not what is declared.
+        """
+        return self.shape(self.parse(raw))
+
+    def parse(self, raw: Raw) -> list[Any]:
+        """Return the parameters, each converted.
 
         Raises:
             FrameError: They are not what is declared.
@@ -60,7 +68,7 @@ class ParameterTypes:
         if values is None:
             values = self._convert_each(split_parameters(raw) if isinstance(raw, bytes) else raw)
         self._check(values)
-        return self._shape(values)
+        return values
 
     def _convert_floats(self, raw: Raw) -> list[Any] | None:
         """The usual case, and the fast one; None if something is no number."""
@@ -101,7 +109,8 @@ class ParameterTypes:
         expected = f"{low:g} to {high:g}" if self.bounds else "a finite number"
         raise FrameError(f"{self._name(index + 1)} is {values[index]:g}, expected {expected}")
 
-    def _shape(self, values: list[Any]) -> Any:
+    def shape(self, values: Sequence[Any]) -> Any:
+        """Return parameters as the value that the world reads: a named tuple, a tuple, or the only one."""
         if self._record is not None:
             return self._record(values)
         return tuple(values) if self.is_list else values[0] if values else None

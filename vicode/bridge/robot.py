@@ -12,6 +12,8 @@ from vicode.bridge.behaviors import Behavior, BehaviorCatalog, BehaviorError, Be
 from vicode.bridge.world import World
 
 _MAX_REPORTED = 1000
+_PATIENCE_NS = 1_000_000_000
+_LONG_NS = 1 << 62
 
 
 TeamKey = tuple[str, str]
@@ -57,6 +59,7 @@ class Robot:
         catalog: The behaviors that it can run.
         team: Robots with the same team and behavior hear each other.
         priority: Of its messages to the team; unique there.
+        waits: Whether a behavior starts only when values have arrived.
     """
 
     def __init__(
@@ -67,8 +70,9 @@ class Robot:
         *,
         team: str = "",
         priority: int = 0,
+        waits: bool = True,
     ) -> None:
-        self.name, self.team, self.priority = name, team, priority
+        self.name, self.team, self.priority, self.waits = name, team, priority, waits
         self.world = make_world()
         self.data = self.world.bridge
         self.data.robot = name
@@ -76,14 +80,19 @@ class Robot:
         self.behavior: Behavior | None = None
         self.behavior_name = ""
         self.ages = AgeFigures()
-        """The age of the data acted on, of all ticks in which any was read."""
+        """The age of the oldest value read, for all ticks that read any."""
+        self.command_ages = AgeFigures()
+        """The age of commands when the robot has acknowledged them."""
         self.reports: list[str] = []
         """Lines about exceptions and malformed values since the last `take_reports`."""
         self._reported: set[str] = set()
-        self._catalog = catalog
+        self.catalog = catalog
         advance = getattr(self.world, "advance", None)
         self._advance: Callable[[int], object] | None = advance if callable(advance) else None
+        self.ticked_ns = 0
+        """The time of the last tick, on the clock of the messages."""
         self._start_ns: int | None = None
+        self._waits_since_ns: int | None = None
         self._broadcasts: deque[Broadcast] = deque(maxlen=2)
 
     def select(self, name: str) -> None:
@@ -95,7 +104,7 @@ class Robot:
         setup = BehaviorSetup(world=self.world, clock=self.clock, priority=self.priority, report=self._report)
         before, self.clock.ns = self.clock.ns, 0
         try:
-            behavior = self._catalog.create(name, setup)
+            behavior = self.catalog.create(name, setup)
         except BehaviorError:
             self.clock.ns = before
             raise
@@ -117,6 +126,7 @@ class Robot:
             return
         if self._start_ns is None:
             self._start_ns = at_ns
+        self.ticked_ns = now_ns
         self.clock.ns = max(self.clock.ns, at_ns - self._start_ns)
         data.begin_tick(self.clock.ns, now_ns)
         data.published = team.published
@@ -124,7 +134,7 @@ class Robot:
         if self._advance is not None:
             self._advance_world(self._advance)
         behavior.step()
-        data.commands.end_tick(self.clock.ns)
+        data.end_tick()
         if (age_ns := data.readings.age_ns) is not None:
             self.ages.add(age_ns)
         self._tell(at_ns, behavior)
@@ -139,6 +149,23 @@ class Robot:
         if newest.time_ns < at_ns:
             return newest
         return self._broadcasts[0] if len(self._broadcasts) > 1 else None
+
+    @property
+    def awaited(self) -> list[str]:
+        """What must arrive before the behavior starts: targets, or "any"; empty once it has started."""
+        return self.data.awaited if self.waits and self._start_ns is None else []
+
+    def wait(self, at_ns: int) -> bool:
+        """Whether the behavior does not start yet; a wait for required sensors is reported after a while."""
+        awaited = self.awaited
+        if not awaited:
+            return False
+        if self._waits_since_ns is None:
+            self._waits_since_ns = at_ns
+        elif at_ns - self._waits_since_ns >= _PATIENCE_NS and awaited != ["any"]:
+            self.data.notices.add(f"{self.behavior_name} waits for the first value of {', '.join(awaited)}")
+            self._waits_since_ns = at_ns + _LONG_NS
+        return True
 
     @property
     def team_key(self) -> TeamKey:

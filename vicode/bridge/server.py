@@ -9,10 +9,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from vicode.bica.loader import describe_user_error
-from vicode.bridge.ages import AgeFigures
+from vicode.bridge.ages import AgeFigures, merge_ages
 from vicode.bridge.behaviors import BehaviorCatalog
 from vicode.bridge.connection import Connection
 from vicode.bridge.dialects import JoinRequest, RefusedError
+from vicode.bridge.flow_control import DEFAULT_COMMAND_RATE_HZ
 from vicode.bridge.robot import Robot, TeamKey, TeamRound
 from vicode.bridge.world import Counts, World
 
@@ -23,6 +24,8 @@ _HANDSHAKE_S = 10.0
 _STOP_S = 2.0
 _TURN_S = 0.005
 """So long robots are stepped before connections get their turn."""
+_SILENT_TICKS = 2
+"""A robot whose messages tick is ticked by the clock if none came for so many ticks."""
 _SILENCE = TeamRound()
 _ROBOT_NAME = re.compile(r"[\w.-]{1,64}")
 
@@ -39,6 +42,7 @@ class BridgeOptions:
         token: What clients must send first, if not empty.
         grace_s: How long the state of a robot that left is kept.
         tls: Certificate and key, None for plain TCP.
+        command_rate_hz: How often a robot that acknowledges no commands gets some.
     """
 
     host: str = "127.0.0.1"
@@ -47,6 +51,7 @@ class BridgeOptions:
     token: str = ""
     grace_s: float = 10.0
     tls: ssl.SSLContext | None = None
+    command_rate_hz: float = DEFAULT_COMMAND_RATE_HZ
 
 
 @dataclass(slots=True)
@@ -93,6 +98,7 @@ class BridgeServer:
     _seats: dict[str, _Seat] = field(default_factory=dict)
     _connections: set[Connection] = field(default_factory=set)
     _ages: AgeFigures = field(default_factory=AgeFigures)
+    _command_ages: AgeFigures = field(default_factory=AgeFigures)
     _joined: int = 0
     _listener: asyncio.Server | None = None
     _is_stopping: bool = False
@@ -126,16 +132,22 @@ class BridgeServer:
         """The robots that are connected."""
         return [seat.robot for seat in self._seats.values() if seat.connection is not None]
 
+    @property
+    def all_robots(self) -> list[Robot]:
+        """The robots that are connected, and those whose state is kept."""
+        return [seat.robot for seat in self._seats.values()]
+
     def total(self) -> Counts:
         """Counts of all robots since the start."""
         return sum((seat.robot.data.counts for seat in self._seats.values()), self.counts)
 
     def collect_ages(self) -> AgeFigures:
-        """The age of the data acted on, of all robots since the start."""
-        figures = AgeFigures()
-        for each in (self._ages, *(seat.robot.ages for seat in self._seats.values())):
-            figures.merge(each)
-        return figures
+        """The age of the data that behaviors read, for all robots since the start."""
+        return merge_ages((self._ages, *(seat.robot.ages for seat in self._seats.values())))
+
+    def collect_command_ages(self) -> AgeFigures:
+        """The age of the commands that robots have acknowledged, of all robots since the start."""
+        return merge_ages((self._command_ages, *(seat.robot.command_ages for seat in self._seats.values())))
 
     async def stop(self) -> None:
         """Stop all robots, close all connections, behaviors and worlds."""
@@ -169,6 +181,7 @@ class BridgeServer:
             return
         seat.connection, seat.left_s = None, time.monotonic()
         seat.robot.leave_team()
+        seat.robot.data.flow = None
         is_kept = seat.is_named and connection.pace == "clock" and self.options.grace_s > 0 and not self._is_stopping
         if not is_kept:
             self.on_event(seat.robot.name, "disconnected")
@@ -196,7 +209,7 @@ class BridgeServer:
             self._drop(seat)
             return self._join_new(hello, connection)
         self.on_event(name, f"connected again from {connection.peer}")
-        seat.robot.data.commands.repeat()
+        seat.robot.data.connect_again()
         seat.robot.data.counts.connections += 1
         return seat.robot
 
@@ -211,7 +224,14 @@ class BridgeServer:
         unique = hello.name or next(each for each in free if each not in self._seats)
         priority = -self._joined if hello.priority is None else hello.priority
         try:
-            robot = Robot(unique, self.make_world, self.catalog, team=hello.team, priority=priority)
+            robot = Robot(
+                unique,
+                self.make_world,
+                self.catalog,
+                team=hello.team,
+                priority=priority,
+                waits=hello.waits and hello.pace != "client",
+            )
         except Exception as error:
             raise RefusedError(f"the world cannot be created: {describe_user_error(error)}") from error
         robot.data.counts.connections = 1
@@ -226,12 +246,16 @@ class BridgeServer:
             BehaviorError: There is no such behavior, or its code fails.
         """
         robot.select(name)
-        self.on_event(robot.name, f"runs {name}")
+        awaited = robot.awaited
+        starts = f" when {'a value' if awaited == ['any'] else ', '.join(awaited)} has arrived" if awaited else ""
+        self.on_event(robot.name, f"runs {name}{starts}")
         self.on_start(robot)
 
     def tick(self, robot: Robot, *, at_ns: int, now_ns: int) -> None:
         """Run one tick of a robot, with its team."""
-        self._tick_in_team(robot, self._hear(at_ns), at_ns, now_ns)
+        robot.tick(at_ns, now_ns, self._hear(at_ns).get(robot.team_key, _SILENCE))
+        for line in robot.reports:
+            self.on_event(robot.name, line)
 
     # Ticks of the clock
 
@@ -247,25 +271,40 @@ class BridgeServer:
             self._end_grace_times()
 
     async def tick_all(self, at_ns: int) -> None:
-        """Run one tick of the robots whose clock is that of the server."""
+        """Run one tick of the robots whose clock is that of the server, or that are silent."""
         self.ticks.run += 1
         teams, turn_s = self._hear(at_ns), time.monotonic() + _TURN_S
         for seat in [*self._seats.values()]:
             connection = seat.connection
             if connection is None or connection.pace == "client" or seat.robot.behavior is None:
                 continue
-            self._tick_in_team(seat.robot, teams, at_ns, time.monotonic_ns())
-            for line in seat.robot.take_reports():
-                connection.complain(line)
+            now_ns = time.monotonic_ns()
+            if connection.pace == "message" and now_ns - seat.robot.ticked_ns < _SILENT_TICKS * self.options.tick_ns:
+                continue
+            self._tick_if_ready(seat.robot, connection, teams, (at_ns, now_ns))
             connection.flush()
             if time.monotonic() > turn_s:
                 await asyncio.sleep(0)
                 turn_s = time.monotonic() + _TURN_S
 
-    def _tick_in_team(self, robot: Robot, teams: Mapping[TeamKey, TeamRound], at_ns: int, now_ns: int) -> None:
-        robot.tick(at_ns, now_ns, teams.get(robot.team_key, _SILENCE))
-        for line in robot.reports:
+    def tick_by_message(self, connection: Connection) -> None:
+        """Run one tick of a robot from which values have arrived, if that is its pace."""
+        robot, now_ns = connection.robot, time.monotonic_ns()
+        if robot is not None and robot.behavior is not None:
+            self._tick_if_ready(robot, connection, self._hear(now_ns), (now_ns, now_ns))
+
+    def _tick_if_ready(
+        self, robot: Robot, connection: Connection, teams: Mapping[TeamKey, TeamRound], times_ns: tuple[int, int]
+    ) -> None:
+        at_ns, now_ns = times_ns
+        if not robot.wait(at_ns):
+            robot.tick(at_ns, now_ns, teams.get(robot.team_key, _SILENCE))
+        for line in robot.take_reports():
             self.on_event(robot.name, line)
+            connection.complain(line)
+        for line in robot.data.take_notices():
+            self.on_event(robot.name, line)
+            connection.notify(line)
 
     def _hear(self, at_ns: int) -> dict[TeamKey, TeamRound]:
         """What the robots of each team hear in their ticks at this time."""
@@ -291,6 +330,7 @@ class BridgeServer:
         seat.robot.close()
         self.counts += seat.robot.data.counts
         self._ages.merge(seat.robot.ages)
+        self._command_ages.merge(seat.robot.command_ages)
 
 
 def _left(seat: _Seat) -> float:

@@ -37,18 +37,20 @@ def check_classes(
 
 
 def _check_world(project: Project, interfaces: list[Interface], read_module: ReadModule) -> Iterator[Finding]:
-    """The attributes and methods that generated classes of components use."""
-    world = _find_class(project.world, read_module) if project.world and interfaces else None
+    """The attributes and methods that generated classes of components use, and those of a world that sets the pace."""
+    members = [(*member, f"{each.component} uses") for each in interfaces for member in _world_members(each)]
+    if project.clock:
+        members += [("method", name, "'clock: world' needs") for name in ("now_ns", "next_cycle")]
+    world = _find_class(project.world, read_module) if project.world and members else None
     if isinstance(world, str):
         message = f"{world} has no class '{project.world.partition(':')[2]}'"
         yield _make_finding(message, "add it, or correct 'world' in project.yaml", world)
     elif world is not None and world.is_complete:
         known = world.functions.keys() | world.attributes
-        for interface in interfaces:
-            for kind, name in _world_members(interface):
-                if name not in known:
-                    message = f"'{world.node.name}' has no {kind} '{name}', which {interface.component} uses"
-                    yield _make_finding(message, "add it", world.file, world.node)
+        for kind, name, reason in members:
+            if name not in known:
+                message = f"'{world.node.name}' has no {kind} '{name}', which {reason}"
+                yield _make_finding(message, "add it", world.file, world.node)
 
 
 def _world_members(interface: Interface) -> Iterator[tuple[str, str]]:

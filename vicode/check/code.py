@@ -9,11 +9,14 @@ from vicode import regions
 from vicode.check.context import RuleContext
 from vicode.findings import Finding, Span, did_you_mean
 from vicode.languages import GENERATED_LANGUAGES, LANGUAGES, language_title
-from vicode.model.design import COMMON
+from vicode.model.design import COMMON, Design, RunCode
+from vicode.model.names import identifier_stem
 from vicode.model.portable_code import NotPortable, Role, parse_portable
 from vicode.model.python_parser import check_compiles, parse_module
 from vicode.model.snippets import PythonSnippet
 from vicode.model.traversal import LocatedCode
+
+_RENAME = "rename the method, or move its code to the design element that it stands for"
 
 
 def find_unparsable_code(context: RuleContext) -> Iterator[Finding]:
@@ -118,4 +121,42 @@ def _strip_comments(text: str, language: str) -> str:
     return re.sub(LANGUAGES.get(language, LANGUAGES["cpp"]).comment, "", text)
 
 
-RULES = (find_unparsable_code, find_missing_languages, find_unknown_languages, find_empty_predicates)
+def find_hidden_methods(context: RuleContext) -> Iterator[Finding]:
+    """D432: a method in class code with the name of a generated one, which Python never calls then."""
+    text = context.design.members.in_language("python") or ""
+    if "def " not in text or validate_python(text, "members") is not None:
+        return
+    generated = _generated_methods(context.design)
+    snippet = PythonSnippet.from_text(text, "members")
+    for node in ast.walk(parse_module(snippet.source)):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name in generated:
+            message = f"the method '{node.name}' hides the generated one, so {generated[node.name]} has no effect"
+            span = snippet.span_at(node.lineno, node.col_offset)
+            yield context.make_finding(
+                "D432", ("members", "python"), message, _RENAME, span=span, languages=("python",)
+            )
+
+
+def _generated_methods(design: Design) -> dict[str, str]:
+    """Return what the generated methods stand for, by name."""
+    common = design.common
+    methods = {"_decide_common": "each common transition"} if common.transitions else {}
+    methods |= {"_act_common": "each common action"} if common.actions else {}
+    methods |= {"modulate": "each parameter"} if design.parameters else {}
+    for state in design.states:
+        stem = identifier_stem(state.name)
+        methods[f"_in_{stem}"] = f"state {state.name}"
+        for phase, actions in (("enter", state.enter), ("leave", state.leave)):
+            methods |= {f"_{phase}_{stem}": f"the {phase} action of state {state.name}"} if actions else {}
+        if any(isinstance(action, RunCode) for action in state.actions):
+            methods[f"_do_{stem}"] = f"the action of state {state.name}"
+    return methods
+
+
+RULES = (
+    find_unparsable_code,
+    find_missing_languages,
+    find_unknown_languages,
+    find_empty_predicates,
+    find_hidden_methods,
+)

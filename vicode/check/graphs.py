@@ -22,6 +22,7 @@ class ComponentGraph:
 
     def __init__(self, successors: Mapping[str, tuple[str, ...]]) -> None:
         self.successors = successors
+        self._trees: dict[str, dict[str, str]] = {}
 
     @cached_property
     def _digraph(self) -> "nx.DiGraph[str]":
@@ -29,23 +30,29 @@ class ComponentGraph:
 
         return nx.DiGraph(self.successors)
 
+    def _search(self, start: str) -> Mapping[str, str]:
+        """Each node that can be reached, with the node before it on a shortest path; kept, as each is asked often."""
+        if start not in self._trees:
+            self._trees[start] = {}
+            if self.successors.get(start):
+                import networkx as nx  # noqa: PLC0415 - see the class
+
+                self._trees[start] = dict(nx.bfs_predecessors(self._digraph, start))
+        return self._trees[start]
+
     def descendants(self, start: str) -> set[str]:
         """Return the nodes that can be reached from a node, without the node itself."""
-        if not self.successors.get(start):
-            return set()
-        import networkx as nx  # noqa: PLC0415 - see the class
-
-        return set(nx.descendants(self._digraph, start))
+        return set(self._search(start))
 
     def path(self, start: str, goal: str) -> list[str]:
         """Return the nodes of a shortest path, including both ends; empty if there is no path."""
-        if start == goal:
-            return [start]
-        if goal not in self.descendants(start):
+        tree = self._search(start)
+        if goal not in tree and goal != start:
             return []
-        import networkx as nx  # noqa: PLC0415 - see the class
-
-        return list(nx.shortest_path(self._digraph, start, goal))
+        nodes = [goal]
+        while nodes[-1] != start:
+            nodes.append(tree[nodes[-1]])
+        return nodes[::-1]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -13,7 +13,7 @@ from vicode.model.project import Project
 
 _MEMBERS = {"alias", "parameter", "output", "variable"}
 _WITH_SELF = {*_MEMBERS, "argument"}
-_TIMES = frozenset({"state_time", "component_time", "action_done", "conflict"})
+_TIMES = frozenset({"state_time", "component_time", "action_done", "conflict", "team_size"})
 _EXPRESSION_WORDS = {
     **dict.fromkeys(FUNCTIONS, "a built-in function"),
     **dict.fromkeys(("done", "True", "False", "true", "false", *_TIMES), "a reserved word in expressions"),

@@ -24,7 +24,7 @@ from vicode.check.typed_expressions import (
 from vicode.findings import DesignPath, Finding, FindingSubject, Note, Span, did_you_mean, get_rule
 from vicode.languages import GENERATED_LANGUAGES
 from vicode.model.design import Declaration
-from vicode.model.expressions import Scope, build_scope
+from vicode.model.expressions import Scope, build_scope, constant_scopes
 from vicode.model.names import snake_case
 from vicode.model.project import INTERNAL, MISSING, WORLD, Project, RemoteReference
 
@@ -39,6 +39,9 @@ def find_bad_profiles(project: Project) -> Iterator[Finding]:
         path: DesignPath = ("profiles", profile.name)
         if profile.world and not _CLASS_IN_MODULE.match(profile.world):
             yield _make_finding("P213", (*path, "world"), f"'{profile.world}' is not of the form module:Class")
+        if profile.clock and not (profile.world or project.world):
+            fix = "add 'world: module:Class', or remove 'clock'"
+            yield _make_finding("P213", (*path, "clock"), "the world sets the pace, but the profile has none", fix)
         for choice in profile.components:
             place = (*path, "components", choice.component)
             if isinstance(choice, RemoteReference):
@@ -160,6 +163,9 @@ def find_bad_implementations(project: Project) -> Iterator[Finding]:
             yield _make_finding("P203", path, f"'{interface.implementation}' is not of the form module:Class", fix)
     if project.world and not _CLASS_IN_MODULE.match(project.world):
         yield _make_finding("P203", ("world",), f"'{project.world}' is not of the form module:Class", fix)
+    if project.clock and not project.world:
+        fix = "add 'world: module:Class', or remove 'clock'"
+        yield _make_finding("P203", ("clock",), "the world sets the pace, but the project has none", fix)
 
 
 def find_unimplemented_components(project: Project) -> Iterator[Finding]:
@@ -255,9 +261,8 @@ def _find_bad_initial_value(expression: TypedExpression, scope: Scope) -> Iterat
 
 def _declarations(project: Project) -> Iterator[tuple[Declaration, DesignPath, Scope]]:
     """Yield each declaration with its scope. A constant can use only the constants before it."""
-    for index, constant in enumerate(project.constants):
-        preceding = replace(project, constants=project.constants[:index])
-        yield constant, ("constants", constant.name), build_scope(preceding, None)
+    for constant, preceding in zip(project.constants, constant_scopes(project), strict=True):
+        yield constant, ("constants", constant.name), preceding
     scope = build_scope(project, None)
     for interface in project.components:
         for section in ("parameters", "outputs", "variables"):

@@ -1,7 +1,8 @@
 """Rules for stepping components in an iteration: stepped twice, or read but not stepped."""
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from itertools import combinations
@@ -25,23 +26,35 @@ def find_stepped_twice(context: RuleContext) -> Iterator[Finding]:
     """
     if context.graphs.is_in_cycle(context.design.component):
         return
-    reach = cache(partial(_shared_descendants, context))
+    shared = cache(partial(_shared_descendants, context))
     by_state: dict[str, list[StepSite]] = {COMMON: []}
     for step in context.steps:
         by_state.setdefault(step.state, list(by_state[COMMON])).append(step)
     for state, steps in by_state.items():
         ordered = sorted(steps, key=lambda step: step.is_call)
-        for component, first, second in _find_double_steps(ordered, reach):
+        for component, first, second in _find_double_steps(_overlapping(context, ordered), shared):
             # A double step within the common actions is reported once, not for each state.
             if state in (first.state, second.state):
                 yield _report_double_step(context, component, first, second)
 
 
-def _find_double_steps(steps: Iterable[StepSite], reach: SharedDescendants) -> Iterator[tuple[str, StepSite, StepSite]]:
+def _overlapping(context: RuleContext, steps: Sequence[StepSite]) -> list[StepSite]:
+    """Return the steps to compare: the first two of each component that step a component which others step too."""
+    sites: dict[str, list[StepSite]] = {}
+    for step in steps:
+        sites.setdefault(step.component, []).append(step)
+    compared = [step for step in steps if any(step is each for each in sites[step.component][:2])]
+    times = Counter(each for step in compared for each in _stepped_by(context, step.component))
+    return [step for step in compared if any(times[each] > 1 for each in _stepped_by(context, step.component))]
+
+
+def _find_double_steps(
+    steps: Iterable[StepSite], shared: SharedDescendants
+) -> Iterator[tuple[str, StepSite, StepSite]]:
     reported: set[str] = set()
     for first, second in combinations(steps, 2):
         is_direct = first.component == second.component
-        twice = frozenset({first.component}) if is_direct else reach(first.component, second.component)
+        twice = frozenset({first.component}) if is_direct else shared(first.component, second.component)
         for component in sorted(twice - reported):
             reported.add(component)
             yield component, first, second
@@ -68,12 +81,15 @@ def _is_key(step: StepSite) -> bool:
 
 def _shared_descendants(context: RuleContext, first: str, second: str) -> frozenset[str]:
     """Return the topmost components without a frequency that both components step."""
-    graph = context.graphs.steps
-    shared = ({first} | context.graphs.transitive_steps(first)) & ({second} | context.graphs.transitive_steps(second))
+    graph, shared = context.graphs.steps, _stepped_by(context, first) & _stepped_by(context, second)
     unlimited = {component for component in shared if not _has_frequency(context, component)}
     return frozenset(
         each for each in unlimited if not any(other != each and graph.path(other, each) for other in unlimited)
     )
+
+
+def _stepped_by(context: RuleContext, component: str) -> set[str]:
+    return {component} | context.graphs.transitive_steps(component)
 
 
 def _has_frequency(context: RuleContext, component: str) -> bool:
@@ -86,9 +102,13 @@ def find_unstepped_reads(context: RuleContext) -> Iterator[Finding]:
 
     Only the states count in which neither the state, the common actions, code nor a stepped component steps it.
     """
-    always = {step.component for step in context.steps if step.state == COMMON} | _stepped_by_code(context)
+    own: dict[str, set[str]] = {}
+    for step in context.steps:
+        own.setdefault(step.state, set()).add(step.component)
+    somewhere = set().union(*own.values())
+    always = own.pop(COMMON, set()) | _stepped_by_code(context)
     stepped = {
-        state.name: _with_descendants(context, always.union(_stepped_in(context, state.name)))
+        state.name: _with_descendants(context, always | own.get(state.name, set()))
         for state in context.design.states
         if not state.disabled
     }
@@ -103,14 +123,21 @@ def find_unstepped_reads(context: RuleContext) -> Iterator[Finding]:
                 idle = [state for state in states if component not in stepped[state]]
                 # A common transition may test done(x) in all states, of which some do not call x.
                 if idle and not (isinstance(node, Done) and len(idle) < len(states)):
-                    yield _report_unstepped_read(context, expression, node, component, idle)
+                    is_stepped = component in somewhere
+                    yield _report_unstepped_read(context, expression, node, component, idle, is_stepped=is_stepped)
 
 
 def _report_unstepped_read(
-    context: RuleContext, expression: TypedExpression, node: OutputRef | Done, component: str, idle: list[str]
+    context: RuleContext,
+    expression: TypedExpression,
+    node: OutputRef | Done,
+    component: str,
+    idle: list[str],
+    *,
+    is_stepped: bool,
 ) -> Finding:
     alias, where = node.alias, ", ".join(idle[:_MAX_NAMES]) + (", …" if len(idle) > _MAX_NAMES else "")
-    if any(step.component == component for step in context.steps):
+    if is_stepped:
         message = f"'{alias}' is read in {where}, but nothing steps {component} there"
     else:
         message = f"'{alias}' is read, but {component} is never stepped"
@@ -131,10 +158,6 @@ def _reading_states(expression: TypedExpression, states: Collection[str]) -> lis
             return [name]
         case _:
             return []
-
-
-def _stepped_in(context: RuleContext, state: str) -> set[str]:
-    return {step.component for step in context.steps if step.state == state}
 
 
 def _with_descendants(context: RuleContext, components: Collection[str]) -> frozenset[str]:

@@ -16,6 +16,8 @@ from vicode.cli.bridge_behaviors import LoadedBehaviors, load_behaviors, load_wo
 from vicode.cli.ports import port_number
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from vicode.bridge import World
     from vicode.bridge.robot import Robot
     from vicode.bridge.server import BridgeServer
@@ -38,6 +40,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--key", metavar="FILE", type=Path, help="key of the certificate, if it is not in the same file")
     add("--tick-ms", type=options.tick_ms, metavar="MS", help="time between ticks (default: project.yaml, or 50)")
     add(
+        "--command-rate",
+        type=_frequency,
+        metavar="HZ",
+        default=4.0,
+        help="command lines per second for robots that acknowledge none (default: %(default)g)",
+    )
+    add(
         "--grace",
         type=options.seconds,
         metavar="S",
@@ -48,6 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--path", metavar="DIR", dest="import_path", type=Path, help="folder of the module (default: that of PATH)")
     add("--profile", metavar="NAME", default="", help="use the implementations of this profile")
     add("--watch", metavar="ADDRESS", help="let 'vicode attach' connect: PORT, HOST:PORT or unix:PATH (docs/live.md)")
+    add("--reload", action="store_true", help="exchange the code of the robots when a design or a module changes")
     add("--plain", action="store_true", help="print one line per event; the default if stdout is not a terminal")
 
 
@@ -68,13 +78,13 @@ def run(args: argparse.Namespace) -> int:
         gc.collect()
         gc.freeze()
         try:
-            return asyncio.run(_serve(loaded, world_class, args))
+            return asyncio.run(_serve(loaded, world_class, args, Path(folder)))
         except ListenError as error:
             print(f"vicode: {error}", file=sys.stderr)
             return 2
 
 
-async def _serve(loaded: LoadedBehaviors, world_class: "type[World]", args: argparse.Namespace) -> int:
+async def _serve(loaded: LoadedBehaviors, world_class: "type[World]", args: argparse.Namespace, folder: Path) -> int:
     from vicode.bridge.server import DEFAULT_PORT, DEFAULT_TICK_MS, BridgeOptions, BridgeServer
     from vicode.cli.bridge_view import open_view
 
@@ -90,10 +100,24 @@ async def _serve(loaded: LoadedBehaviors, world_class: "type[World]", args: argp
             token=os.environ.get("VICODE_BRIDGE_TOKEN", "") if args.token is None else args.token,
             grace_s=args.grace,
             tls=_load_certificate(args),
+            command_rate_hz=args.command_rate,
         ),
     )
+    observers: list[Callable[[Robot], None]] = []
     if args.watch is not None:
-        _let_viewers_connect(server, args.watch)
+        observers.append(_let_viewers_connect(args.watch))
+    if args.reload:
+        from vicode.cli.bridge_reload import BridgeReloader
+
+        reloader = BridgeReloader(server, args, folder)
+        reloader.start()
+        observers.append(reloader.follow)
+
+    def start(robot: "Robot") -> None:
+        for observe in observers:
+            observe(robot)
+
+    server.on_start = start
     await server.start()
     # Programs that start the bridge read this line.
     print(f"listening at {server.address}; behaviors: {', '.join(loaded.catalog.names)}", flush=True)
@@ -127,23 +151,33 @@ async def _wait_for_signal(server: "BridgeServer", view: "BridgeView") -> int:
     return 128 + received[0]
 
 
-def _let_viewers_connect(server: "BridgeServer", address: str) -> None:
-    """Show the components of each robot to viewers."""
+def _let_viewers_connect(address: str) -> "Callable[[Robot], None]":
+    """Open the view; the result shows the components or options of a robot to viewers."""
     from vicode.bica.live_server import LiveServer
-    from vicode.bridge.behaviors import DesignBehavior, DesignCatalog
+    from vicode.bridge.behaviors import DesignBehavior, XabslBehavior
+    from vicode.bridge.engine_feed import EngineFeed
 
-    if not isinstance(server.catalog, DesignCatalog):
-        raise OSError("--watch shows designs only; 'vicode import' converts an XABSL behavior to designs")
     viewers = LiveServer(address, token=os.environ.get("VICODE_WATCH_TOKEN", ""), stays_open=True)
     print(
         f"watch: vicode attach {viewers.address}{f' --token {viewers.token}' if viewers.token else ''}", file=sys.stderr
     )
 
     def show(robot: "Robot") -> None:
-        if isinstance(robot.behavior, DesignBehavior):
-            viewers.add(robot.behavior.root, robot.name)
+        behavior = robot.behavior
+        if isinstance(behavior, DesignBehavior):
+            viewers.add(behavior.root, robot.name)
+        elif isinstance(behavior, XabslBehavior):
+            feed = viewers.add_feed(robot.name, lambda name, wake: EngineFeed(behavior, name, wake))
+            behavior.on_close = lambda: viewers.remove(feed)
 
-    server.on_start = show
+    return show
+
+
+def _frequency(text: str) -> float:
+    number = float(text)
+    if not 1e-3 <= number <= 1e6:
+        raise argparse.ArgumentTypeError(f"{text} is not a valid rate; write a number per second, such as 4")
+    return number
 
 
 def _load_certificate(args: argparse.Namespace) -> ssl.SSLContext | None:
@@ -155,5 +189,5 @@ def _load_certificate(args: argparse.Namespace) -> ssl.SSLContext | None:
     try:
         context.load_cert_chain(args.cert, args.key)
     except ssl.SSLError as error:
-        raise OSError(f"{args.cert} is no certificate in PEM format, or not that of the key: {error.reason}") from None
+        raise OSError(f"{args.cert} is not a PEM certificate, or does not match the key: {error.reason}") from None
     return context

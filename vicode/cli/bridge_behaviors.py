@@ -48,7 +48,7 @@ def load_behaviors(args: argparse.Namespace, folder: Path) -> LoadedBehaviors | 
 def load_world(name: str, loaded: LoadedBehaviors) -> "type[World] | int":
     """Load the class of the world and bind it to the behaviors; the exit code, after the reasons were printed."""
     from vicode.bica.loader import UserCodeError, describe_user_error
-    from vicode.bridge.binding import apply_types, find_missing, find_reserved_targets
+    from vicode.bridge.binding import apply_types, find_declaration_problems, find_missing
 
     if not name:
         print("vicode: which world? Add 'bridge: {world: module:Class}' to project.yaml, or --world", file=sys.stderr)
@@ -63,7 +63,7 @@ def load_world(name: str, loaded: LoadedBehaviors) -> "type[World] | int":
     except Exception as error:
         print(f"vicode: cannot create {name}: {describe_user_error(error)}", file=sys.stderr)
         return 2
-    problems = [*find_reserved_targets(world_class), *find_missing(world, loaded.requirements)]
+    problems = [*find_declaration_problems(world_class), *find_missing(world, loaded.requirements)]
     if problems:
         print(f"vicode: {name} does not fit the behaviors:", *problems, sep="\n  ", file=sys.stderr)
         return 1
@@ -149,4 +149,6 @@ def _only(names: list[str]) -> str:
 
 
 def _add_import_path(folder: Path) -> None:
-    sys.path.insert(0, str(folder.resolve()))
+    path = str(folder.resolve())
+    if path not in sys.path:
+        sys.path.insert(0, path)

@@ -23,9 +23,10 @@ _COUNTS = {
     "late": "values stale when they were read",
     "malformed": "malformed lines and values",
     "unknown": "values without a declaration",
-    "events_dropped": "events dropped",
+    "events_dropped": "events and kept values dropped",
     "sent": "commands sent",
     "commands_dropped": "commands replaced before they were sent",
+    "rests": "times at rest because inputs were too old",
     "errors": "errors",
 }
 _SHOWN_EVENTS = 6
@@ -114,7 +115,7 @@ def render_bridge(server: "BridgeServer", events: "deque[str]", rate: "Callable[
     table = Table(box=None, pad_edge=False, header_style="dim")
     for name in ("robot", "active"):
         table.add_column(name, no_wrap=name == "robot")
-    for name in ("ticks/s", "age ms", "most", "lines", "replaced", "errors"):
+    for name in ("ticks/s", "age ms", "most", "command ms", "lines", "replaced", "dropped", "errors"):
         table.add_column(name, justify="right", no_wrap=True)
     for robot in robots[:_ROBOT_ROWS]:
         table.add_row(*_describe_robot(robot, rate(robot)))
@@ -126,6 +127,11 @@ def _describe_robot(robot: "Robot", rate: float) -> tuple[RenderableType, ...]:
     counts, ages = robot.data.counts, robot.ages
     states = robot.behavior.active_states() if robot.behavior is not None else []
     active = Text(" > ").join(Text.assemble(name, (f" {state}", "yellow")) for name, state in states)
+    if awaited := robot.awaited:
+        active = Text(f"waits for {'a value' if awaited == ['any'] else ', '.join(awaited)}", style="dim")
+    elif robot.data.rest_reasons:
+        active.append(" (at rest)", "red")
+    command_age_ns = robot.data.command_age_ns
     errors = counts.errors + counts.malformed
     return (
         Text(robot.name, style="bold"),
@@ -133,8 +139,10 @@ def _describe_robot(robot: "Robot", rate: float) -> tuple[RenderableType, ...]:
         f"{rate:.1f}",
         f"{ages.newest / 1e6:.1f}" if ages.newest is not None else "-",
         f"{ages.greatest / 1e6:.1f}" if ages.number else "-",
+        f"{command_age_ns / 1e6:.1f}" if command_age_ns is not None else "-",
         str(counts.lines),
         str(counts.dropped),
+        Text(str(counts.events_dropped), style="red" if counts.events_dropped else ""),
         Text(str(errors), style="red" if errors else ""),
     )
 
@@ -146,8 +154,11 @@ def describe_totals(server: "BridgeServer", seconds: float) -> Iterator[str]:
     for name, words in _COUNTS.items():
         if value := getattr(total, name):
             yield f"{value:10} {words}"
-    ages = server.collect_ages()
-    if ages.number:
-        figures = (ages.quantile(0.5), ages.quantile(0.99), ages.greatest)
-        middle, most, greatest = (f"{age_ns / 1e6:.1f} ms" for age_ns in figures)
-        yield f"age of the data acted on: median {middle}, 99 % up to {most}, at most {greatest}"
+    all_ages = {"data": server.collect_ages(), "obeyed commands": server.collect_command_ages()}
+    for what, ages in all_ages.items():
+        if ages.number:
+            figures = (ages.quantile(0.5), ages.quantile(0.99), ages.greatest)
+            middle, most, greatest = (f"{age_ns / 1e6:.1f} ms" for age_ns in figures)
+            yield f"age of the {what}: median {middle}, 99 % up to {most}, at most {greatest}"
+    if total.sent and not all_ages["obeyed commands"].number:
+        yield "age of the obeyed commands: unknown, because no robot has acknowledged any"

@@ -1,10 +1,11 @@
 """Check designs and report problems."""
 
 import argparse
+from collections.abc import Iterator
 
 from vicode.cli.console import count_findings, print_findings
-from vicode.cli.project_loader import load_projects
-from vicode.findings import Severity, render_json
+from vicode.cli.project_loader import LoadedProject, load_projects
+from vicode.findings import Finding, Severity, render_json
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -19,10 +20,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--strict", action="store_true", help="exit with code 1 on warnings, too")
 
 
+def _patches(project: LoadedProject) -> Iterator[Finding]:
+    """Patches of generated files with edits that the program does not contain."""
+    from vicode.cli.gen import output_folder
+    from vicode.sync import find_patches
+
+    folder = output_folder(project)
+    return find_patches(folder, folder.as_posix())
+
+
 def run(args: argparse.Namespace) -> int:
     """Print findings; return 1 for errors and, with --strict, for warnings."""
     projects = load_projects(args.paths)
-    findings = tuple(finding for project in projects for finding in project.findings)
+    findings = tuple(finding for project in projects for finding in (*project.findings, *_patches(project)))
     if args.json:
         print(render_json(findings), end="")
     else:

@@ -10,11 +10,15 @@ from vicode.bica import options
 from vicode.cli.root_selection import select_root
 
 if TYPE_CHECKING:
+    from vicode.conformance.design_mutants import MutantReport
     from vicode.conformance.inputs import ConformanceRun
+    from vicode.findings import DesignPath
     from vicode.model.project import Project
-    from vicode.simulation.language_comparison import LanguageComparison
+    from vicode.simulation.language_comparison import InputCoverage, LanguageComparison
+    from vicode.store import OpenProject
 
 _MAX_ITERATIONS = 20_000
+_MAX_NEVER = 20
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,39 +27,67 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "--inputs",
         metavar="TRACE",
-        default="random",
-        help="a trace recorded with --values, whose inputs and times are used (default: random)",
+        default="chosen",
+        help="a trace recorded with --values, whose inputs and times are used (default: chosen inputs)",
     )
-    add("--seed", type=int, default=0, metavar="N", help="seed of random inputs (default: 0)")
+    add("--seed", type=int, default=0, metavar="N", help="seed of chosen inputs (default: 0)")
     add("--iterations", type=options.count, default=500, metavar="N", help="number of iterations (default: 500)")
+    add(
+        "--cxx",
+        metavar='"COMMAND FLAGS"',
+        default="",
+        help="the C++ compiler of the robot with its flags (default: $CXX, g++ or clang++, with -O2)",
+    )
+    add(
+        "--emulator",
+        metavar='"COMMAND ARGUMENTS"',
+        default="",
+        help="a command that runs the program of another processor, such as qemu-aarch64",
+    )
+    add(
+        "--mutants",
+        action="store_true",
+        help="instead, show which small faults of the design the inputs would not notice",
+    )
 
 
 def run(args: argparse.Namespace) -> int:
     """Compare; return 1 if traces differ or code fails, 2 if there is nothing to compare."""
     from vicode.conformance.comparison import compare_languages
+    from vicode.conformance.cpp import ToolError, find_tools
 
     selected = select_root(args.design, "", "compare")
     if isinstance(selected, int):
         return selected
     opened, component = selected
-    inputs = _make_run(args, opened.open_project.project, component)
+    try:
+        tools = find_tools(args.cxx, args.emulator)
+    except ToolError as error:
+        raise OSError(f"--cxx, --emulator: {error}") from error
+    project = opened.open_project
+    runs = _make_runs(args, project.project, component)
+    if args.mutants:
+        return _try_mutants(runs, component, project)
     with tempfile.TemporaryDirectory(prefix="vicode-conform-") as folder:
-        comparison = compare_languages((inputs,), Path(folder), opened.open_project.folder.resolve())
-    return _report(args, component, comparison)
+        comparison = compare_languages(runs, Path(folder), project.folder.resolve(), tools=tools)
+    code = _report(args, component, comparison)
+    if comparison.coverage is not None:
+        _report_coverage(comparison.coverage, project)
+    return code
 
 
-def _make_run(args: argparse.Namespace, project: "Project", component: str) -> "ConformanceRun":
+def _make_runs(args: argparse.Namespace, project: "Project", component: str) -> "tuple[ConformanceRun, ...]":
     from itertools import islice
 
-    from vicode.conformance.random_inputs import random_run
+    from vicode.conformance.comparison import choose_inputs
     from vicode.conformance.recorded_inputs import recorded_run
     from vicode.simulation.trace import TraceError, open_trace
 
-    if args.inputs == "random":
-        return random_run(project, component, iterations=min(args.iterations, _MAX_ITERATIONS), seed=args.seed)
+    if args.inputs == "chosen":
+        return choose_inputs(project, component, iterations=min(args.iterations, _MAX_ITERATIONS), seed=args.seed)
     try:
         iterations = open_trace(Path(args.inputs)).iterations()
-        return recorded_run(project, component, islice(iterations, _MAX_ITERATIONS))
+        return (recorded_run(project, component, islice(iterations, _MAX_ITERATIONS)),)
     except TraceError as error:
         raise OSError(f"{args.inputs}: {error}") from error
 
@@ -64,10 +96,14 @@ def _report(args: argparse.Namespace, component: str, comparison: "LanguageCompa
     from vicode.conformance.report import describe
     from vicode.simulation.language_comparison import LANGUAGE_TITLES, verdict
 
-    source = f"seed {args.seed}" if args.inputs == "random" else args.inputs
+    source = f"seed {args.seed}" if args.inputs == "chosen" else args.inputs
     print(f"{component}: {verdict(comparison)} ({source})")
     for absent in comparison.absent:
         print(f"{LANGUAGE_TITLES[absent.language]} is not compared: {absent.reason}")
+    for limited in comparison.limited:
+        print(f"{LANGUAGE_TITLES[limited.language]} is not compared {limited.reason}")
+    for partial in comparison.partial:
+        print(f"{LANGUAGE_TITLES[partial.language]} is compared in {partial.reason}")
     for failed in comparison.failed:
         print(f"{LANGUAGE_TITLES[failed.language]} fails: {failed.reason}")
     for difference in comparison.differences:
@@ -78,3 +114,42 @@ def _report(args: argparse.Namespace, component: str, comparison: "LanguageCompa
         print("vicode: there is nothing to compare", file=sys.stderr)
         return 2
     return 0
+
+
+def _report_coverage(coverage: "InputCoverage", project: "OpenProject") -> None:
+    from vicode.simulation.language_comparison import as_design_path
+
+    print(f"coverage: {coverage.summary}")
+    for each in coverage.never[:_MAX_NEVER]:
+        print(f"never: {each.text}{_place(project, each.component, as_design_path(each.path))} {each.outcome}")
+    if len(coverage.never) > _MAX_NEVER:
+        print(f"never: {len(coverage.never) - _MAX_NEVER} more")
+
+
+def _try_mutants(runs: "tuple[ConformanceRun, ...]", component: str, project: "OpenProject") -> int:
+    """Print which mutants of the design are not noticed; return 2 if it cannot be interpreted."""
+    from vicode.conformance.design_mutants import try_mutants
+    from vicode.semantics import NotInterpretableError
+
+    try:
+        report = try_mutants(runs)
+    except NotInterpretableError as error:
+        print(f"vicode: the reference interpreter cannot run {component}: {error}", file=sys.stderr)
+        return 2
+    _report_mutants(report, component, project)
+    return 0
+
+
+def _report_mutants(report: "MutantReport", component: str, project: "OpenProject") -> None:
+    print(f"{component}: {report.count - len(report.survivors)} of {report.count} mutants of the design are noticed")
+    for mutant in report.survivors:
+        print(f"not noticed: {mutant.text}{_place(project, mutant.design.component, mutant.path)}")
+
+
+def _place(project: "OpenProject", component: str, path: "DesignPath") -> str:
+    """The file and line of a part of a design, in parentheses; "" if it has none."""
+    from vicode.findings import FindingSubject
+    from vicode.store import find_location
+
+    location = find_location(FindingSubject(component=component, path=path), project.sources)
+    return f" ({location.file}:{location.line})" if location else ""

@@ -3,7 +3,7 @@
 import sys
 from collections import Counter
 from collections.abc import Iterable
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 
 from vicode.findings import Finding, Severity, render_text
@@ -13,9 +13,9 @@ _XABSL_SUFFIXES = (".xabsl", ".yabsl")
 _COLOURS = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 
 
-def format_findings(findings: Iterable[Finding]) -> str:
-    """Format findings in the given order, with their source lines."""
-    lines_of = lru_cache(maxsize=64)(_read_lines)
+def format_findings(findings: Iterable[Finding], encoding: str = "") -> str:
+    """Format findings in the given order, with their source lines; `encoding` is that of XABSL files."""
+    lines_of = lru_cache(maxsize=64)(partial(_read_lines, encoding=encoding))
 
     def source_line(file: str, line: int) -> str | None:
         lines = lines_of(file)
@@ -24,9 +24,9 @@ def format_findings(findings: Iterable[Finding]) -> str:
     return render_text(findings, source_line)
 
 
-def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False) -> None:
+def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False, encoding: str = "") -> None:
     """Print findings in the given order; on a terminal, color marks the severity."""
-    text = format_findings(findings)
+    text = format_findings(findings, encoding)
     stream = sys.stderr if to_stderr else sys.stdout
     if not text:
         return
@@ -54,11 +54,11 @@ def count_findings(findings: Iterable[Finding]) -> str:
 
 def describe_os_error(error: OSError) -> str:
     if error.filename is None:
-        return str(error)
+        return error.strerror or str(error)
     return f"{error.filename}: {error.strerror or error}"
 
 
-def _read_lines(file: str) -> tuple[str, ...]:
+def _read_lines(file: str, *, encoding: str) -> tuple[str, ...]:
     """The lines of a regular file, up to a size limit; reading a pipe or device could block."""
     path = Path(file)
     try:
@@ -68,18 +68,12 @@ def _read_lines(file: str) -> tuple[str, ...]:
             content = stream.read(_MAX_BYTES)
     except OSError:
         return ()
-    # Old behaviors are in Windows-1252, one byte per character: columns stay right.
-    text = content.decode(errors="replace") if _is_utf8(content) else content.decode("cp1252", errors="replace")
-    # The same line ends as the readers: XABSL has only line feeds, and `splitlines` has more than YAML.
-    if path.suffix not in _XABSL_SUFFIXES:
-        text = text.replace("\r\n", "\n").replace("\r", "\n")
-    return tuple(text.split("\n"))
-
-
-def _is_utf8(content: bytes) -> bool:
-    try:
-        content.decode()
-    except UnicodeDecodeError as error:
+    if len(content) == _MAX_BYTES:
         # The limit may cut a character.
-        return error.start > _MAX_BYTES - 4
-    return True
+        content = content[: content.rfind(b"\n") + 1]
+    # The same line ends as the readers: XABSL has only line feeds, and `splitlines` has more than YAML.
+    if path.suffix in _XABSL_SUFFIXES:
+        from vicode.xabsl.source_text import decode_source
+
+        return tuple(decode_source(content, encoding).text.split("\n"))
+    return tuple(content.decode(errors="replace").replace("\r\n", "\n").replace("\r", "\n").split("\n"))

@@ -1,7 +1,6 @@
 """Copy a runnable program to a folder or a robot: generated code, runtime, hand-written code, launcher."""
 
 import argparse
-import re
 import shlex
 import shutil
 import subprocess
@@ -38,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "--arguments",
         metavar="TEXT",
-        help="arguments of the program in the launcher (default: --real-time; for C++ none)",
+        help="arguments of the program in the launcher (default: --real-time; with clock: world, and for C++, none)",
     )
     add("--dry-run", action="store_true", help="list the files and copy nothing")
 
@@ -117,7 +116,9 @@ def build_program(opened: LoadedProject, component: str, folder: Path, args: arg
     class_path = python_class_path(project, component)
     package = class_path.partition(".")[0]
     name = _component_name(opened, component)
-    arguments = "--real-time" if args.arguments is None else args.arguments
+    # A world that sets the pace needs no clock of the program.
+    default = "" if project.clock else "--real-time"
+    arguments = default if args.arguments is None else args.arguments
     command = f"exec {shlex.quote(args.python)} -m {package} {shlex.quote(name)} {arguments}".rstrip()
     comment = "# Ctrl-C and SIGTERM close the components and the world.\n"
     _write_launcher(folder, package, name, command, target=args.to, comment=comment)
@@ -163,22 +164,22 @@ def _write_launcher(
     launcher = folder / "run"
     launcher.write_text(f'#!/bin/sh\n{comment}cd "$(dirname "$0")" || exit 1\n{command} "$@"\n', encoding="utf-8")
     launcher.chmod(0o755)
-    place = _unit_place(target)
-    program = f"{place}/run".replace("$", "$$")
-    if re.search(r"[\s\"'\\]", program):
-        program = '"' + program.replace("\\", "\\\\").replace('"', '\\"') + '"'
     (folder / f"{package}.service").write_text(
         f"""\
 # systemctl --user enable --now $PWD/{package}.service
+# loginctl enable-linger             the program runs without a login, and from the start of the machine
+# systemctl --user edit {package}    variables: [Service] Environment=VICODE_WATCH=7070
 [Unit]
 Description={package} ({component})
 
 [Service]
-WorkingDirectory={place}
-ExecStart={program}
+WorkingDirectory={_unit_place(target)}
+# systemd starts no program with quotes or a backslash in its path.
+ExecStart=/bin/sh run
 Restart=on-failure
-# The program stops the robot after SIGTERM.
+# The program stops the robot after SIGTERM and ends with 128 + 15.
 KillSignal=SIGTERM
+SuccessExitStatus=143
 TimeoutStopSec=10
 
 [Install]

@@ -88,6 +88,7 @@ def _library(text: str) -> str:
 
 
 def _write_cmake(folder: Path, package: str, library: str, sources: list[str]) -> None:
+    program = "robot" if library != "robot" else "robot_program"
     listed = "".join(f'    "{source}"\n' for source in sources)
     (folder / _CMAKE).write_text(
         f"""\
@@ -95,10 +96,10 @@ cmake_minimum_required(VERSION 3.16)
 project(robot LANGUAGES CXX)
 
 add_subdirectory({package})
-add_executable(robot
+add_executable({program}
 {listed})
-target_include_directories(robot PRIVATE ${{CMAKE_CURRENT_SOURCE_DIR}})
-target_link_libraries(robot PRIVATE {library})
+target_include_directories({program} PRIVATE ${{CMAKE_CURRENT_SOURCE_DIR}})
+target_link_libraries({program} PRIVATE {library})
 """,
         encoding="utf-8",
     )

@@ -6,7 +6,7 @@ from vicode.cli.file_differences import FileDifference
 from vicode.diagram.diff_diagram import DARK_DIFF, LIGHT_DIFF, css_variable_diff, diff_variables, render_diff
 from vicode.diagram.svg import write_svg
 from vicode.model.design import Design
-from vicode.model.diff import ChangeKind, describe_change
+from vicode.model.diff import ChangeKind, changed_lines, describe_change
 from vicode.templating import render
 
 
@@ -48,8 +48,12 @@ def format_page(differences: Sequence[FileDifference]) -> str:
 
 def _lines(difference: FileDifference) -> list[dict[str, str]]:
     if difference.changes:
-        return [{"kind": str(change.kind), "text": describe_change(change)} for change in difference.changes]
-    return [{"kind": difference.status, "text": line.strip()} for line in difference.lines()[1:]]
+        return [_line(change.kind, describe_change(change), *changed_lines(change)) for change in difference.changes]
+    return [_line(difference.status, line.strip()) for line in difference.lines()[1:]]
+
+
+def _line(kind: str, text: str, *details: str) -> dict[str, str]:
+    return {"kind": kind, "text": text, "details": "\n".join(details)}
 
 
 def _picture(difference: FileDifference) -> str:

@@ -12,6 +12,8 @@ from vicode.cli.console import print_findings
 from vicode.cli.docs_output import find_output_problem, find_source_url_problem
 from vicode.cli.docs_record import find_unchanged_build, save_record
 from vicode.cli.ports import port_number
+from vicode.cli.project_loader import DESIGN_SUFFIXES
+from vicode.cli.source_encoding import add_encoding_argument, find_encoding
 from vicode.output import cache_path
 
 
@@ -44,6 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="",
         help="link sources to a repository: an address with {path}, from the root of the repository, and {line}",
     )
+    add_encoding_argument(parser)
     parser.add_argument("--strict", action="store_true", help="exit with code 1 on findings; the site is still written")
     parser.add_argument("--fresh", action="store_true", help="rebuild all pages, ignoring the cache")
     parser.add_argument(
@@ -57,7 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the sites; return 1 if a design or behavior cannot be read and, with --strict, for findings."""
-    options = (args.format, args.title, args.source_url)
+    options = (args.format, args.title, args.source_url, *_encodings(args))
     record_file = cache_path(args.out, "docs-builds")
     is_incremental = not args.fresh and not args.watch
     record = find_unchanged_build(record_file, options, args.path, args.out) if is_incremental else None
@@ -74,7 +77,14 @@ def run(args: argparse.Namespace) -> int:
     from vicode.cli.docs_watch import watch_docs
 
     sites = DocsBuilder(out=args.out, ignores_cache=args.fresh, title=args.title, source_url=args.source_url)
-    return watch_docs(args.path, sites, port=args.port, open_browser=not args.no_open)
+    return watch_docs(args.path, sites, encoding=args.encoding, port=args.port, open_browser=not args.no_open)
+
+
+def _encodings(args: argparse.Namespace) -> Iterator[str]:
+    """The encodings of XABSL files at the paths; those of projects do not count."""
+    for path in args.path:
+        if path.suffix not in DESIGN_SUFFIXES and not (path / "project.yaml").exists():
+            yield find_encoding(path, args.encoding)
 
 
 def _find_option_problem(args: argparse.Namespace) -> str:
@@ -110,9 +120,9 @@ def _build(args: argparse.Namespace, options: Sequence[str], record_file: Path) 
         source_url=args.source_url,
     )
     with _gc_disabled(), sites, progress_bar() as step:
-        readings = load_site_inputs(args.path)
+        readings = load_site_inputs(args.path, args.encoding)
         for reading in readings:
-            print_findings(reading.read_errors, to_stderr=True)
+            print_findings(reading.read_errors, to_stderr=True, encoding=reading.encoding)
         built = sites.build(readings, step)
     if built.foreign:
         print(f"vicode: {built.foreign} was not written by vicode docs; choose another --out", file=sys.stderr)

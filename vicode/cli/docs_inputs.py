@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from vicode.cli.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES, LoadedProject, load_projects
+from vicode.cli.source_encoding import find_encoding
 from vicode.findings import Finding, Severity
 
 if TYPE_CHECKING:
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 class LoadedSiteInput:
     """A project or behavior on disk.
 
-    `site_input` is None if nothing can be read. If `is_incomplete`, files are missing because of `read_errors`.
+    `site_input` is None if nothing can be read. If `is_incomplete`, files are missing because of `read_errors`, which
+    also contain doubts about encodings. `encoding` is that of XABSL files.
     `folders` contain its files; `root` is the folder from which the paths of sources start.
     """
 
@@ -35,6 +37,7 @@ class LoadedSiteInput:
     is_incomplete: bool
     folders: tuple[Path, ...]
     root: Path
+    encoding: str = ""
 
     def source_url(self, template: str) -> str:
         """The address of lines in a repository, with {path} from the root of this input."""
@@ -43,8 +46,8 @@ class LoadedSiteInput:
         return template.replace("{path}", f"{prefix}{{path}}")
 
 
-def load_site_inputs(paths: Sequence[Path]) -> tuple[LoadedSiteInput, ...]:
-    """Load the inputs at all paths, each once.
+def load_site_inputs(paths: Sequence[Path], encoding: str = "") -> tuple[LoadedSiteInput, ...]:
+    """Load the inputs at all paths, each once; `encoding` is that of XABSL files that are not UTF-8.
 
     Raises:
         OSError: A path does not exist or cannot be read.
@@ -52,7 +55,7 @@ def load_site_inputs(paths: Sequence[Path]) -> tuple[LoadedSiteInput, ...]:
     readings: list[LoadedSiteInput] = []
     for path in dict.fromkeys(_find_behavior(each) or each for each in paths):
         if path.suffix in XABSL_SUFFIXES:
-            readings.append(_load_behavior_input(path))
+            readings.append(_load_behavior_input(path, encoding))
         elif path.is_file() and path.suffix not in DESIGN_SUFFIXES:
             raise OSError(
                 f"{path} is neither a design nor an XABSL behavior; "
@@ -101,22 +104,25 @@ def _project_site_input(opened: LoadedProject) -> "SiteInput":
     return make_site_input(opened.open_project, part, opened.findings, faulty)
 
 
-def _load_behavior_input(agents: Path) -> LoadedSiteInput:
+def _load_behavior_input(agents: Path, encoding: str) -> LoadedSiteInput:
     """Load a behavior as a project with XABSL sources."""
-    from vicode.cli.xabsl_behavior import load_behavior, with_display_paths
+    from vicode.cli.xabsl_behavior import DOUBTFUL_ENCODING, load_behavior, with_display_paths
     from vicode.xabsl.compiler import compile_source
 
-    source = load_behavior(agents, _parse_cached)
+    encoding = find_encoding(agents, encoding)
+    source = load_behavior(agents, encoding, _parse_cached)
     compiled = compile_source(source)
     errors = [each for each in compiled.findings if each.severity is Severity.ERROR]
+    doubts = [each for each in compiled.findings if each.rule.code == DOUBTFUL_ENCODING]
     is_broken = compiled.program is None
     return LoadedSiteInput(
         name=agents.resolve().parent.name,
         site_input=None if is_broken else _behavior_site_input(agents, source, compiled),
-        read_errors=with_display_paths(errors, agents) if is_broken else (),
+        read_errors=with_display_paths([*doubts, *errors] if is_broken else doubts, agents),
         is_incomplete=is_broken,
         folders=tuple(sorted({path.resolve().parent for path in (agents, *source.files)})),
         root=agents.resolve().parent,
+        encoding=encoding,
     )
 
 
@@ -159,13 +165,16 @@ def _behavior_site_input(agents: Path, source: "ProgramSource", compiled: "Compi
 def _sources(source: "ProgramSource", imported: "ImportResult") -> "dict[str, SourceText]":
     """The XABSL files by component, with the lines of the states, decisions and parameters of its option."""
     from vicode.docsite import SourceText, iter_documented_paths
-    from vicode.xabsl.source_loader import read_text
 
     def text_of(path: Path, lines: "dict[ThingPath, int]", action_lines: "dict[ThingPath, int]") -> SourceText:
         folder = source.main.parent
         shown = path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
         return SourceText(
-            path=shown, text=read_text(path), language="xabsl", line_numbers=lines, action_lines=action_lines
+            path=shown,
+            text=source.files[path].tokens.text,
+            language="xabsl",
+            line_numbers=lines,
+            action_lines=action_lines,
         )
 
     sources = {"": text_of(source.main, {}, {})}

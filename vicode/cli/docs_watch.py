@@ -23,11 +23,13 @@ _SUFFIXES = (*XABSL_SUFFIXES, *DESIGN_SUFFIXES)
 _DEBOUNCE_STEP_MS, _MAX_DEBOUNCE_MS, _POLL_MS = 40, 400, 500
 
 
-def watch_docs(paths: Sequence[Path], builder: DocsBuilder, *, port: int = 0, open_browser: bool = True) -> int:
+def watch_docs(
+    paths: Sequence[Path], builder: DocsBuilder, *, encoding: str = "", port: int = 0, open_browser: bool = True
+) -> int:
     """Build and serve until interrupted; return 2 if files of other tools are in the output folder."""
     news = ReloadBroadcaster()
     with builder:
-        watcher = SiteWatcher(paths, builder, news)
+        watcher = SiteWatcher(paths, builder, news, encoding)
         if not watcher.update(is_first=True):
             return 2
         # Exclude long-lived objects from garbage collection.
@@ -44,8 +46,8 @@ def watch_docs(paths: Sequence[Path], builder: DocsBuilder, *, port: int = 0, op
 class SiteWatcher:
     """Rebuilds after changes and publishes the result; on errors, the last good site is kept."""
 
-    def __init__(self, paths: Sequence[Path], sites: DocsBuilder, news: ReloadBroadcaster) -> None:
-        self._paths, self._builder, self._broadcaster = paths, sites, news
+    def __init__(self, paths: Sequence[Path], sites: DocsBuilder, news: ReloadBroadcaster, encoding: str = "") -> None:
+        self._paths, self._builder, self._broadcaster, self._encoding = paths, sites, news, encoding
         self.folders: tuple[Path, ...] = tuple(path if path.is_dir() else path.resolve().parent for path in paths)
 
     def run(self) -> None:
@@ -61,13 +63,13 @@ class SiteWatcher:
         """Rebuild; return False if the output folder contains files of other tools."""
         begun = time.perf_counter()
         try:
-            readings = load_site_inputs(self._paths)
+            readings = load_site_inputs(self._paths, self._encoding)
         except OSError as error:
             return self._report_problem(describe_os_error(error))
         self.folders = tuple(sorted({*self.folders, *(each for reading in readings for each in reading.folders)}))
         for reading in readings:
-            print_findings(reading.read_errors, to_stderr=True)
-        errors = "".join(format_findings(each.read_errors) for each in readings if each.is_incomplete)
+            print_findings(reading.read_errors, to_stderr=True, encoding=reading.encoding)
+        errors = "".join(format_findings(each.read_errors, each.encoding) for each in readings if each.is_incomplete)
         if errors and not is_first:
             self._report_errors(errors)
             return True

@@ -2,6 +2,7 @@
 
 import argparse
 import codecs
+import errno
 import gc
 import io
 import os
@@ -39,7 +40,8 @@ COMMANDS = (
     "xabsl",
 )
 _BATCH_COMMANDS = ("gen", "sync", "check")
-EXIT_OK, EXIT_FINDINGS, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_PIPE_CLOSED = 0, 1, 2, 130, 141
+EXIT_OK, EXIT_FINDINGS, EXIT_FAILED, EXIT_OUTPUT_LOST, EXIT_INTERRUPTED, EXIT_PIPE_CLOSED = 0, 1, 2, 3, 130, 141
+_FULL_DISK = frozenset((errno.ENOSPC, errno.EDQUOT, errno.EFBIG))
 _RECURSION_LIMIT = 10_000
 _ASCII = {"→": "->", "…": "...", "×": "x", "–": "-", "·": "-"}
 
@@ -69,13 +71,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return EXIT_INTERRUPTED
     except BrokenPipeError:
-        # The reader closed the pipe; keep the final flush of the interpreter from failing, too.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # The reader closed the pipe.
+        _discard_output()
         return EXIT_PIPE_CLOSED
     except OSError as error:
         print(f"vicode: {describe_os_error(error)}", file=sys.stderr)
+        if error.errno in _FULL_DISK:
+            _discard_output()
+            return EXIT_OUTPUT_LOST
         return EXIT_FAILED
     return code
+
+
+def _discard_output() -> None:
+    """Keep the final flush of the interpreter from failing, too."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _report_unknown_command(name: str) -> int:
@@ -107,7 +117,7 @@ def make_command_parser(names: Sequence[str] = COMMANDS) -> argparse.ArgumentPar
         prog="vicode",
         description="Edit, check, and run state machines for robots, and generate code from them.",
         epilog="Exit codes: 0 success, 1 findings or outdated files, 2 the command could not run, "
-        "141 the output was closed, as by head.",
+        "3 an output could not be written, 141 the output was closed, as by head.",
     )
     parser.add_argument("--version", action="version", version=f"vicode {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)

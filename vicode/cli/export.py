@@ -2,11 +2,13 @@
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.console import print_findings
-from vicode.diagram.export_formats import EXPORT_FORMATS, ExportFormat, ExportOptions
+from vicode.cli.source_encoding import add_encoding_argument, find_encoding
+from vicode.diagram.export_formats import EXPORT_FORMATS, ExportFormat, ExportOptions, NotExportableError
 
 if TYPE_CHECKING:
     from vicode.model.design import Design
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help="design file, or XABSL file of an option")
     parser.add_argument(
-        "--format", choices=[*EXPORT_FORMATS, "scxml"], help="output format (default: by the suffix of OUT, else svg)"
+        "--format", choices=EXPORT_FORMATS, help="output format (default: by the suffix of OUT, else svg)"
     )
     parser.add_argument("-o", "--out", metavar="OUT", help="output file, or - for stdout (default: next to the design)")
     parser.add_argument("--states", metavar="A,B", help="export only these states and the components they use")
@@ -24,18 +26,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--scale", type=float, default=2.0, help="resolution of a PNG relative to the diagram (default: %(default)g)"
     )
+    add_encoding_argument(parser)
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the file; return 1 if the design cannot be read or a state does not exist."""
+    """Write the file; return 1 if the design cannot be read or expressed, or a state does not exist."""
     if Path(args.file).is_dir():
         print(f"vicode: {args.file} is a folder; name one design file in it", file=sys.stderr)
         return 2
-    design = _read(Path(args.file))
+    design = _read(Path(args.file), args.encoding)
     if design is None:
         return 1
-    if args.format == "scxml" or (args.format is None and str(args.out or "").endswith(".scxml")):
-        return _export_scxml(args, design)
     from vicode.output import write_atomically
 
     only = _states(args.states)
@@ -45,7 +46,11 @@ def run(args: argparse.Namespace) -> int:
         return 1
     form = EXPORT_FORMATS[args.format] if args.format else _format_from_suffix(args.out)
     wish = ExportOptions(only=only, links=not args.no_links, dark=args.dark, scale=min(max(args.scale, 0.1), 16.0))
-    content = form.write(design, wish)
+    try:
+        content = form.write(design, wish)
+    except NotExportableError as error:
+        print(f"{args.file}: {error}", file=sys.stderr)
+        return 1
     if args.out == "-":
         sys.stdout.buffer.write(content)
         return 0
@@ -55,53 +60,38 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _export_scxml(args: argparse.Namespace, design: "Design") -> int:
-    from vicode.importers.scxml.writer import NotInScxmlError, write_scxml
-    from vicode.output import write_atomically
-
-    try:
-        text = write_scxml(design)
-    except NotInScxmlError as error:
-        print(f"{args.file}: {error}", file=sys.stderr)
-        return 1
-    if args.out == "-":
-        print(text, end="")
-        return 0
-    out = Path(args.out) if args.out else Path(args.file).with_suffix(".scxml")
-    write_atomically(out, text)
-    print(f"wrote {out.as_posix()}")
-    return 0
-
-
-def _read(file: Path) -> "Design | None":
+def _read(file: Path, encoding: str) -> "Design | None":
     from vicode.store import read_design
     from vicode.xabsl.source_loader import EXTENSIONS
 
     if file.suffix in EXTENSIONS:
-        return _read_option(file)
+        return _read_option(file, encoding)
     read = read_design(file.read_bytes(), file.as_posix())
     if read.design is None:
         print_findings(read.findings, to_stderr=True)
     return read.design
 
 
-def _read_option(file: Path) -> "Design | None":
+def _read_option(file: Path, encoding: str) -> "Design | None":
     """The option of an XABSL file as a design; its behavior is searched in the folders above."""
-    from vicode.cli.xabsl_behavior import print_behavior_findings
+    from vicode.cli.xabsl_behavior import print_behavior_findings, print_encoding_doubts
     from vicode.findings import Severity
     from vicode.importers import import_behavior
     from vicode.xabsl.compiler import compile_source
     from vicode.xabsl.source_loader import find_main_file, load_source
+    from vicode.xabsl.source_text import read_source
 
     shown, file = file, file.resolve(strict=True)
     main = find_main_file(file)
-    source = load_source(main)
+    encoding = find_encoding(main, encoding)
+    source = load_source(main, partial(read_source, encoding=encoding))
     if not source.has_agents and any(each.file.body for each in source.files.values()):
         raise OSError(f"no file with agents in the folder of {shown}, or in those above it, includes it")
     compiled = compile_source(source)
     if compiled.program is None:
-        print_behavior_findings([each for each in compiled.findings if each.severity is Severity.ERROR], main)
+        print_behavior_findings([each for each in compiled.findings if each.severity is Severity.ERROR], main, encoding)
         return None
+    print_encoding_doubts(source, main)
     imported = import_behavior(source, compiled, "behavior")
     component = next((about.component for about in imported.designs if about.file == file), None)
     design = imported.project.design(component) if component else None

@@ -5,21 +5,33 @@ from dataclasses import asdict, dataclass
 from vicode.cli.diff_inputs import FileVersion, VersionPair
 from vicode.findings import Finding
 from vicode.model.design import Design
-from vicode.model.diff import Change, describe_change, diff_designs, diff_projects
+from vicode.model.diff import (
+    Change,
+    changed_lines,
+    describe_change,
+    describe_changes,
+    diff_designs,
+    diff_projects,
+    diff_unread,
+)
 from vicode.model.project import Project
-from vicode.store import is_project_text, read_design, read_project_file
+from vicode.store import UnreadMember, is_project_text, list_unread, read_design, read_project_file
 
 _SAME_MEANING = "  only comments or the form of the file differ"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DesignVersion:
-    """A version of a design or of project.yaml; both are None if it cannot be read."""
+    """A version of a design or of project.yaml; both are None if it cannot be read.
+
+    `unread` is what was not understood, such as misspelled keys.
+    """
 
     file: FileVersion
     design: Design | None = None
     project: Project | None = None
     findings: tuple[Finding, ...] = ()
+    unread: tuple[UnreadMember, ...] = ()
 
     @property
     def is_readable(self) -> bool:
@@ -69,7 +81,7 @@ class FileDifference:
         is_renamed = self.old.file.name != self.new.file.name
         head = f"{self.old.file.name} → {self.new.file.name}:" if is_renamed else f"{self.name}:"
         is_copy = self.old.file.content == self.new.file.content
-        lines = [f"  {describe_change(change)}" for change in self.changes]
+        lines = [f"  {line}" for line in describe_changes(self.changes)]
         return [head, *(lines or ([] if is_copy else [_SAME_MEANING]))]
 
     def to_json(self) -> dict[str, object]:
@@ -78,8 +90,12 @@ class FileDifference:
             "old_path": None if self.old is None else self.old.file.name,
             "status": self.status,
             "readable": not self.errors,
-            "changes": [{**asdict(change), "text": describe_change(change)} for change in self.changes],
+            "changes": [_change_to_json(change) for change in self.changes],
         }
+
+
+def _change_to_json(change: Change) -> dict[str, object]:
+    return {**asdict(change), "text": describe_change(change), "lines": changed_lines(change)}
 
 
 def compare_pair(pair: VersionPair) -> FileDifference:
@@ -97,6 +113,7 @@ def compare_pair(pair: VersionPair) -> FileDifference:
             changes = diff_projects(old.project, new.project)
         elif old.is_readable and new.is_readable:
             raise OSError(f"{new.file.name}: a design cannot be compared with a project.yaml")
+        changes += diff_unread(old.unread, new.unread)
     return FileDifference(name=pair.name, old=old, new=new, changes=changes)
 
 
@@ -105,6 +122,8 @@ def _read(version: FileVersion | None) -> DesignVersion | None:
         return None
     if is_project_text(version.name, version.content):
         project = read_project_file(version.content, version.name)
-        return DesignVersion(file=version, project=project.project, findings=project.findings)
+        unread = list_unread(project.source_map)
+        return DesignVersion(file=version, project=project.project, findings=project.findings, unread=unread)
     design = read_design(version.content, version.name)
-    return DesignVersion(file=version, design=design.design, findings=design.findings)
+    unread = list_unread(design.source_map)
+    return DesignVersion(file=version, design=design.design, findings=design.findings, unread=unread)

@@ -4,19 +4,19 @@ import argparse
 import os
 import sys
 from collections.abc import Callable, Iterator
-from difflib import unified_diff
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.console import describe_os_error, print_findings
 from vicode.cli.project_loader import LoadedProject, load_projects
 from vicode.findings import Finding, Severity, SourceLocation, get_rule
-from vicode.output import FileDiff, FileStatus, format_diff, require_unchanged
+from vicode.output import FileDiff, FileStatus, back_up_edited, format_diff
 
 if TYPE_CHECKING:
     from vicode.model.project import Project
     from vicode.output import OutputFile
-    from vicode.sync import GenerationInput, GenerationPlan
+    from vicode.sync import Choices, GenerationInput, GenerationPlan
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -41,8 +41,11 @@ def add_output_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options that say what is generated, and where."""
     parser.add_argument(
         "--take",
-        choices=("file", "design"),
-        help="on a conflict, take the text of the generated file or of the design (in gen: with --apply)",
+        metavar="SIDE[=ITEM]",
+        action="append",
+        type=_read_choice,
+        help="on a conflict, take the text of the generated 'file' or of the 'design' (in gen: with --apply); ITEM is "
+        "one conflict: the id of its region, or FILE:LINE",
     )
     parser.add_argument(
         "--out", metavar="DIR", help="output folder (default: as set in project.yaml, else generated/ next to it)"
@@ -52,6 +55,22 @@ def add_output_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--standalone", action="store_true", help="include a copy of the runtime, so that the code runs without vicode"
     )
+
+
+def _read_choice(text: str) -> tuple[str, str]:
+    side, _equals, item = text.partition("=")
+    if side not in ("file", "design") or text.endswith("="):
+        raise argparse.ArgumentTypeError(f"'{text}': expected file, design, file=ITEM or design=ITEM")
+    return side, item
+
+
+def read_choices(args: argparse.Namespace) -> "Choices":
+    """The sides that win conflicts."""
+    from vicode.sync import Choices
+
+    given = args.take or ()
+    default = [side for side, item in given if not item]
+    return Choices(default=default[-1] if default else None, items=tuple((item, side) for side, item in given if item))
 
 
 def run(args: argparse.Namespace) -> int:
@@ -85,18 +104,22 @@ def _run_or_report(
 
 
 def _generate(opened: LoadedProject, args: argparse.Namespace) -> int:
-    from vicode.sync import plan_generation
+    from vicode.sync import find_patches, plan_generation
 
     if args.single_header:
         return _write_single_header(opened, args)
     has_errors = print_errors(opened)
-    plan = plan_generation(generation_input(opened, args), applies_edits=args.apply, take=args.take)
+    choices = read_choices(args)
+    plan = plan_generation(generation_input(opened, args), applies_edits=args.apply, choices=choices)
     if args.diff:
         print("".join(format_diff(difference) for difference in plan.differences), end="")
+    patches = tuple(find_patches(plan.folder, plan.folder.as_posix())) if args.check else ()
     if args.check:
-        print_findings(_outdated_findings(plan))
+        print_findings((*_outdated_findings(plan), *patches))
     if args.diff or args.check:
-        return int(bool(plan.differences) or has_errors)
+        return int(bool(plan.differences or patches) or has_errors)
+    if args.apply:
+        require_known_items(plan, choices)
     return int(not write_plan(opened, plan, is_forced=args.force) or has_errors)
 
 
@@ -167,68 +190,56 @@ def _files(opened: LoadedProject, project: "Project", args: argparse.Namespace) 
 
 
 def write_plan(opened: LoadedProject, plan: "GenerationPlan", *, is_forced: bool = False) -> bool:
-    """Save the designs of a plan and write its files, all or none; return whether they were written."""
-    from vicode.sync import back_up, write_generated
+    """Save the designs of a plan and write its files, all or none.
 
-    if is_forced:
-        for copy in back_up(plan):
-            print(f"backed up {copy.as_posix()}")
-    elif plan.findings:
-        from vicode.store import locate_findings
+    Returns:
+        Whether they were written, and the program contains all edits: none of them is in a patch.
+    """
+    from vicode.cli.plan_output import print_refusal, print_written
+    from vicode.sync import back_up, describe_patch, write_generated
 
-        print_findings(locate_findings(plan.findings, opened.open_project), to_stderr=True)
-        print("".join(_conflict_diffs(plan)), end="", file=sys.stderr)
-        for line in _describe_outside_readings(plan):
-            print(line, file=sys.stderr)
+    if plan.findings and not is_forced:
+        print_refusal(opened, plan)
         return False
-    require_unchanged(plan.differences, plan.folder)
-    _save_designs(opened, plan)
-    write_generated(plan)
-    for each in plan.outside_readings:
-        if each.leftover and each.file not in plan.edits:
-            print(f"kept the rest of the edit as {(plan.folder / each.file.path).as_posix()}.patch")
-    for difference in plan.differences:
-        verb = "deleted" if difference.status is FileStatus.STALE else "wrote"
-        print(f"{verb} {(plan.folder / difference.path).as_posix()}")
-    return True
+    for copy in (*back_up(plan), *_back_up_designs(opened, plan)):
+        print(f"backed up {copy.as_posix()}")
+    write_generated(plan, lambda: _saved_designs(opened, plan))
+    print_written(opened, plan)
+    print_findings((describe_patch((plan.folder / path).as_posix()) for path in plan.patches), to_stderr=True)
+    return not plan.patches
 
 
-def _describe_outside_readings(plan: "GenerationPlan") -> Iterator[str]:
-    """The edits outside regions: which of them the design can express, and the rest."""
-    for each in plan.outside_readings:
-        path = (plan.folder / each.file.path).as_posix()
-        yield from (f"{path}:{edit.line}: the design can express: {edit.words}" for edit in each.edits)
-        if each.edits:
-            yield "apply these edits with 'vicode sync --outside-regions'; it keeps the rest as NAME.patch"
-        if each.leftover:
-            yield f"the design cannot express:\n{each.leftover.rstrip()}"
+def _back_up_designs(opened: LoadedProject, plan: "GenerationPlan") -> Iterator[Path]:
+    """Copy the designs of which a conflict drops text to NAME.edited."""
+    dropped = {each.path for each in plan.settled if each.side == "file"}
+    for component in dict.fromkeys(file.component for file in plan.files if file.path in dropped):
+        yield back_up_edited(opened.open_project.files[component])
 
 
-def _conflict_diffs(plan: "GenerationPlan") -> Iterator[str]:
-    """Both sides of each conflict, as differences of the file from the design."""
-    for file in plan.edits:
-        for region in file.regions:
-            if region.is_conflict:
-                design, found = (f"{text}\n".splitlines(True) for text in (region.design_text, region.file_text))
-                yield from unified_diff(design, found, f"design: {region.id}", f"file: {region.id}")
-
-
-def _save_designs(opened: LoadedProject, plan: "GenerationPlan") -> None:
+@contextmanager
+def _saved_designs(opened: LoadedProject, plan: "GenerationPlan") -> Iterator[None]:
+    """Save the designs of a plan; restore them on an exception."""
     from vicode.store import replace_text, save_design
 
     project = opened.open_project
     texts = {name: save_design(design, project.texts[name]) for name, design in plan.designs.items()}
-    for name, text in texts.items():
-        replace_text(project.files[name], project.texts[name], text)
-        for reading in (each for each in plan.outside_readings if each.file.component == name):
-            for applied in reading.edits:
-                place = f"{(plan.folder / reading.file.path).as_posix()}:{applied.line}"
-                print(f"applied from {place} to {project.files[name].as_posix()}: {applied.words}")
-        for edit in plan.applied:
-            if edit.file.component == name:
-                place = f"{(plan.folder / edit.file.path).as_posix()}:{edit.region.line}"
-                verb = "merged" if edit.region.is_merged else "applied"
-                print(f"{verb} {edit.region.id} from {place} to {project.files[name].as_posix()}")
+    with ExitStack() as undo:
+        for name, text in texts.items():
+            replace_text(project.files[name], project.texts[name], text)
+            undo.callback(replace_text, project.files[name], text, project.texts[name])
+        yield
+        undo.pop_all()
+
+
+def require_known_items(plan: "GenerationPlan", choices: "Choices") -> None:
+    """Require that each chosen item is a conflict.
+
+    Raises:
+        OSError: There is no such conflict.
+    """
+    unused = choices.list_unused(name for each in plan.settled for name in each.names)
+    if unused:
+        raise OSError(f"--take: no conflict '{unused[0]}'; 'vicode sync' lists the conflicts")
 
 
 def _outdated_findings(plan: "GenerationPlan") -> Iterator[Finding]:

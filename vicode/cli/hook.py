@@ -6,9 +6,9 @@ import shlex
 import stat
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
+from vicode.cli.tracked_projects import TrackedProject, find_tracked_projects
 from vicode.git import GitError, Repository, find_repository
 from vicode.output import write_atomically
 
@@ -41,45 +41,15 @@ def run(args: argparse.Namespace) -> int:
         return _install(repository, is_removed=args.uninstall)
     if args.action == "post-merge":
         return _complete_merge(repository)
-    projects = [project for project in _find_projects(repository) if project.has_changed(repository.list_staged())]
+    projects = [
+        project for project in find_tracked_projects(repository) if project.has_changed(repository.list_staged())
+    ]
     if not projects:
         return 0
     return _check(projects) if args.action == "pre-commit" else _regenerate(repository, projects)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _TrackedProject:
-    """The folder of a project and, if git tracks generated files, their folder; relative to the root."""
-
-    folder: str
-    generated: str
-    is_generated_tracked: bool
-
-    def has_changed(self, files: Sequence[str]) -> bool:
-        """Whether one of some files belongs to the project."""
-        folders = (self.folder, *((self.generated,) if self.generated else ()))
-        return any(folder == "." or file.startswith(f"{folder}/") for file in files for folder in folders)
-
-
-def _find_projects(repository: Repository) -> list[_TrackedProject]:
-    from vicode.store import find_projects, open_project
-
-    found = []
-    for folder in find_projects(repository.root):
-        output = Path(os.path.realpath(folder / open_project(folder).project.generated))
-        is_inside = output.is_relative_to(repository.root)
-        generated = repository.relative(output) if is_inside else ""
-        found.append(
-            _TrackedProject(
-                folder=repository.relative(folder),
-                generated=generated,
-                is_generated_tracked=is_inside and bool(repository.list_tracked([generated])),
-            )
-        )
-    return found
-
-
-def _check(projects: Sequence[_TrackedProject]) -> int:
+def _check(projects: Sequence[TrackedProject]) -> int:
     """Check the designs and what is generated from them, as in the work tree."""
     from vicode.cli.entry_point import main
 
@@ -92,7 +62,7 @@ def _check(projects: Sequence[_TrackedProject]) -> int:
     return max(codes)
 
 
-def _regenerate(repository: Repository, projects: Sequence[_TrackedProject]) -> int:
+def _regenerate(repository: Repository, projects: Sequence[TrackedProject]) -> int:
     """Generate from the merged designs, and stage the result; `_complete_merge` adds it to the commit."""
     from vicode.cli.entry_point import main
 
@@ -106,7 +76,7 @@ def _regenerate(repository: Repository, projects: Sequence[_TrackedProject]) -> 
     if tree != merged:
         write_atomically(repository.git_path(_STAGED), f"{repository.head}\n{tree}\n")
     if code:
-        print("vicode: the merge is not committed; correct the designs, then 'git commit'", file=sys.stderr)
+        print("vicode: the merge is not committed; correct what is reported above, then 'git commit'", file=sys.stderr)
     return code
 
 
@@ -126,7 +96,7 @@ def _complete_merge(repository: Repository) -> int:
 
 
 def _install(repository: Repository, *, is_removed: bool) -> int:
-    attributes = [] if is_removed else _attribute_lines(_find_projects(repository))
+    attributes = [] if is_removed else _attribute_lines(find_tracked_projects(repository))
     if not is_removed and not attributes:
         raise GitError(f"no designs in {repository.root}")
     _update_block(repository.root / ".gitattributes", attributes, insert=lambda text, block: text + block)
@@ -138,7 +108,7 @@ def _install(repository: Repository, *, is_removed: bool) -> int:
     return max([_install_hook(folder / name, is_removed=is_removed) for name in _HOOKS])
 
 
-def _attribute_lines(projects: Sequence[_TrackedProject]) -> list[str]:
+def _attribute_lines(projects: Sequence[TrackedProject]) -> list[str]:
     designs = {project.folder: "merge=vicode diff=vicode" for project in projects}
     generated = {
         project.generated: "merge=vicode-generated" for project in projects if project.generated not in ("", ".")

@@ -1,17 +1,20 @@
 """Import an XABSL behavior as a project of designs, or merge its changes into them; or import an SCXML file."""
 
 import argparse
+import os
 import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.console import count_findings
-from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings
+from vicode.cli.source_encoding import add_encoding_argument, project_encoding
+from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings, print_encoding_doubts
 
 if TYPE_CHECKING:
     from vicode.cli.import_record import ImportRecord
     from vicode.importers import ImportResult
+    from vicode.importers.scxml import ScxmlImport
     from vicode.model.project import Project
     from vicode.xabsl.source_loader import ProgramSource
 
@@ -22,6 +25,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--out", metavar="DIR", type=Path, required=True, help="project folder to create, such as designs/NAME"
     )
     parser.add_argument("--name", help="project name (default: the name of the folder)")
+    add_encoding_argument(parser)
+    parser.add_argument(
+        "--event-queue", action="store_true", help="of SCXML: let events arrive through a queue, so that none is lost"
+    )
     parser.add_argument("--force", action="store_true", help="overwrite existing designs instead of merging")
 
 
@@ -29,60 +36,94 @@ def run(args: argparse.Namespace) -> int:
     """Write the designs; return 1 if the behavior has errors, files would be overwritten, or there are conflicts."""
     if args.agents.suffix == ".scxml":
         return _import_scxml(args)
+    if args.event_queue:
+        raise OSError("--event-queue is an option of SCXML files")
     from vicode.cli.import_record import RECORD_FILE, format_record, read_record
     from vicode.findings import Severity
     from vicode.importers import import_behavior, render_robot_class
     from vicode.store.documents import default_project_name
     from vicode.xabsl.compiler import compile_source
 
-    source = load_behavior(args.agents)
+    encoding = args.encoding or project_encoding(args.out) or project_encoding(args.agents)
+    source = load_behavior(args.agents, encoding)
     compiled = compile_source(source)
+    print_encoding_doubts(source, args.agents)
     if compiled.program is None:
-        print_behavior_findings([each for each in compiled.findings if each.severity is Severity.ERROR], args.agents)
+        errors = [each for each in compiled.findings if each.severity is Severity.ERROR]
+        print_behavior_findings(errors, args.agents, encoding)
         print(f"nothing written: {count_findings(compiled.findings)}", file=sys.stderr)
         return 1
     imported = import_behavior(source, compiled, args.name or default_project_name(args.out.resolve().name))
+    imported = replace(imported, project=replace(imported.project, xabsl_encoding=encoding))
     record = None if args.force else read_record(args.out)
     if record is not None:
-        return _merge(args.out, record, source, args.name)
+        return _merge(args.out, record, source, args.name, encoding)
     texts = _texts(replace(imported, project=_with_layout(imported.project)))
     if _would_overwrite(args, texts):
         return 1
-    _write(args.out, {**texts, RECORD_FILE: format_record(args.out, source)})
+    _write(args.out, {**texts, RECORD_FILE: format_record(args.out, source, _design_paths(imported))})
     robot = args.out / "robot.py"
     # Edited by hand: never overwritten.
     if not robot.exists():
         _write(args.out, {robot.name: render_robot_class(imported.project)})
     print(_summary(imported, args.out))
+    _print_notes(imported, args.agents.parent)
     return 0
+
+
+def _print_notes(imported: "ImportResult", folder: Path) -> None:
+    if imported.notes:
+        print(f"the designs cannot express {_count(len(imported.notes), 'detail')} of the XABSL files:")
+    for note in imported.notes:
+        path = Path(os.path.relpath(note.file, folder.resolve()))
+        print(f"  {path.as_posix()}:{note.line}: {note.text}")
+
+
+def _design_paths(imported: "ImportResult") -> dict[str, str]:
+    return {about.component: about.path for about in imported.designs}
 
 
 def _import_scxml(args: argparse.Namespace) -> int:
     """Write one design; return 1 if the document cannot be expressed, or files would be overwritten."""
     from vicode.cli.console import print_findings
+    from vicode.cli.event_queue import render_event_queue
     from vicode.importers import ImportedDesign, ImportResult
     from vicode.importers.scxml import ScxmlError, import_scxml
     from vicode.model.names import name_from_text, snake_case
     from vicode.store.documents import default_project_name
 
     component = name_from_text(args.agents.stem) or "Machine"
+    name = args.name or default_project_name(args.out.resolve().name)
     try:
-        project = import_scxml(
-            args.agents.read_bytes(), component, args.name or default_project_name(args.out.resolve().name)
-        )
+        converted = import_scxml(args.agents.read_bytes(), component, name, has_queue=args.event_queue)
     except ScxmlError as error:
         print_findings([error.finding(args.agents)], to_stderr=True)
         return 1
     about = ImportedDesign(
         component=component, path=f"{snake_case(component)}.yaml", comments=(), file=args.agents, anchors=()
     )
-    imported = ImportResult(project=_with_layout(project), designs=(about,), comments=())
-    texts = _texts(imported)
+    imported = ImportResult(project=_with_layout(converted.project), designs=(about,), comments=())
+    texts = {**_texts(imported), **render_event_queue(converted)}
     if _would_overwrite(args, texts):
         return 1
     _write(args.out, texts)
     print(_summary(imported, args.out))
+    _print_exactness(converted, args.agents)
     return 0
+
+
+def _print_exactness(converted: "ScxmlImport", file: Path) -> None:
+    """Print how many transitions are exact, and why others are not."""
+    from vicode.importers.scxml import Exactness
+
+    found = [each.exactness for each in converted.transitions]
+    counts = ", ".join(f"{found.count(each)} {each}" for each in Exactness if each in found)
+    print(f"{_count(len(found), 'transition')}{counts and ': '}{counts}")
+    inexact = [(each.line, each.text) for each in converted.transitions if each.exactness is not Exactness.EXACT]
+    for line, text in sorted([*converted.notes, *inexact]):
+        print(f"  {file.as_posix()}:{line}: {text}")
+    if Exactness.LOSSY in found and not converted.events.has_queue:
+        print("with --event-queue, no event is lost")
 
 
 def _would_overwrite(args: argparse.Namespace, texts: "dict[str, str]") -> bool:
@@ -94,7 +135,7 @@ def _would_overwrite(args: argparse.Namespace, texts: "dict[str, str]") -> bool:
     return False
 
 
-def _merge(folder: Path, record: "ImportRecord", source: "ProgramSource", name: str | None) -> int:
+def _merge(folder: Path, record: "ImportRecord", source: "ProgramSource", name: str | None, encoding: str) -> int:
     """Merge the changes of a behavior since its last import into the designs."""
     from vicode.cli.import_merge import merge_import
     from vicode.cli.import_record import RECORD_FILE, format_record
@@ -103,15 +144,30 @@ def _merge(folder: Path, record: "ImportRecord", source: "ProgramSource", name: 
     from vicode.transactions import replace_files
     from vicode.xabsl.compiler import compile_source
 
-    known = open_project(folder).project.name
+    opened = open_project(folder)
+    known = opened.project
     versions = []
-    for version, title in ((record.source(), known), (source, name or known)):
+    for version, title, chosen in (
+        (record.source(), known.name, known.xabsl_encoding),
+        (source, name or known.name, encoding),
+    ):
         compiled = compile_source(version)
         if compiled.program is None:
             raise OSError(f"the record of the import of {folder} does not compile; import again with --force")
-        versions.append(_texts(import_behavior(version, compiled, title)))
-    merge = merge_import(folder, *versions)
-    replace_files(folder, {**merge.texts, RECORD_FILE: format_record(folder, source)})
+        imported = import_behavior(version, compiled, title)
+        versions.append(replace(imported, project=replace(imported.project, xabsl_encoding=chosen)))
+    before, after = (_design_paths(version) for version in versions)
+    files = {component: os.path.relpath(file, folder) for component, file in opened.files.items()}
+    moved = {
+        path: Path(files[component]).as_posix()
+        for component, path in after.items()
+        if before.get(component) == path and component in files
+    }
+    merge = merge_import(folder, _texts(versions[0]), _texts(versions[1]), moved)
+    # A design that the user moved since the last update keeps the path that it had then.
+    kept = {name: path for name, path in record.designs.items() if name in after and before.get(name) == after[name]}
+    entry = format_record(folder, source, {**after, **kept}, has_comments=record.has_comments)
+    replace_files(folder, {**merge.texts, RECORD_FILE: entry})
     for path, text in sorted(merge.texts.items()):
         print(f"{'deleted' if text is None else 'merged'} {(folder / path).as_posix()}")
     if not merge.texts and not merge.conflicts:
@@ -148,9 +204,11 @@ def _texts(imported: "ImportResult") -> "dict[str, str]":
     from vicode.store import add_comments, save_design, save_project_file
 
     project = imported.project
-    texts = {"project.yaml": add_comments(save_project_file(project), imported.comments, is_project_file=True)}
+    comments = [(comment.path, comment.text) for comment in imported.comments]
+    texts = {"project.yaml": add_comments(save_project_file(project), comments, is_project_file=True)}
     for design, about in zip(project.designs, imported.designs, strict=True):
-        texts[about.path] = add_comments(save_design(design), about.comments)
+        comments = [(comment.path, comment.text) for comment in about.comments]
+        texts[about.path] = add_comments(save_design(design), comments)
     return texts
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.model.design import Design
-from vicode.store import merge_file_texts, read_design
+from vicode.store import merge_comments, merge_file_texts, read_design
 
 _PROJECT_FILE = "project.yaml"
 
@@ -18,40 +18,46 @@ class ImportMerge:
     conflicts: list[str] = field(default_factory=list)
 
 
-def merge_import(folder: Path, base: Mapping[str, str], theirs: Mapping[str, str]) -> ImportMerge:
+def merge_import(
+    folder: Path, base: Mapping[str, str], theirs: Mapping[str, str], moved: Mapping[str, str]
+) -> ImportMerge:
     """Merge the changes of a behavior into the files of a project.
 
     Args:
         folder: The folder of the project.
         base: The files that an import of the old behavior writes.
         theirs: The files that an import of the new behavior writes.
+        moved: The paths of designs in the project that an import writes elsewhere, by that path.
 
     Raises:
         OSError: A file cannot be read, or has errors.
     """
     merge = ImportMerge()
     for path in {**base, **theirs}:
-        old, new, ours = base.get(path), theirs.get(path), _read(folder / path)
+        place = moved.get(path, path)
+        old, new, ours = base.get(path), theirs.get(path), _read(folder / place)
         if new in (old, ours):
             continue
         if new is None:
-            _remove(merge, path, old or "", ours or "")
+            _remove(merge, place, old or "", ours or "")
         elif ours is None:
             if old is None:
-                merge.texts[path] = new
+                merge.texts[place] = new
             else:
-                merge.conflicts.append(f"{path}: deleted here, changed in the behavior")
+                merge.conflicts.append(f"{place}: deleted here, changed in the behavior")
         else:
-            _merge_file(merge, path, (old or "", ours, new), folder)
+            _merge_file(merge, place, (old or "", ours, new), folder)
     return merge
 
 
 def _merge_file(merge: ImportMerge, path: str, texts: tuple[str, str, str], folder: Path) -> None:
-    merged = merge_file_texts(*texts, is_project_file=path == _PROJECT_FILE)
+    is_project_file = path == _PROJECT_FILE
+    merged = merge_file_texts(*texts, is_project_file=is_project_file)
     if merged is None:
         raise OSError(f"{folder / path} has errors, so it cannot be merged; correct them ('vicode check')")
-    if merged.text != texts[1]:
-        merge.texts[path] = merged.text
+    text = merge_comments(texts[0], merged.text, texts[2], is_project_file=is_project_file)
+    if text != texts[1]:
+        merge.texts[path] = text
     merge.conflicts += [f"{path}: conflict in {name}" for name in merged.conflicts]
 
 

@@ -2,7 +2,8 @@
 
 import json
 import os
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +17,19 @@ _VERSION = 1
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImportRecord:
-    """The file with the agents, and the texts of all files by path relative to its folder."""
+    """What was imported.
+
+    Attributes:
+        agents: The file with the agents.
+        texts: The texts of all files by path relative to its folder.
+        designs: The path of each design, relative to the project, when it last agreed with the behavior.
+        has_comments: Whether the designs show each comment at its place, so that an update can write them.
+    """
 
     agents: Path
     texts: dict[str, str]
+    designs: Mapping[str, str] = field(default_factory=dict)
+    has_comments: bool = True
 
     def source(self) -> ProgramSource:
         """The behavior as it was imported."""
@@ -46,21 +56,26 @@ def read_record(folder: Path) -> ImportRecord | None:
     try:
         content: Any = json.loads(path.read_text("utf-8"))
         agents, texts = content["agents"], content["files"]
-        is_sound = content["vicode"] == _VERSION and all(isinstance(text, str) for text in texts.values())
+        # Records of earlier versions have no designs, and other places of comments.
+        designs, has_comments = content.get("designs", {}), content.get("comments", False) is True
+        strings = [*texts.values(), *designs.values()]
+        is_sound = content["vicode"] == _VERSION and all(isinstance(text, str) for text in strings)
     except FileNotFoundError:
         return None
     except (ValueError, KeyError, TypeError, AttributeError):
         is_sound = False
     if not is_sound:
         raise OSError(f"{path} is damaged; restore it, or import again with --force")
-    return ImportRecord(agents=folder / agents, texts=texts)
+    return ImportRecord(agents=folder / agents, texts=texts, designs=designs, has_comments=has_comments)
 
 
-def format_record(folder: Path, source: ProgramSource) -> str:
-    """The text of the record of a behavior whose designs are in a folder."""
+def format_record(folder: Path, source: ProgramSource, designs: Mapping[str, str], *, has_comments: bool = True) -> str:
+    """The text of the record of a behavior whose designs, by path relative to it, are in a folder."""
     content = {
         "vicode": _VERSION,
         "agents": _relative(source.main, folder.resolve()),
+        "comments": has_comments,
+        "designs": dict(sorted(designs.items())),
         "files": source_texts(source),
     }
     return json.dumps(content, ensure_ascii=False, indent=1) + "\n"

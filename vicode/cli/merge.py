@@ -4,8 +4,11 @@ import argparse
 import sys
 from pathlib import Path
 
-from vicode.git import merge_lines
+from vicode.cli.tracked_projects import find_tracked_projects
+from vicode.git import GitError, find_repository, merge_lines
 from vicode.output import write_atomically
+
+_MAX_REVISIONS = 4
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -14,7 +17,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("theirs", metavar="THEIRS", help="their version")
     parser.add_argument("--path", metavar="P", help="the path of the file in messages (default: OURS)")
     parser.add_argument(
-        "--generated", action="store_true", help="the file is generated: keep OURS; 'vicode gen' generates it again"
+        "--generated",
+        action="store_true",
+        help="the file is generated: on a conflict between versions without edits keep OURS; 'vicode gen' generates it",
     )
     parser.epilog = "Exit codes: 0 merged, 1 conflicts are marked in OURS, 2 the command could not run."
 
@@ -24,18 +29,14 @@ def run(args: argparse.Namespace) -> int:
     files = [Path(each) for each in (args.base, args.ours, args.theirs)]
     path = args.path or args.ours
     base, ours, theirs = (file.read_bytes() for file in files)
-    if args.generated and not any(_has_hand_edits(path, content) for content in (ours, theirs)):
-        if base != theirs != ours:
-            print(
-                f"vicode: {path}: kept ours; the hooks or 'vicode gen' generate it again",
-                file=sys.stderr,
-            )
-        return 0
     merged = None if args.generated else _merge_designs(path, base, ours, theirs)
     if merged is not None:
         content, conflicts = merged
     else:
         content, has_conflicts = merge_lines(files[1], files[0], files[2])
+        if args.generated and has_conflicts and all(_is_generated(path, side) for side in (ours, theirs)):
+            print(f"vicode: {path}: kept ours; the hooks or 'vicode gen' generate it again", file=sys.stderr)
+            return 0
         conflicts = ("lines",) if has_conflicts else ()
     if content != ours:
         write_atomically(files[1], content)
@@ -58,13 +59,24 @@ def _merge_designs(path: str, base: bytes, ours: bytes, theirs: bytes) -> tuple[
     return None if merged is None else (merged.text.encode(), merged.conflicts)
 
 
-def _has_hand_edits(path: str, content: bytes) -> bool:
-    """Whether a generated file contains changes that generating would lose."""
+def _is_generated(path: str, content: bytes) -> bool:
+    """Whether a version of a generated file is what the designs of its revision generate, and nothing else."""
     from vicode.regions import find_regions, get_comment_prefix, has_header, is_edited
+    from vicode.sync import generate_revision, is_same_code
 
     try:
         text = content.decode("utf-8")
-    except UnicodeDecodeError:
-        return True
-    parsed = find_regions(text, get_comment_prefix(path))
-    return not has_header(text) or bool(parsed.findings) or any(is_edited(region) for region in parsed.regions)
+        repository = find_repository(Path.cwd())
+    except (UnicodeDecodeError, GitError):
+        return False
+    comment = get_comment_prefix(path)
+    parsed = find_regions(text, comment)
+    if not has_header(text) or parsed.findings or any(map(is_edited, parsed.regions)):
+        return False
+    for project in find_tracked_projects(repository):
+        name = path.removeprefix(f"{project.generated}/")
+        if project.generated and (name != path or project.generated == "."):
+            revisions = repository.find_content(path, content, limit=_MAX_REVISIONS)
+            generated = (generate_revision(repository, each, project.folder).get(name) for each in revisions)
+            return any(each is not None and is_same_code(text, each, comment) for each in generated)
+    return False

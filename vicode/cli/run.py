@@ -37,12 +37,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--reload", action="store_true", help="exchange the code during the run when a design or a module changes")
     add("--watch", metavar="ADDRESS", help="let 'vicode attach' connect: PORT, HOST:PORT or unix:PATH (docs/live.md)")
     add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
+    add("--without-hold", action="store_true", help="with --control: also if the world has no hold() (docs/live.md)")
     add("--net", metavar="NAME", help="connect to other robots under this name, with --real-time (docs/network.md)")
     add("--team", metavar="TEAM", help="with --net: coordinate with the robots of this team")
     add("--on-call", action="store_true", help="with --net: step the component only while other robots call it")
     add("--trace", metavar="FILE", help="write a trace (docs/traces.md) to FILE; - is the standard output")
     add("--values", action="store_true", help="include outputs and variables in the trace, for replay in the editor")
     add("--real-time", action="store_true", help="run in real time instead of as fast as possible")
+    add(
+        "--clock",
+        choices=(options.TICKS, options.WORLD),
+        help="who sets the pace: ticks, or the world (default: that of project.yaml; with --world: ticks)",
+    )
+    add(
+        "--hold-after",
+        type=options.seconds,
+        default=options.HOLD_AFTER_S,
+        metavar="S",
+        help="in real time: hold the robot when an iteration is late by more than S seconds (default: %(default)s)",
+    )
     add(
         "--tick-ms",
         type=options.tick_ms,
@@ -130,12 +143,15 @@ def _command(opened: LoadedProject, names: tuple[str, str], folder: str, args: a
     if world:
         command += ["--world", world]
     seconds = args.seconds
-    if seconds is None and args.ticks is None and not args.real_time:
+    clock = args.clock or (options.TICKS if args.world else opened.open_project.project.clock or options.TICKS)
+    if seconds is None and args.ticks is None and not args.real_time and clock != options.WORLD:
         seconds = _DEFAULT_SECONDS
     given = {
         "--seconds": seconds,
         "--ticks": args.ticks,
         "--tick-ms": args.tick_ms,
+        "--clock": clock,
+        "--hold-after": args.hold_after,
         "--trace": args.trace,
         "--watch": args.watch,
         "--net": args.net,
@@ -149,6 +165,7 @@ def _command(opened: LoadedProject, names: tuple[str, str], folder: str, args: a
         "--real-time": args.real_time,
         "--until-done": args.until_done,
         "--control": args.control,
+        "--without-hold": args.without_hold,
         "--on-call": args.on_call,
         "--reload": args.reload,
     }

@@ -3,20 +3,23 @@
 import argparse
 import asyncio
 import contextlib
+import ssl
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from vicode.bica import options
 from vicode.cli.console import print_findings
 from vicode.cli.ports import port_number
 
 if TYPE_CHECKING:
+    from vicode.simulated_robot.robot_model import RobotModel
     from vicode.simulated_robot.session import SimulationSession
     from vicode.simulated_robot.world_map import WorldMap
 
+T = TypeVar("T")
 MISSING_EXTRA = "vicode: simulated robots need pymunk; install it with: pip install 'vicode[sim]'"
 _DEFAULT_SECONDS = 60.0
 
@@ -32,7 +35,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--host", default="127.0.0.1", metavar="HOST", help="where the bridge runs (default: %(default)s)")
     add("--port", type=port_number, default=7001, metavar="P", help="port of the bridge (default: %(default)s)")
     add("--token", default="", metavar="TEXT", help="token of the bridge, if it has one")
+    add("--tls", action="store_true", help="connect with TLS, to a bridge with a certificate that this machine trusts")
+    add("--ca", metavar="FILE", type=Path, help="connect with TLS, and trust this certificate in PEM format")
     add("--behavior", default="", metavar="NAME", help="design or agent that drives the robots (default: the bridge's)")
+    add(
+        "--robot",
+        metavar="MODULE:CLASS",
+        default="",
+        help="a class derived from RobotModel, with the sensors and commands of the robots (docs/experiments.md)",
+    )
+    add("--world", metavar="MODULE:CLASS", default="", help="send only what this world of the bridge declares")
+    path_help = "folder of these modules (default: the current one)"
+    add("--path", metavar="DIR", dest="import_path", type=Path, default=Path(), help=path_help)
     add("--seed", type=int, default=1, metavar="N", help="seed of start poses and noise (default: %(default)s)")
     add(
         "--seconds", type=options.seconds, metavar="S", help="stop after S simulated seconds (default in lock step: 60)"
@@ -66,9 +80,53 @@ def run(args: argparse.Namespace) -> int:
             raise
         print(MISSING_EXTRA, file=sys.stderr)
         return 2
-    address = BridgeAddress(host=args.host, port=args.port, behavior=args.behavior, token=args.token, is_jxi=args.jxi)
+    address = BridgeAddress(
+        host=args.host,
+        port=args.port,
+        behavior=args.behavior,
+        token=args.token,
+        is_jxi=args.jxi,
+        tls=_trust(args.ca) if args.tls or args.ca else None,
+    )
+    model = _load_model(args)
+    if model is None:
+        return 2
     arena = Arena(world_map, robots=args.robots, seed=args.seed)
-    return _simulate(SimulationSession(arena, address, is_recorded=False), args)
+    return _simulate(SimulationSession(arena, address, model=model, is_recorded=False), args)
+
+
+def _load_model(args: argparse.Namespace) -> "RobotModel | None":
+    """What the robots send and obey; None after the reason was printed if that cannot be loaded."""
+    from vicode.bica.loader import UserCodeError, describe_user_error
+    from vicode.bridge import World
+    from vicode.simulated_robot.robot_model import DeclaredSensors, RobotModel
+
+    sys.path.insert(0, str(args.import_path.resolve()))
+    try:
+        model = _load_class(args.robot, RobotModel)() if args.robot else RobotModel()
+        return DeclaredSensors(model, _load_class(args.world, World)().bridge.targets) if args.world else model
+    except UserCodeError as error:
+        print(f"vicode: {error}", file=sys.stderr)
+    except Exception as error:
+        print(f"vicode: cannot create the robot: {describe_user_error(error)}", file=sys.stderr)
+    return None
+
+
+def _load_class(name: str, base: type[T]) -> type[T]:
+    from vicode.bica.loader import UserCodeError, load_attribute
+
+    found = load_attribute(name)
+    if not (isinstance(found, type) and issubclass(found, base)):
+        raise UserCodeError(f"{name} is not a {base.__name__}; derive it from {base.__module__}.{base.__name__}")
+    return found
+
+
+def _trust(certificate: Path | None) -> ssl.SSLContext:
+    """The settings of TLS that trust one certificate, or those of this machine."""
+    try:
+        return ssl.create_default_context(cafile=certificate)
+    except ssl.SSLError:
+        raise OSError(f"{certificate} is not a PEM certificate") from None
 
 
 def read_map(text: str) -> "WorldMap | None":
@@ -155,10 +213,14 @@ class _StatePrinter:
     def __init__(self, session: "SimulationSession") -> None:
         self._session = session
         self._states: dict[int, str] = {}
+        self._notices: dict[int, int] = {}
 
     def print_new(self) -> None:
         for track in self._session.tracks:
             number, state = track.robot.number, track.state
+            for notice in track.notices[self._notices.get(number, 0) :]:
+                print(f"{self._session.arena.now_s:9.2f} s  robot {number}: {notice}", flush=True)
+            self._notices[number] = len(track.notices)
             if state and self._states.get(number) != state:
                 before = f"{self._states[number]} → " if number in self._states else ""
                 self._states[number] = state

@@ -3,7 +3,15 @@
 import argparse
 
 from vicode.cli.console import print_findings
-from vicode.cli.gen import add_output_arguments, for_each_project, generation_input, print_errors, write_plan
+from vicode.cli.gen import (
+    add_output_arguments,
+    for_each_project,
+    generation_input,
+    print_errors,
+    read_choices,
+    require_known_items,
+    write_plan,
+)
 from vicode.cli.project_loader import LoadedProject
 
 
@@ -26,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Sync every project; return 1 on conflicts or, with --check, if edits are missing from designs."""
+    """Sync every project; return 1 on conflicts, if a patch was kept or, with --check, if edits are missing."""
     if args.watch:
         from vicode.cli.sync_watch import watch_projects
 
@@ -35,16 +43,19 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _sync(opened: LoadedProject, args: argparse.Namespace) -> int:
-    from vicode.sync import plan_generation
+    from vicode.sync import find_patches, plan_generation
 
+    choices = read_choices(args)
     has_errors = print_errors(opened)
     plan = plan_generation(
         generation_input(opened, args),
         applies_edits=not args.check,
-        take=args.take,
+        choices=choices,
         outside_regions=args.outside_regions,
     )
     if args.check:
-        print_findings(plan.findings)
-        return int(bool(plan.findings) or has_errors)
+        findings = (*plan.findings, *find_patches(plan.folder, plan.folder.as_posix()))
+        print_findings(findings)
+        return int(bool(findings) or has_errors)
+    require_known_items(plan, choices)
     return int(not write_plan(opened, plan) or has_errors)

@@ -12,7 +12,7 @@ from vicode.cli.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES, LoadedPro
 
 def watch_projects(args: argparse.Namespace, sync: Callable[[LoadedProject, argparse.Namespace], int]) -> int:
     """Sync until interrupted."""
-    suffixes = (".py", *DESIGN_SUFFIXES, *XABSL_SUFFIXES)
+    suffixes = (".py", ".cpp", ".hpp", *DESIGN_SUFFIXES, *XABSL_SUFFIXES)
     print("Watching; press Ctrl-C to stop.", flush=True)
     with suppress(KeyboardInterrupt):
         while True:

@@ -64,7 +64,7 @@ def _stats(args: argparse.Namespace) -> int:
 
     if args.svg and not args.design:
         raise OSError("--svg draws on the diagram of a design; give it with --design")
-    histories = [_read(path) for path in args.traces]
+    histories = _read_runs(args.traces)
     states = sum_states(histories)
     transitions = sum((history.transitions for history in histories), Counter[tuple[str, str, str, str]]())
     if args.component and args.component not in states:
@@ -125,6 +125,16 @@ def _read(path: str) -> "RunHistory":
         return read_history(open_trace(Path(path)).iterations())
     except TraceError as error:
         raise OSError(f"{path}: {error}") from error
+
+
+def _read_runs(paths: Sequence[str]) -> "list[RunHistory]":
+    from vicode.simulation.trace import TraceError, open_runs
+    from vicode.simulation.trace_statistics import read_history
+
+    try:
+        return [read_history(run.iterations()) for run in open_runs(map(Path, paths))]
+    except TraceError as error:
+        raise OSError(f"{error}") from error
 
 
 def _find_designs(path: str, components: Sequence[str]) -> "dict[str, Design]":

@@ -9,10 +9,14 @@ if TYPE_CHECKING:
     from vicode.simulation import IterationResult
 
 _ERRORS = "/errors"
+_STEP_FIELDS = {"state": "", "transition": None, "worked": False}
+"""The fields of each message, with the values of a component that was not stepped."""
 
 
 def export_mcap(iterations: "Iterable[IterationResult]", out: Path) -> int:
-    """Write a trace and return the number of messages; values are fields beside `state` and `transition`.
+    """Write a trace and return the number of messages: one per component and iteration, all with the same fields.
+
+    Values are fields beside `state`, `transition` and `worked`.
 
     Raises:
         OSError: The file cannot be written, or the package mcap is missing.
@@ -51,10 +55,11 @@ def _write(writer: Any, iterations: "Iterable[IterationResult]") -> int:
 
 
 def _messages(iteration: "IterationResult") -> Iterable[tuple[str, dict[str, Any]]]:
-    for component, values in iteration.inputs.items():
-        yield f"/{component}", dict(values)
-    for step in iteration.tree:
-        own = {"state": step["state"], "transition": step.get("transition"), "worked": step.get("worked")}
-        yield f"/{step['component']}", {**(step.get("values") or {}), **own}
+    # Of a component that was stepped several times, the last step counts.
+    steps = {str(step["component"]): step for step in iteration.tree}
+    for component, values in iteration.values().items():
+        step = steps.get(component, {})
+        own = {name: step.get(name, default) for name, default in _STEP_FIELDS.items()}
+        yield f"/{component}", {**(values or {}), **own}
     for error in iteration.errors:
         yield _ERRORS, error

@@ -14,6 +14,8 @@ from dataclasses import dataclass
 from types import FrameType
 from typing import IO, Any, Protocol
 
+from vicode.bica.run import EXIT_OUTPUT_LOST
+
 _SHUTDOWN_TIMEOUT_S = 5.0
 _INTERRUPT_TIMEOUT_S = 2.0
 _FAILED = 2
@@ -78,7 +80,9 @@ def follow_process(child: "subprocess.Popen[str]", printer: TracePrinter) -> int
         printer.close()
     if ending.summary is not None:
         print(describe_summary(ending.summary), end="", flush=True)
-    return _exit_code(child.returncode, ending) if signals.received is None else 128 + signals.received
+    if signals.received is not None and child.returncode != EXIT_OUTPUT_LOST:
+        return 128 + signals.received
+    return _exit_code(child.returncode, ending)
 
 
 class StateChangeTracker:
@@ -122,6 +126,10 @@ def describe_summary(summary: TraceRecord) -> str:
             figures = f"{each['mean_ms']:9.3f} {each['max_ms']:9.3f}"
             figures += f" {_format_frequency(each.get('target_hz'))} {_format_frequency(each['real_frequency_hz'])}"
             lines.append(f"{name:{max(width, 9)}} {each['count']:8} {figures}")
+    if "missed_cycles" in summary:
+        latency = f"{summary['latency_mean_ms']:.3g} ms, at most {summary['latency_max_ms']:.3g} ms"
+        lines.append(f"missed cycles: {summary['missed_cycles']} of {summary['cycles']}")
+        lines.append(f"commands: sent {latency} after the inputs")
     if "overruns" in summary:
         tick = f"{summary['tick_ms']:.4g} ms"
         lines.append(f"overruns: {summary['overruns']} iterations took longer than the tick of {tick}")
@@ -146,6 +154,8 @@ class _RunOutcome:
 
 def _exit_code(code: int, ending: _RunOutcome) -> int:
     """Convert the exit code of the program; report an unexpected exit."""
+    if code == EXIT_OUTPUT_LOST:
+        return code
     if ending.has_failed:
         return _FAILED
     if ending.summary is None:

@@ -2,12 +2,14 @@
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
-from vicode.cli import xabsl_update
+from vicode.cli import xabsl_diff, xabsl_update
 from vicode.cli.console import count_findings, describe_os_error, print_findings
+from vicode.cli.source_encoding import add_encoding_argument, find_encoding
 from vicode.cli.xabsl_behavior import compile_behavior, print_behavior_findings, with_display_paths
 
 if TYPE_CHECKING:
@@ -27,6 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ("run", _add_run, _run),
         ("format", _add_format, _format),
         ("update", xabsl_update.add_arguments, _update),
+        ("diff", xabsl_diff.add_arguments, _diff),
         ("lsp", _add_lsp, _lsp),
     ):
         summary = (act.__doc__ or "").split("\n")[0]
@@ -46,17 +49,19 @@ def _add_check(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--strict", action="store_true", help="reject constructs that the original compiler or its engines cannot read"
     )
+    add_encoding_argument(parser)
 
 
 def _check(args: argparse.Namespace) -> int:
     """Check an XABSL behavior and report all problems at once."""
-    compiled = compile_behavior(args.agents)
+    encoding = find_encoding(args.agents, args.encoding)
+    compiled = compile_behavior(args.agents, encoding)
     if args.json:
         from vicode.findings import render_json
 
         print(render_json(with_display_paths(compiled.findings, args.agents)), end="")
     else:
-        print_behavior_findings(compiled.findings, args.agents, to_stderr=False)
+        print_behavior_findings(compiled.findings, args.agents, encoding, to_stderr=False)
         print(count_findings(compiled.findings))
     return _exit_code(compiled, strict=args.strict)
 
@@ -75,10 +80,13 @@ def _compile(args: argparse.Namespace) -> int:
     from vicode.xabsl.engine.code_writer import write_code
     from vicode.xabsl.engine.symbols import write_symbols
 
-    compiled = compile_behavior(args.agents)
+    encoding = find_encoding(args.agents, args.encoding)
+    compiled = compile_behavior(args.agents, encoding)
     # Only `check` prints notes: here they would hide errors and warnings.
     print_behavior_findings(
-        [finding for finding in compiled.findings if args.strict or finding.severity is not Severity.NOTE], args.agents
+        [finding for finding in compiled.findings if args.strict or finding.severity is not Severity.NOTE],
+        args.agents,
+        encoding,
     )
     code = _exit_code(compiled, strict=args.strict)
     if code or compiled.program is None:
@@ -129,11 +137,11 @@ def _run(args: argparse.Namespace) -> int:
 
     file = args.code
     try:
-        program = read_code(args.code.read_text(encoding="utf-8"))
+        program = read_code(_read_lines(args.code))
         file = args.symbols
-        symbols = read_symbols(args.symbols.read_text(encoding="utf-8"))
+        symbols = read_symbols(_read_lines(args.symbols))
         file = args.inputs
-        rows = read_rows(args.inputs.read_text(encoding="utf-8").splitlines())
+        rows = read_rows(_read_lines(args.inputs).splitlines())
         if args.bench:
             cycles_per_second = measure_cycles_per_second(program, symbols, rows, args.bench, strict=args.strict)
             print(f"{cycles_per_second:.0f} cycles per second of CPU time")
@@ -147,7 +155,7 @@ def _run(args: argparse.Namespace) -> int:
         for problem in error.problems:
             print(f"{args.code}: {problem}", file=sys.stderr)
         return 1
-    except (CodeError, SymbolListError, ReplayError, UnicodeDecodeError) as error:
+    except (CodeError, SymbolListError, ReplayError) as error:
         print(f"{file}: {error}", file=sys.stderr)
         return 1
     if args.trace is None:
@@ -157,34 +165,55 @@ def _run(args: argparse.Namespace) -> int:
     return 0
 
 
+def _read_lines(path: Path) -> str:
+    """The text of a compiled file; its first comment is the title of the behavior, in the encoding of the behavior."""
+    from vicode.xabsl.lexer import plain_line_ends
+    from vicode.xabsl.source_text import read_source
+
+    return plain_line_ends(read_source(path).text)
+
+
 def _add_format(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("paths", metavar="PATH", nargs="+", type=Path, help="a file or a folder")
     parser.add_argument("--check", action="store_true", help="write nothing; list the files that would change")
+    add_encoding_argument(parser)
 
 
 def _format(args: argparse.Namespace) -> int:
-    """Format XABSL files; comments are kept."""
-    from vicode.output import write_atomically
-    from vicode.xabsl.source_loader import format_file
-
+    """Format XABSL files; comments and encodings are kept."""
     code = 0
     for path in _files(args.paths):
         try:
-            result = format_file(path)
+            code = max(code, _format_file(path, find_encoding(path, args.encoding), is_check=args.check))
         except OSError as error:
             print(f"vicode: {describe_os_error(error)}", file=sys.stderr)
             code = 2
-            continue
-        if result.findings:
-            print_findings(result.findings, to_stderr=True)
-            print(f"{path}: not formatted because of syntax errors", file=sys.stderr)
-            code = code or 1
-        elif result.formatted != result.original:
-            print(f"{path}: {'would change' if args.check else 'formatted'}")
-            code = code or int(args.check)
-            if not args.check:
-                write_atomically(path, result.formatted)
     return code
+
+
+def _format_file(path: Path, encoding: str, *, is_check: bool) -> int:
+    """Format a file; return 1 if it has errors or, with `is_check`, would change."""
+    from vicode.findings import Severity
+    from vicode.output import write_atomically
+    from vicode.xabsl.source_loader import format_file
+    from vicode.xabsl.source_text import SourceEncodingError, encode_source, read_source
+
+    result = format_file(path, partial(read_source, encoding=encoding))
+    print_findings(result.findings, to_stderr=True, encoding=encoding)
+    if any(finding.severity is Severity.ERROR for finding in result.findings):
+        print(f"{path}: not formatted because of errors", file=sys.stderr)
+        return 1
+    if result.formatted == result.original.text:
+        return 0
+    if not is_check:
+        try:
+            content = encode_source(result.formatted, result.original.encoding, path.read_bytes())
+        except SourceEncodingError as error:
+            print(f"{path}: not formatted: it {error}", file=sys.stderr)
+            return 1
+        write_atomically(path, content)
+    print(f"{path}: {'would change' if is_check else 'formatted'}")
+    return int(is_check)
 
 
 def _update(args: argparse.Namespace) -> int:
@@ -192,10 +221,16 @@ def _update(args: argparse.Namespace) -> int:
     return xabsl_update.run(args)
 
 
+def _diff(args: argparse.Namespace) -> int:
+    """Run two versions of a behavior on the same inputs and show the first difference."""
+    return xabsl_diff.run(args)
+
+
 def _add_lsp(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--grammar", action="store_true", help="print a TextMate grammar for VS Code and other editors instead"
     )
+    add_encoding_argument(parser)
 
 
 def _lsp(args: argparse.Namespace) -> int:
@@ -207,7 +242,7 @@ def _lsp(args: argparse.Namespace) -> int:
         return 0
     from vicode.xabsl.server.server import create_server
 
-    create_server().start_io()
+    create_server(lambda path: find_encoding(path, args.encoding)).start_io()
     return 0
 
 

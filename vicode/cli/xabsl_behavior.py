@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,10 +14,13 @@ if TYPE_CHECKING:
     from vicode.xabsl.source_loader import ParseText, ProgramSource
 
 
+DOUBTFUL_ENCODING = "X611"
+"""The rule about files that do not look like the encoding in which they are read."""
+
 _FOLDERS_ABOVE = 4
 
 
-def load_behavior(agents: Path, parse_text: "ParseText | None" = None) -> "ProgramSource":
+def load_behavior(agents: Path, encoding: str = "", parse_text: "ParseText | None" = None) -> "ProgramSource":
     """Load the behavior whose agents are in this file.
 
     Raises:
@@ -24,8 +28,9 @@ def load_behavior(agents: Path, parse_text: "ParseText | None" = None) -> "Progr
     """
     from vicode.xabsl.parser import parse
     from vicode.xabsl.source_loader import load_source
+    from vicode.xabsl.source_text import read_source
 
-    source = load_source(agents, parse_text=parse_text or parse)
+    source = load_source(agents, partial(read_source, encoding=encoding), parse_text or parse)
     main = source.files.get(source.main)
     if main is not None and main.file.body and not source.has_agents:
         suggestion = next(_nearby_agent_files(agents), None)
@@ -44,7 +49,7 @@ def _nearby_agent_files(file: Path) -> Iterator[Path]:
         folder = folder / ".." if folder.name in ("", "..") else folder.parent
 
 
-def compile_behavior(agents: Path) -> "CompileResult":
+def compile_behavior(agents: Path, encoding: str = "") -> "CompileResult":
     """Compile the behavior whose agents are in this file.
 
     Raises:
@@ -52,7 +57,7 @@ def compile_behavior(agents: Path) -> "CompileResult":
     """
     from vicode.xabsl.compiler import compile_source
 
-    return compile_source(load_behavior(agents))
+    return compile_source(load_behavior(agents, encoding))
 
 
 def with_display_paths(findings: "Sequence[Finding]", agents: Path) -> "tuple[Finding, ...]":
@@ -74,5 +79,12 @@ def with_display_paths(findings: "Sequence[Finding]", agents: Path) -> "tuple[Fi
     )
 
 
-def print_behavior_findings(findings: "Sequence[Finding]", agents: Path, *, to_stderr: bool = True) -> None:
-    print_findings(with_display_paths(findings, agents), to_stderr=to_stderr)
+def print_behavior_findings(
+    findings: "Sequence[Finding]", agents: Path, encoding: str = "", *, to_stderr: bool = True
+) -> None:
+    print_findings(with_display_paths(findings, agents), to_stderr=to_stderr, encoding=encoding)
+
+
+def print_encoding_doubts(source: "ProgramSource", agents: Path) -> None:
+    """Warn of files that do not look like the encoding in which they were read."""
+    print_behavior_findings([each for each in source.findings if each.rule.code == DOUBTFUL_ENCODING], agents)

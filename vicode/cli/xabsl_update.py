@@ -3,20 +3,25 @@
 import argparse
 import os
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.console import count_findings, print_findings
-from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings
+from vicode.cli.source_encoding import add_encoding_argument, project_encoding
+from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings, print_encoding_doubts
 
 if TYPE_CHECKING:
     from vicode.cli.behavior_update import UpdateProblem
+    from vicode.cli.comment_places import DesignFile
+    from vicode.cli.import_record import ImportRecord
     from vicode.findings import Finding
     from vicode.store import OpenProject
     from vicode.xabsl.patching.program_patch import FileTexts
     from vicode.xabsl.source_loader import ProgramSource
+    from vicode.xabsl.source_text import ReadText
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,18 +29,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--into", metavar="AGENTS.xabsl", type=Path, help="XABSL file with the agents (default: the imported one)"
     )
+    add_encoding_argument(parser)
     parser.add_argument("--check", action="store_true", help="write nothing; list the files that would change")
     parser.add_argument("--diff", action="store_true", help="write nothing; print the changes")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the changed files; return 1 if an edit cannot be written, or with --check or --diff if files differ."""
-    from vicode.cli.behavior_update import update_behavior
+    """Write the changed files; return 1 if an edit is not written, or with --check or --diff if files differ."""
     from vicode.cli.import_record import read_record
     from vicode.store import open_project
     from vicode.transactions import complete_interrupted, is_interrupted
     from vicode.xabsl.compiler import compile_source
-    from vicode.xabsl.source_loader import read_text
+    from vicode.xabsl.source_text import read_source
 
     complete_interrupted(args.designs)
     opened = open_project(args.designs)
@@ -44,19 +49,16 @@ def run(args: argparse.Namespace) -> int:
     if agents is None:
         raise OSError(f"{args.designs} has no record of its import; specify the XABSL file with --into")
     agents = Path(os.path.relpath(agents))
-    source = load_behavior(agents)
+    encoding = args.encoding or opened.project.xabsl_encoding or project_encoding(agents)
+    source = load_behavior(agents, encoding)
     if is_interrupted(_root(source)):
         complete_interrupted(_root(source))
-        source = load_behavior(agents)
-    errors = _errors(opened)
+        source = load_behavior(agents, encoding)
     compiled = compile_source(source)
-    print_findings(errors, to_stderr=True)
+    print_encoding_doubts(source, agents)
     if compiled.program is None:
-        print_behavior_findings([each for each in compiled.findings if each.severity == "error"], agents)
-    if errors or compiled.program is None:
-        print(
-            f"nothing written: {count_findings([*errors, *(compiled.findings if not errors else ())])}", file=sys.stderr
-        )
+        print_behavior_findings([each for each in compiled.findings if each.severity == "error"], agents, encoding)
+        print(f"nothing written: {count_findings(compiled.findings)}", file=sys.stderr)
         return 1
     if record is not None and not record.is_current(source):
         print(
@@ -65,14 +67,45 @@ def run(args: argparse.Namespace) -> int:
             file=sys.stderr,
         )
         return 1
-    texts, problems = update_behavior(source, opened.project, _folders(opened), read_text)
-    if problems:
-        _print_problems(problems, opened)
+    return _update(args, opened, record, source, partial(read_source, encoding=encoding))
+
+
+def _update(
+    args: argparse.Namespace,
+    opened: "OpenProject",
+    record: "ImportRecord | None",
+    source: "ProgramSource",
+    read: "ReadText",
+) -> int:
+    from vicode.cli.behavior_update import EditedProject, update_behavior
+
+    errors = _errors(opened)
+    print_findings(errors, to_stderr=True)
+    left_out = _components(errors, opened)
+    if left_out is None:
+        print(f"nothing written: {count_findings(errors)}", file=sys.stderr)
         return 1
+    paths, has_comments = _paths(opened), record is not None and record.has_comments
+    edited = EditedProject(
+        project=opened.project,
+        files=_files(opened) if has_comments else {},
+        paths=paths,
+        known_paths=record.designs if record else {},
+        left_out=left_out,
+    )
+    texts, problems = update_behavior(source, edited, read)
+    if record is not None and not has_comments:
+        print("vicode: an earlier version imported these designs: their comments are not written", file=sys.stderr)
+    _print_problems(problems, opened)
+    count = len(errors) + len(problems)
     if args.check or args.diff:
-        return _show(texts, source, is_diff=args.diff)
-    _write(texts, source, opened.folder)
-    return 0
+        return _show(texts, source, is_diff=args.diff) or int(bool(count))
+    if count and not texts:
+        print(f"nothing written: {count} error{'s' if count > 1 else ''}", file=sys.stderr)
+        return 1
+    designs = {**paths, **{name: edited.known_paths.get(name, paths[name]) for name in left_out & paths.keys()}}
+    _write(texts, source, opened.folder, designs, read, has_comments=has_comments or record is None)
+    return int(bool(count))
 
 
 def _errors(opened: "OpenProject") -> "list[Finding]":
@@ -81,32 +114,54 @@ def _errors(opened: "OpenProject") -> "list[Finding]":
     from vicode.store import locate_findings
 
     project = replace(opened.project, languages=("xabsl",))
-    findings = locate_findings([*opened.findings, *check_project(project)], opened)
+    findings = [*opened.findings, *locate_findings(check_project(project), opened)]
     return [each for each in findings if each.severity == "error"]
 
 
-def _folders(opened: "OpenProject") -> dict[str, str]:
-    """The folder of each design, relative to the project."""
+def _components(errors: "Iterable[Finding]", opened: "OpenProject") -> set[str] | None:
+    """The designs with errors; None if one does not belong to a single design."""
+    unread = {file.name: name for name, file in _unreadable(opened)}
+    found = set()
+    for error in errors:
+        component = error.subject.component if error.subject else ""
+        if not component and error.location is not None:
+            component = unread.get(Path(error.location.file).name, "")
+        if not component:
+            return None
+        found.add(component)
+    return found
+
+
+def _unreadable(opened: "OpenProject") -> "Iterator[tuple[str, Path]]":
+    """The unreadable design files whose names are unique, with the names of their components."""
+    names = {file: name for name, file in opened.project.unreadable}
+    for file in opened.broken_files:
+        if file.name in names and sum(other.name == file.name for other in opened.broken_files) == 1:
+            yield names[file.name], file
+
+
+def _paths(opened: "OpenProject") -> dict[str, str]:
+    """The path of each design relative to the project."""
     folder = opened.folder.resolve()
-    parents = {name: file.resolve().parent for name, file in opened.files.items() if name}
-    return {
-        name: parent.relative_to(folder).as_posix()
-        for name, parent in parents.items()
-        if parent.is_relative_to(folder) and parent != folder
-    }
+    found = {name: file.resolve() for name, file in opened.files.items() if name}
+    return {name: file.relative_to(folder).as_posix() for name, file in found.items() if file.is_relative_to(folder)}
+
+
+def _files(opened: "OpenProject") -> "dict[str, DesignFile]":
+    from vicode.cli.comment_places import DesignFile
+
+    return {name: DesignFile(path=file.name, text=opened.texts[name]) for name, file in opened.files.items()}
 
 
 def _print_problems(problems: "Iterable[UpdateProblem]", opened: "OpenProject") -> None:
-    count = 0
     for problem in problems:
         where = ""
         if problem.component in opened.sources:
             path = ("states", problem.state) if problem.state else ("component",)
             location = opened.sources[problem.component].locate(path, of_key=True)
-            where = f"{location.file}:{location.line}:{location.column}: "
+            place = f"{problem.line}" if problem.line else f"{location.line}:{location.column}"
+            where = f"{location.file}:{place}: " if problem.component or problem.line else ""
         print(f"{where}error: {problem.message}", file=sys.stderr)
-        count += 1
-    print(f"nothing written: {count} error{'s' if count > 1 else ''}", file=sys.stderr)
 
 
 def _show(texts: "FileTexts", source: "ProgramSource", *, is_diff: bool) -> int:
@@ -123,7 +178,15 @@ def _show(texts: "FileTexts", source: "ProgramSource", *, is_diff: bool) -> int:
     return int(bool(texts))
 
 
-def _write(texts: "FileTexts", source: "ProgramSource", folder: Path) -> None:
+def _write(
+    texts: "FileTexts",
+    source: "ProgramSource",
+    folder: Path,
+    designs: Mapping[str, str],
+    read: "ReadText",
+    *,
+    has_comments: bool,
+) -> None:
     """Write all files or none, then the record of the import."""
     from vicode.cli.import_record import RECORD_FILE, format_record
     from vicode.output import write_atomically
@@ -135,7 +198,7 @@ def _write(texts: "FileTexts", source: "ProgramSource", folder: Path) -> None:
         root = _root(source)
         replace_files(root, {path.relative_to(root).as_posix(): content for path, content in contents.items()})
     record = folder / RECORD_FILE
-    text = format_record(folder, load_source(source.main))
+    text = format_record(folder, load_source(source.main, read), designs, has_comments=has_comments)
     if not record.exists() or record.read_text("utf-8") != text:
         write_atomically(record, text)
     for path in sorted(texts):
@@ -150,21 +213,23 @@ def _root(source: "ProgramSource") -> Path:
 
 
 def _encoded(texts: "FileTexts", source: "ProgramSource") -> Mapping[Path, bytes | None]:
-    """Encode each text like its file, a new one like the main file.
+    """Encode each text like its file, that of a moved file like the old one, a new one like the main file.
 
     Raises:
         OSError: A file changed since it was read, or its encoding does not have a character.
     """
-    from vicode.xabsl.source_loader import decode_text, encode_text
+    from vicode.xabsl.source_text import SourceEncodingError, decode_source, encode_source
 
+    main_encoding = source.encodings[source.main]
+    moved = {path.name: source.encodings[path] for path, text in texts.items() if text is None}
     encoded: dict[Path, bytes | None] = {}
     for path, text in texts.items():
-        old = (path if path in source.files else source.main).read_bytes()
-        if path in source.files and decode_text(old) != source.files[path].tokens.text:
+        encoding = source.encodings.get(path) or moved.get(path.name) or main_encoding.removesuffix("-sig")
+        old = path.read_bytes() if path in source.files else None
+        if old is not None and decode_source(old, encoding).text != source.files[path].tokens.text:
             raise OSError(f"{path} was changed at the same time; run the command again")
         try:
-            encoded[path] = None if text is None else encode_text(text, old)
-        except UnicodeEncodeError as error:
-            character = error.object[error.start]
-            raise OSError(f"{path} is in Windows-1252, which does not have '{character}'; replace it") from error
+            encoded[path] = None if text is None else encode_source(text, encoding, old)
+        except SourceEncodingError as error:
+            raise OSError(f"{path} {error}") from error
     return encoded

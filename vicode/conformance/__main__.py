@@ -13,8 +13,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from vicode.conformance.comparison import compare_languages
-from vicode.conformance.random_inputs import random_run
+from vicode.conformance.comparison import choose_inputs, compare_languages
 from vicode.simulation.limits import limit_memory
 
 # Compilers need more than the code of a design.
@@ -33,10 +32,7 @@ def main() -> int:
     # The editor, which runs with all rights of the user, wrote it.
     request = pickle.loads(base64.b64decode(sys.stdin.buffer.readline()))  # noqa: S301
     limit_memory(_MEMORY_BYTES)
-    runs = [
-        random_run(request["project"], request["root"], iterations=request["iterations"], seed=seed)
-        for seed in request["seeds"]
-    ]
+    runs = choose_inputs(request["project"], request["root"], iterations=request["iterations"], seed=request["seed"])
     folder, modules = Path(request["folder"]), Path(request["modules"])
     result = compare_languages(runs, folder, modules, lambda language: send({"language": language}))
     send({"result": asdict(result)})

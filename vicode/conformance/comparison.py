@@ -1,33 +1,59 @@
 """Compares all languages that can express a design."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from vicode.check import check_project
-from vicode.conformance.cpp import COMPILER_MISSING, CompileError, CppProgram, ProgramError, find_compiler
+from vicode.conformance.chosen_inputs import choose_runs
+from vicode.conformance.coverage import measure_coverage
+from vicode.conformance.cpp import COMPILER_MISSING, CompileError, CppProgram, CppTools, ProgramError, find_tools
 from vicode.conformance.inputs import ConformanceRun
 from vicode.conformance.python import CodeRunError, run_python, run_simulator
+from vicode.conformance.random_inputs import random_run
+from vicode.conformance.reference import run_reference
 from vicode.conformance.report import explain
-from vicode.conformance.traces import TraceIteration, first_difference, reduce_for
+from vicode.conformance.traces import TraceIteration, first_difference, large_ints_limit, reduce_for
 from vicode.conformance.xabsl import run_xabsl
 from vicode.editor.session.simulation.setup import NotReadyError
 from vicode.findings import Finding, Severity
 from vicode.generators import UnsoundDesignError, collect_components
-from vicode.simulation.language_comparison import AbsentLanguage, LanguageComparison, LanguageDifference
+from vicode.model.project import Project
+from vicode.semantics import NotInterpretableError
+from vicode.simulation.language_comparison import AbsentLanguage, LanguageComparison, LanguageDifference, find_baseline
 
 GENERATED = ("python", "cpp", "xabsl")
 _MS = 1_000_000
-Traces = list[list[TraceIteration]]
-"""The traces of a language, one per run."""
+Traces = dict[int, list[TraceIteration]]
+"""The traces of a language by the number of the run."""
 
 
 def find_absent_languages(run: ConformanceRun) -> dict[str, str]:
-    """The languages that cannot run a design, with the reason."""
-    return {language: absent.reason for language, absent in _find_absent(run).items()}
+    """The languages that cannot run a design with these inputs, with the reason."""
+    absent = {language: absent.reason for language, absent in _find_absent(run).items()}
+    for language in (*GENERATED, "simulator"):
+        reason = _find_unfit(language, run)
+        if reason:
+            absent.setdefault(language, reason)
+    return absent
+
+
+def choose_inputs(project: Project, root: str, *, iterations: int, seed: int) -> tuple[ConformanceRun, ...]:
+    """Inputs that reach the parts of a design; random ones if the reference interpreter cannot run it."""
+    in_xabsl = "xabsl" not in _find_absent(ConformanceRun(project=project, root=root, steps=()))
+    try:
+        chosen = choose_runs(project, root, iterations=iterations, seed=seed, in_xabsl=in_xabsl)
+    except NotInterpretableError:
+        chosen = ()
+    half = iterations // 2
+    return chosen or (
+        random_run(project, root, iterations=iterations - half, seed=seed),
+        random_run(project, root, iterations=half, seed=seed, whole_ms=False),
+    )
 
 
 def _find_absent(run: ConformanceRun) -> dict[str, AbsentLanguage]:
+    """The languages that cannot express a design."""
     project = replace(run.project, languages=GENERATED)
     findings = check_project(project, collect_components(project, (run.root,)))
     errors = [each for each in findings if each.severity is Severity.ERROR]
@@ -37,11 +63,22 @@ def _find_absent(run: ConformanceRun) -> dict[str, AbsentLanguage]:
         absent |= {language: _absent_by(language, found[0])} if found else {}
     if "python" in absent:
         absent["simulator"] = replace(absent["python"], language="simulator")
-    if run.robots > 1:
-        absent["simulator"] = AbsentLanguage(language="simulator", reason="the simulator runs one robot")
-    if "xabsl" not in absent and any(step.time_ns % _MS for step in run.steps):
-        absent["xabsl"] = AbsentLanguage(language="xabsl", reason="times of XABSL are whole milliseconds")
     return absent
+
+
+def _find_unfit(language: str, run: ConformanceRun) -> str:
+    """Why a language cannot run these inputs; "" if it can."""
+    if language == "simulator" and run.robots > 1:
+        return "the simulator runs one robot"
+    if language == "xabsl" and any(step.time_ns % _MS for step in run.steps):
+        return "times of XABSL are whole milliseconds"
+    return ""
+
+
+def _find_fit(language: str, runs: Sequence[ConformanceRun]) -> tuple[dict[int, ConformanceRun], str]:
+    """The runs that a language can run, by number, and why it cannot run the others."""
+    fit = {number: run for number, run in enumerate(runs) if not _find_unfit(language, run)}
+    return fit, next(filter(None, (_find_unfit(language, run) for run in runs)), "")
 
 
 def _absent_by(language: str, finding: Finding) -> AbsentLanguage:
@@ -59,60 +96,107 @@ def compare_languages(
     folder: Path,
     modules: Path | None = None,
     on_language: Callable[[str], None] = lambda _language: None,
+    tools: CppTools | None = None,
 ) -> LanguageComparison:
-    """Run a design in each language that can express it, and compare the traces with that of Python.
+    """Run a design in each language that can express it, and compare the traces with that of the reference interpreter
+    (of Python, if the interpreter cannot run the design).
 
     Args:
         runs: Runs of one design.
         folder: An empty folder.
         modules: The folder of modules that code of the design imports.
         on_language: Is called before a language runs.
+        tools: The C++ compiler; None: the one that `find_tools` finds.
     """
     absent = _find_absent(runs[0])
-    compiler = find_compiler()
-    if compiler is None:
+    if (tools := tools or find_tools()) is None:
         absent.setdefault("cpp", AbsentLanguage(language="cpp", reason=COMPILER_MISSING))
-    named = {f"run{number}": run for number, run in enumerate(runs)}
-    runners: dict[str, Callable[[], Traces]] = {
-        "python": lambda: list(run_python(named, folder, modules).values()),
-        "cpp": lambda: _run_cpp(runs, folder, compiler or ""),
-        "xabsl": lambda: [run_xabsl(run) for run in runs],
-        "simulator": lambda: list(run_simulator(named, folder, modules).values()),
-    }
+    runners = _make_runners(folder, modules, tools)
     traces: dict[str, Traces] = {}
-    failed = []
+    failed, partial = [], []
     for language in (each for each in runners if each not in absent):
+        fit, reason = _find_fit(language, runs)
+        if not fit:
+            absent[language] = AbsentLanguage(language=language, reason=reason)
+            continue
         on_language(language)
         try:
-            traces[language] = runners[language]()
-        except (UnsoundDesignError, NotReadyError) as error:
+            traces[language] = runners[language](fit)
+        except (UnsoundDesignError, NotReadyError, NotInterpretableError) as error:
             absent[language] = AbsentLanguage(language=language, reason=str(error))
         except (CompileError, ProgramError, CodeRunError) as error:
             failed.append(AbsentLanguage(language=language, reason=str(error)))
-    others = (language for language in traces if language != "python" and "python" in traces)
-    differences = (_find_difference(runs, traces["python"], language, traces[language]) for language in others)
+        else:
+            if reason:
+                partial.append(AbsentLanguage(language=language, reason=f"{len(fit)} of {len(runs)} runs: {reason}"))
+    found = tuple(_find_differences(runs, traces))
     return LanguageComparison(
         languages=tuple(traces),
         absent=tuple(absent.values()),
+        partial=tuple(partial),
         failed=tuple(failed),
-        differences=tuple(each for each in differences if each is not None),
+        differences=tuple(each for each in found if isinstance(each, LanguageDifference)),
+        limited=tuple(each for each in found if isinstance(each, AbsentLanguage)),
         iterations=sum(len(run.steps) for run in runs),
         runs=len(runs),
+        coverage=measure_coverage(runs) if "reference" in traces else None,
     )
 
 
-def _run_cpp(runs: Sequence[ConformanceRun], folder: Path, compiler: str) -> Traces:
+def _make_runners(
+    folder: Path, modules: Path | None, tools: CppTools | None
+) -> dict[str, Callable[[Mapping[int, ConformanceRun]], Traces]]:
+    """What runs each language, in the order in which they run."""
+    return {
+        "reference": lambda fit: {number: run_reference(run) for number, run in fit.items()},
+        "python": lambda fit: _by_number(fit, run_python(_by_name(fit), folder, modules)),
+        "cpp": lambda fit: _run_cpp(fit, folder, tools),
+        "xabsl": lambda fit: {number: run_xabsl(run) for number, run in fit.items()},
+        "simulator": lambda fit: _by_number(fit, run_simulator(_by_name(fit), folder, modules)),
+    }
+
+
+def _find_differences(
+    runs: Sequence[ConformanceRun], traces: Mapping[str, Traces]
+) -> Iterator[LanguageDifference | AbsentLanguage]:
+    """The first difference of each language from the baseline, or from where on the language is not compared."""
+    first = find_baseline(traces)
+    for language in traces:
+        if first and language != first:
+            found = _find_difference(runs, (first, traces[first]), (language, traces[language]))
+            if found is not None:
+                yield found
+
+
+def _by_name(runs: Mapping[int, ConformanceRun]) -> dict[str, ConformanceRun]:
+    return {f"run{number}": run for number, run in runs.items()}
+
+
+def _by_number(runs: Mapping[int, ConformanceRun], traces: Mapping[str, list[TraceIteration]]) -> Traces:
+    return dict(zip(runs, traces.values(), strict=True))
+
+
+def _run_cpp(runs: Mapping[int, ConformanceRun], folder: Path, tools: CppTools | None) -> Traces:
     """Compile once and run all; the runs differ in their inputs."""
-    program = CppProgram({"compared": runs[0]}, folder, compiler)
-    return [program.run({"compared": run})["compared"] for run in runs]
+    assert tools is not None
+    program = CppProgram({"compared": next(iter(runs.values()))}, folder, tools)
+    return {number: program.run({"compared": run})["compared"] for number, run in runs.items()}
 
 
 def _find_difference(
-    runs: Sequence[ConformanceRun], expected: Traces, language: str, got: Traces
-) -> LanguageDifference | None:
-    for number, run in enumerate(runs):
-        sides = {"python": reduce_for(language, expected[number]), language: reduce_for(language, got[number])}
+    runs: Sequence[ConformanceRun], expected: tuple[str, Traces], got: tuple[str, Traces]
+) -> LanguageDifference | AbsentLanguage | None:
+    """Return the first difference; or, if the nature of the language explains it, from where on it is not compared."""
+    limited: AbsentLanguage | None = None
+    for number, trace in got[1].items():
+        sides = {expected[0]: reduce_for(got[0], expected[1][number]), got[0]: reduce_for(got[0], trace)}
         found = first_difference(*sides.values())
-        if found is not None:
-            return explain(found, sides, run, number)
-    return None
+        if found is None:
+            continue
+        limit = large_ints_limit(got[0], expected[1][number], found)
+        difference = explain(found, sides, runs[number], number)
+        if limit is None:
+            return difference
+        where = f"iteration {difference.iteration}" + (f" of run {number + 1}" if len(runs) > 1 else "")
+        limited = limited or AbsentLanguage(language=got[0], reason=f"from {where} on: {limit.reason}")
+    return limited

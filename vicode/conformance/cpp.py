@@ -2,21 +2,37 @@
 
 import json
 import os
+import shlex
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from vicode.conformance.inputs import ConformanceRun, as_number
 from vicode.conformance.traces import TraceIteration, TraceNormalizer
 from vicode.generators import GENERATORS, generate
 from vicode.generators.cpp.driver import driver_support, write_driver, write_main
+from vicode.model.project import Project
 from vicode.output import apply_diffs, compare_files
 
 COMPILER_MISSING = "there is no g++ or clang++ (Debian: sudo apt install g++)"
-_FLAGS = ("-std=c++17", "-O0", "-ffp-contract=off", "-w")
+DEFAULT_FLAGS = "-O2"
+_FLAGS = ("-std=c++17", "-w")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CppTools:
+    """What compiles a program and runs it: commands with their arguments.
+
+    Args:
+        compiler: The compiler with its flags.
+        emulator: Stands before the program; empty if this machine runs it.
+    """
+
+    compiler: tuple[str, ...]
+    emulator: tuple[str, ...] = ()
 
 
 class CompileError(Exception):
@@ -27,6 +43,10 @@ class ProgramError(Exception):
     """A compiled program crashed."""
 
 
+class ToolError(Exception):
+    """A compiler or emulator cannot be found."""
+
+
 def find_compiler() -> str | None:
     """The C++ compiler: $CXX, g++ or clang++."""
     return next(
@@ -34,13 +54,39 @@ def find_compiler() -> str | None:
     )
 
 
+def find_tools(compiler: str = "", emulator: str = "") -> CppTools | None:
+    """Return the tools that the user names, or the compiler of this machine; None if there is none.
+
+    Args:
+        compiler: The compiler with its flags, as in a shell; "": the one that is found, with `DEFAULT_FLAGS`.
+        emulator: A command before the program, as in a shell.
+
+    Raises:
+        ToolError: A command cannot be found or read.
+    """
+    default = shlex.join([path, DEFAULT_FLAGS]) if (path := find_compiler()) else ""
+    if not compiler and not default:
+        return None
+    return CppTools(compiler=_split(compiler or default), emulator=_split(emulator) if emulator else ())
+
+
+def _split(command: str) -> tuple[str, ...]:
+    try:
+        words = shlex.split(command)
+    except ValueError as error:
+        raise ToolError(f"{command}: {error}") from error
+    if not words or shutil.which(words[0]) is None:
+        raise ToolError(f"there is no command {words[0] if words else repr(command)}")
+    return tuple(words)
+
+
 class CppProgram:
-    """Programs that contain several runs; each run has its own namespace.
+    """Programs that contain several runs; each run has its own namespace, a single one that of its project.
 
     Args:
         runs: Runs by name; the names are valid C++ names and differ.
         folder: An empty folder for code and traces.
-        compiler: The command of the compiler.
+        tools: What compiles and runs the programs.
         programs: Number of programs, which are compiled two at a time.
 
     Raises:
@@ -48,18 +94,18 @@ class CppProgram:
         UnsoundDesignError: A design cannot be generated.
     """
 
-    def __init__(self, runs: Mapping[str, ConformanceRun], folder: Path, compiler: str, programs: int = 1) -> None:
-        self._runs, self._folder = runs, folder
+    def __init__(self, runs: Mapping[str, ConformanceRun], folder: Path, tools: CppTools, programs: int = 1) -> None:
+        self._runs, self._folder, self._tools = runs, folder, tools
         names = list(runs)
         self._groups = [group for group in (names[start::programs] for start in range(programs)) if group]
         for name, run in runs.items():
             self._write(name, run)
         (folder / "cpp" / "driver.hpp").write_text(driver_support(), encoding="utf-8")
         with ThreadPoolExecutor(max_workers=2) as pool:
-            list(pool.map(lambda index: self._compile(index, compiler), range(len(self._groups))))
+            list(pool.map(self._compile, range(len(self._groups))))
 
     def _write(self, name: str, run: ConformanceRun) -> None:
-        project = replace(run.project, name=name)
+        project = self._named(name)
         files = generate(project, languages=("cpp",), components=(run.root,))
         apply_diffs(compare_files(files, self._folder), self._folder)
         designs = {file.component for file in files if file.component}
@@ -67,10 +113,18 @@ class CppProgram:
         text = write_driver(kept, run.root, [each.key for each in run.inputs], GENERATORS["cpp"]().reserved_modules)
         (self._folder / "cpp" / f"driver_{name}.cpp").write_text(text, encoding="utf-8")
 
-    def _compile(self, index: int, compiler: str) -> None:
+    def _named(self, name: str) -> Project:
+        project = self._runs[name].project
+        return replace(project, name=name) if len(self._runs) > 1 else project
+
+    def _compile(self, index: int) -> None:
         source, program = self._folder / "cpp" / f"main{index}.cpp", self._folder / f"program{index}"
-        source.write_text(write_main((f"driver_{name}.cpp", name) for name in self._groups[index]), encoding="utf-8")
-        command = [compiler, *_FLAGS, "-I", str(self._folder / "cpp"), "-o", str(program), str(source)]
+        source.write_text(
+            write_main((f"driver_{name}.cpp", name, self._named(name)) for name in self._groups[index]),
+            encoding="utf-8",
+        )
+        compiler, *flags = self._tools.compiler
+        command = [compiler, *_FLAGS, *flags, "-I", str(self._folder / "cpp"), "-o", str(program), str(source)]
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
         if done.returncode:
             raise CompileError("\n".join(["the generated C++ does not compile", *done.stderr.splitlines()[:20]]))
@@ -89,7 +143,8 @@ class CppProgram:
                 inputs.write_text(format_inputs(run), encoding="ascii")
                 traces = str(self._folder / f"{name}.trace")
                 arguments += [name, str(inputs), str(run.team_ticks), str(run.robots), traces]
-            done = subprocess.run([self._folder / f"program{index}", *arguments], capture_output=True, check=False)
+            command = [*self._tools.emulator, str(self._folder / f"program{index}"), *arguments]
+            done = subprocess.run(command, capture_output=True, check=False)
             if done.returncode:
                 message = done.stderr.decode(errors="replace").strip()[-2000:]
                 raise ProgramError(f"the program ended with exit code {done.returncode}\n{message}".strip())

@@ -11,6 +11,7 @@ from vicode.model.constant_folding import evaluate_constants, evaluate_initial_v
 from vicode.model.design import Declaration
 from vicode.model.expressions import BOOL, FLOAT, INT, build_scope
 from vicode.model.project import INTERNAL, MISSING, WORLD, Interface, Project
+from vicode.semantics import RobotMemory, TeamMemory
 
 PARAMETERS = ""
 """The component under which the parameters of the root component are listed."""
@@ -90,6 +91,14 @@ class ConformanceRun:
         object.__setattr__(self, "inputs", tuple(list_inputs(self.project, self.root)))
 
 
+def iteration_times(run: ConformanceRun) -> Iterator[int]:
+    """The times of the iterations, which do not decrease if the clock is set back."""
+    memory = RobotMemory(components={}, team=TeamMemory())
+    for step in run.steps:
+        memory.begin_iteration(step.time_ns)
+        yield memory.now_ns
+
+
 def list_inputs(project: Project, root: str) -> Iterator[RunInput]:
     """The parameters of the root component, and what components without a design provide."""
     design = project.design(root)
@@ -127,7 +136,7 @@ def derive_value(of: RunInput, base: Any, given: Mapping[str, Any]) -> Any:
         return float(base) + total
     if of.type == INT:
         return arithmetic.to_int(float(base) + total)
-    steps = arithmetic.floor(abs(total)) if abs(total) < arithmetic.INT_MAX else 0
+    steps = arithmetic.floor(abs(total)) if abs(total) < arithmetic.MAX_INT else 0
     if of.type == BOOL:
         return bool(base) != (steps % 2 == 1)
     return f"{of.type}.{of.elements[(of.elements.index(element_of(base)) + steps) % len(of.elements)]}"

@@ -3,12 +3,14 @@
 import json
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections import defaultdict
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from vicode.conformance.inputs import ConformanceRun, InputKind, used_interfaces
+from vicode.conformance.inputs import ConformanceRun, InputKind, iteration_times, used_interfaces
 from vicode.conformance.traces import TraceIteration, TraceNormalizer
 from vicode.editor.session.simulation.setup import RunConfig, prepare_run
 from vicode.generators import generate, python_class_path
@@ -39,7 +41,7 @@ def run_python(
         UnsoundDesignError: A design cannot be generated.
         CodeRunError: The code cannot be loaded.
     """
-    return _run({name: _python_job(name, run, folder, modules) for name, run in runs.items()}, runs, folder)
+    return _run(partial(_python_job, folder=folder, modules=modules), runs, folder)
 
 
 def run_simulator(
@@ -51,14 +53,35 @@ def run_simulator(
         NotReadyError: A design has errors.
         CodeRunError: The code cannot be loaded.
     """
-    return _run({name: _simulator_job(name, run, folder, modules) for name, run in runs.items()}, runs, folder)
+    return _run(partial(_simulator_job, folder=folder, modules=modules), runs, folder)
 
 
-def _run(jobs: Mapping[str, Any], runs: Mapping[str, ConformanceRun], folder: Path) -> dict[str, list[TraceIteration]]:
-    """Run jobs in one process. -P: modules in the current folder must not shadow others."""
+def _run(
+    make_job: Callable[[str, ConformanceRun], dict[str, Any]], runs: Mapping[str, ConformanceRun], folder: Path
+) -> dict[str, list[TraceIteration]]:
+    """Run everything in one process; code is generated once for the runs of one design."""
+    names = defaultdict[tuple[int, str], list[str]](list)
+    for name, run in runs.items():
+        names[id(run.project), run.root].append(name)
+    jobs = [
+        {**make_job(group[0], runs[group[0]]), "runs": [_inputs_of(runs[name]) for name in group]}
+        for group in names.values()
+    ]
+    traces = {}
+    for group, answer in zip(names.values(), _answer(jobs, folder), strict=True):
+        if "error" in answer:
+            raise CodeRunError(f"{runs[group[0]].root}: {answer['error']}")
+        normalizer = TraceNormalizer(runs[group[0]].project)
+        for name, records in zip(group, answer["iterations"], strict=True):
+            traces[name] = [normalizer.iteration(record, robot) for robot, record in records]
+    return {name: traces[name] for name in runs}
+
+
+def _answer(jobs: Sequence[Mapping[str, Any]], folder: Path) -> list[dict[str, Any]]:
+    """Run jobs in another process. -P: modules in the current folder must not shadow others."""
     done = subprocess.run(
         [sys.executable, "-P", "-m", "vicode.conformance.worker"],
-        input="".join(f"{json.dumps(job)}\n" for job in jobs.values()),
+        input="".join(f"{json.dumps(job)}\n" for job in jobs),
         capture_output=True,
         text=True,
         encoding="utf-8",
@@ -69,14 +92,7 @@ def _run(jobs: Mapping[str, Any], runs: Mapping[str, ConformanceRun], folder: Pa
     lines = done.stdout.splitlines()
     if done.returncode or len(lines) != len(jobs):
         raise CodeRunError(f"the process failed: {done.stderr.strip()[-2000:]}")
-    traces = {}
-    for (name, run), line in zip(runs.items(), lines, strict=True):
-        answer = json.loads(line)
-        if "error" in answer:
-            raise CodeRunError(f"{run.root}: {answer['error']}")
-        normalizer = TraceNormalizer(run.project)
-        traces[name] = [normalizer.iteration(record, robot) for robot, record in answer["iterations"]]
-    return traces
+    return [json.loads(line) for line in lines]
 
 
 def _python_job(name: str, run: ConformanceRun, folder: Path, modules: Path | None) -> dict[str, Any]:
@@ -120,9 +136,15 @@ def _common(run: ConformanceRun) -> dict[str, Any]:
             for item in used_interfaces(run.project, run.root)
             if item.implementation == WORLD
         ],
+    }
+
+
+def _inputs_of(run: ConformanceRun) -> dict[str, Any]:
+    """The clock and the time of each iteration, and its inputs."""
+    return {
         "steps": [
-            [step.time_ns, [[[*key, value] for key, value in each.items()] for each in step.inputs]]
-            for step in run.steps
+            [step.time_ns, time_ns, [[[*key, value] for key, value in each.items()] for each in step.inputs]]
+            for time_ns, step in zip(iteration_times(run), run.steps, strict=True)
         ],
         "robots": run.robots,
         "team_ticks": run.team_ticks,

@@ -12,8 +12,8 @@ def recorded_run(project: Project, root: str, iterations: Iterable[IterationResu
     """A run with the times and inputs of a trace; an output with arguments has the first value of each iteration."""
     inputs, known, steps = tuple(list_inputs(project, root)), dict[InputKey, Any](), []
     for iteration in iterations:
-        values: dict[str, dict[str, Any]] = {**iteration.inputs, PARAMETERS: iteration.tree[0].get("values") or {}}
-        values |= {step["component"]: step["values"] for step in iteration.tree if step.get("values")}
+        values: dict[str, dict[str, Any]] = {name: each for name, each in iteration.values().items() if each}
+        values[PARAMETERS] = iteration.tree[0].get("values") or {}
         for call in reversed(iteration.calls):
             values[call["component"]] = {**values.get(call["component"], {}), call["output"]: call["value"]}
         changed: dict[InputKey, Any] = {}

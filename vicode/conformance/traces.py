@@ -27,6 +27,7 @@ class TraceIteration:
     Attributes:
         shared: The shared variables before the iteration, by "component.name".
         errors: The components that raised an exception.
+        had_large_ints: Whether an int was beyond ±2^53 until now; only the reference interpreter tells.
     """
 
     number: int
@@ -35,6 +36,7 @@ class TraceIteration:
     shared: Fields
     errors: tuple[str, ...] = ()
     robot: int = 0
+    had_large_ints: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,6 +75,11 @@ EXPECTED_DIFFERENCES = (
         language="xabsl",
         part="values",
         reason="the engine has one memory: a component's values are those at the end of the iteration",
+    ),
+    LanguageLimit(
+        language="xabsl",
+        part="large ints",
+        reason="numbers are doubles: beyond ±2^53 an int is the nearest double, and is not limited",
     ),
     LanguageLimit(language="simulator", part="transition", reason="the editor uses the places of transitions as ids"),
 )
@@ -155,18 +162,31 @@ def reduce_for(language: str, iterations: Iterable[TraceIteration]) -> list[Trac
 
 
 def _reduced(iteration: TraceIteration, parts: set[str]) -> TraceIteration:
+    has_zero = "-0.0" in parts
     steps = [step for step in iteration.steps if not ("requires" in parts and step.fields["link"] == "requires")]
+
+    def without_sign(fields: Fields) -> Fields:
+        return {name: "0.0" if value == "-0.0" else value for name, value in fields.items()} if has_zero else fields
+
     last = {step.component: index for index, step in enumerate(steps)}
     kept = []
     for index, step in enumerate(steps):
         fields = {
-            name: "0.0" if value == "-0.0" and "-0.0" in parts else value
-            for name, value in step.fields.items()
+            name: value
+            for name, value in without_sign(step.fields).items()
             if name not in parts
             and not ("values" in parts and name.startswith("values.") and last[step.component] != index)
         }
         kept.append(replace(step, fields=fields))
-    return replace(iteration, steps=tuple(kept), errors=() if "errors" in parts else iteration.errors)
+    errors = () if "errors" in parts else iteration.errors
+    return replace(iteration, steps=tuple(kept), shared=without_sign(iteration.shared), errors=errors)
+
+
+def large_ints_limit(language: str, expected: Sequence[TraceIteration], found: TraceDifference) -> LanguageLimit | None:
+    """Return the limit of a language that explains a difference: an int was beyond ±2^53 before."""
+    had_large_ints = any(iteration.had_large_ints for iteration in expected[: found.index + 1])
+    limits = (each for each in EXPECTED_DIFFERENCES if (each.language, each.part) == (language, "large ints"))
+    return next(limits, None) if had_large_ints else None
 
 
 def first_difference(expected: Sequence[TraceIteration], got: Sequence[TraceIteration]) -> TraceDifference | None:

@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 from enum import Enum
 from typing import Any
 
-from vicode.bica import Component, Observer, Root, SimulatedClock
+from vicode.bica import Component, Observer, Root
 from vicode.bica.loader import load_component
 from vicode.conformance.inputs import InputKind, OutputArgument, RunInput, derive_value, element_of
 from vicode.model.names import python_attribute_name
@@ -20,7 +20,8 @@ from vicode.simulation.limits import CapturedOutput
 from vicode.simulation.messages import Stub, StubOutput, decode_setup
 from vicode.simulation.stubs import STUB_MODULE, StubComponent, convert_value, install_stub_module
 
-Step = tuple[int, list[dict[tuple[str, str], Any]]]
+Step = tuple[int, int, list[dict[tuple[str, str], Any]]]
+"""What the clock shows, the time of the iteration, and the inputs of each robot."""
 
 
 def main() -> int:
@@ -30,13 +31,18 @@ def main() -> int:
     for line in sys.stdin:
         job = json.loads(line)
         try:
-            with _fresh_modules(job["path"]):
-                result: dict[str, Any] = {"iterations": _RUNNERS[job["kind"]](job)}
+            result: dict[str, Any] = {"iterations": [_run({**job, **inputs}) for inputs in job["runs"]]}
         except Exception as error:
             result = {"error": f"{type(error).__name__}: {error}"}
         answers.write(f"{json.dumps(result)}\n")
     answers.close()
     return 0
+
+
+def _run(job: Mapping[str, Any]) -> list[tuple[int, Any]]:
+    """Import the code anew for each run: modules may hold values."""
+    with _fresh_modules(job["path"]):
+        return _RUNNERS[job["kind"]](job)
 
 
 def _run_python(job: Mapping[str, Any]) -> list[tuple[int, Any]]:
@@ -46,7 +52,7 @@ def _run_python(job: Mapping[str, Any]) -> list[tuple[int, Any]]:
     robots = [_PythonRobot(job, inputs, number) for number in range(job["robots"])]
     iterations: list[tuple[int, Any]] = []
     sent = [robot.root.team.tell() for robot in robots]
-    for time_ns, values in _read_steps(job):
+    for clock_ns, _time_ns, values in _read_steps(job):
         received = list(sent)
         for number, robot in enumerate(robots):
             robot.set_inputs(values[number])
@@ -54,14 +60,14 @@ def _run_python(job: Mapping[str, Any]) -> list[tuple[int, Any]]:
             for sender, message in enumerate(received):
                 if sender != number:
                     robot.root.team.hear(message)
-            iterations.append((number, robot.step(time_ns)))
+            iterations.append((number, robot.step(clock_ns)))
             sent[number] = robot.root.team.tell()
     return iterations
 
 
 class _PythonRobot:
     def __init__(self, job: Mapping[str, Any], inputs: dict[tuple[str, str], RunInput], number: int) -> None:
-        self._inputs, self._clock, self._world = inputs, SimulatedClock(), _World()
+        self._inputs, self._clock, self._world = inputs, _GivenClock(), _World()
         for name in job["behaviors"]:
             setattr(self._world, name, lambda **_arguments: None)
         self._observer = Observer(values=True)
@@ -95,8 +101,8 @@ class _PythonRobot:
             else:
                 component.__dict__[each.name] = _typed_function(each, value, self._enumerations)
 
-    def step(self, time_ns: int) -> Any:
-        self._clock.advance(time_ns - self._clock.now_ns())
+    def step(self, clock_ns: int) -> Any:
+        self._clock.time_ns = clock_ns
         for component in self._components.values():
             if isinstance(component, StubComponent):
                 component.hold_outputs()
@@ -123,7 +129,8 @@ def _run_simulator(job: Mapping[str, Any]) -> list[tuple[int, Any]]:
         host.set_inputs(plain)
 
     set_inputs({key: each.initial for key, each in inputs.items()})
-    for time_ns, (values,) in _read_steps(job):
+    # Its clock cannot be set back: it gets the times of the iterations.
+    for _clock_ns, time_ns, (values,) in _read_steps(job):
         set_inputs(values)
         result = host.step(time_ns)
         record = {name: getattr(result, name) for name in ("iteration", "time_ns", "tree", "inputs", "errors")}
@@ -143,6 +150,15 @@ _RUNNERS: dict[str, Callable[[Mapping[str, Any]], list[tuple[int, Any]]]] = {
     "python": _run_python,
     "simulator": _run_simulator,
 }
+
+
+class _GivenClock:
+    """A clock that shows what the inputs say; it may be set back."""
+
+    time_ns = 0
+
+    def now_ns(self) -> int:
+        return self.time_ns
 
 
 class _World:
@@ -176,7 +192,8 @@ def _load_enumerations(class_path: str) -> dict[str, type[Enum]]:
 
 def _read_inputs(job: Mapping[str, Any]) -> dict[tuple[str, str], RunInput]:
     inputs = {}
-    for plain in job["inputs"]:
+    for given in job["inputs"]:
+        plain = dict(given)
         arguments = plain.pop("arguments")
         each = RunInput(
             **{**plain, "elements": tuple(plain["elements"]), "kind": InputKind(plain["kind"])},
@@ -187,8 +204,8 @@ def _read_inputs(job: Mapping[str, Any]) -> dict[tuple[str, str], RunInput]:
 
 
 def _read_steps(job: Mapping[str, Any]) -> Iterator[Step]:
-    for time_ns, robots in job["steps"]:
-        yield time_ns, [{(component, name): value for component, name, value in values} for values in robots]
+    for clock_ns, time_ns, robots in job["steps"]:
+        yield clock_ns, time_ns, [{(component, name): value for component, name, value in values} for values in robots]
 
 
 def _read_stub(plain: dict[str, Any]) -> Stub:

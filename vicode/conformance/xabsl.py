@@ -6,7 +6,15 @@ from pathlib import Path
 from typing import Any
 
 from vicode.bica import arithmetic
-from vicode.conformance.inputs import PARAMETERS, ConformanceRun, RunInput, as_number, element_of, used_interfaces
+from vicode.conformance.inputs import (
+    PARAMETERS,
+    ConformanceRun,
+    RunInput,
+    as_number,
+    element_of,
+    iteration_times,
+    used_interfaces,
+)
 from vicode.conformance.traces import TraceIteration, TraceNormalizer
 from vicode.generators import collect_components, generate
 from vicode.model.design import Declaration, Design
@@ -30,7 +38,8 @@ def run_xabsl(run: ConformanceRun) -> list[TraceIteration]:
     robots = [XabslRobot(run, compiled, number) for number in range(run.robots)]
     normalizer, iterations = TraceNormalizer(run.project), []
     sent = [robot.engine.generate_outgoing_message() for robot in robots]
-    for count, step in enumerate(run.steps, start=1):
+    # The clock of XABSL is not set back: it gets the times of the iterations.
+    for count, (time_ns, step) in enumerate(zip(iteration_times(run), run.steps, strict=True), start=1):
         received = list(sent)
         for number, robot in enumerate(robots):
             robot.engine.prepare_incoming_messages()
@@ -38,9 +47,9 @@ def run_xabsl(run: ConformanceRun) -> list[TraceIteration]:
                 if sender != number:
                     robot.engine.process_incoming_message(message)
             shared = robot.shared()
-            robot.step(step.time_ns, step.inputs[number])
+            robot.step(time_ns, step.inputs[number])
             sent[number] = robot.engine.generate_outgoing_message()
-            record = {"iteration": count, "time_ns": step.time_ns, "tree": robot.tree(), "inputs": shared}
+            record = {"iteration": count, "time_ns": time_ns, "tree": robot.tree(), "inputs": shared}
             iterations.append(normalizer.iteration(record, number))
     return iterations
 
@@ -108,7 +117,8 @@ class XabslRobot:
         each = self._inputs[key]
         if each.component == PARAMETERS:
             name = each.xabsl_name or each.name
-            self._root_values[name] = element_of(value) if each.elements else value
+            plain = arithmetic.limit(value) if each.type == INT else value
+            self._root_values[name] = element_of(value) if each.elements else plain
         elif input_symbol(each) in self.world.input_names:
             self.world.set_input(input_symbol(each), as_number(value, each.elements))
 

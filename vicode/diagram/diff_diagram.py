@@ -11,7 +11,7 @@ from vicode.diagram.render import render_diagram
 from vicode.diagram.text_metrics import LABEL_FONT, text_width
 from vicode.findings import DesignPath
 from vicode.model.design import Decision, Design, Point, State
-from vicode.model.diff import Change, ChangeKind, describe_change, diff_designs, rename_like
+from vicode.model.diff import Change, ChangeKind, describe_changes, diff_designs, rename_like
 from vicode.model.traversal import find_decision, iter_transitions
 
 _SIGNS = {
@@ -162,7 +162,7 @@ def _mark(key: str, changes: list[Change], old: Design, colors: DiffColors, *, i
     return Mark(
         color=colors.kinds[kind],
         sign=_SIGNS[kind],
-        title="\n".join(map(describe_change, changes)) or "removed",
+        title="\n".join(describe_changes(changes)) or "removed",
         is_removed=is_removed,
         moved_from=_old_center(key, old) if is_moved else None,
     )

@@ -1,4 +1,4 @@
-"""The formats of exported diagrams: one record each, with a function that imports its writer when it is called."""
+"""The formats of exports: one record each, with a function that imports its writer when it is called."""
 
 from __future__ import annotations
 
@@ -21,15 +21,20 @@ class ExportOptions:
     scale: float = 2.0
 
 
+class NotExportableError(Exception):
+    """A format has no counterpart of a part of the design; the message says which."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExportFormat:
-    """A format of exported diagrams.
+    """A format of exported diagrams, or of the design itself.
 
     Attributes:
         name: The name on the command line.
         title: The name shown to users, with the purpose in parentheses.
         suffixes: File name suffixes; new files get the first.
         write: Returns the content of the file; the same design gives the same bytes. PNG depends on installed fonts.
+            Raises NotExportableError if the format cannot express the design; only SCXML does.
     """
 
     name: str
@@ -85,6 +90,14 @@ def _dot(design: Design, options: ExportOptions) -> bytes:
     return write_graphviz(_behavior(design), only=options.only, links=options.links).encode()
 
 
+def _scxml(design: Design, options: ExportOptions) -> bytes:
+    from vicode.diagram.scxml import write_scxml
+
+    if options.only is not None:
+        raise NotExportableError("SCXML contains the whole design: leave out the selection of states")
+    return write_scxml(design).encode()
+
+
 def _picture(design: Design, options: ExportOptions) -> VectorImage:
     from vicode.diagram.palettes import DARK, LIGHT
     from vicode.diagram.render import render_design
@@ -106,6 +119,7 @@ _FORMATS = (
     ExportFormat(name="mermaid", title="Mermaid (for READMEs)", suffixes=(".mmd", ".mermaid"), write=_mermaid),
     ExportFormat(name="plantuml", title="PlantUML", suffixes=(".puml", ".plantuml"), write=_plantuml),
     ExportFormat(name="dot", title="DOT (Graphviz)", suffixes=(".dot", ".gv"), write=_dot),
+    ExportFormat(name="scxml", title="SCXML (for state machine tools)", suffixes=(".scxml",), write=_scxml),
 )
 EXPORT_FORMATS = {each.name: each for each in _FORMATS}
 """The formats by name."""

@@ -32,7 +32,8 @@ def write_graphviz(design: Design, *, only: Collection[str] | None = None, links
         label = _quoted(texts[node.key]) if node.key in texts else _quoted(_unshortened_label(node))
         graph.node(ids[node.key], label=label, **_attributes(node))
         if node.initial:
-            graph.node("start", label="", shape="point", width="0.15")
+            corner = (node.center[0] - node.size.width / 2, node.center[1] - node.size.height / 2)
+            graph.node("start", label="", shape="point", width="0.15", pos=_position(corner[0] - 12, corner[1] - 20))
             graph.edge("start", ids[node.key])
     _write_frames(graph, nest_frames(design, only), ids, design)
     for line in list_transitions(design, only):
@@ -61,9 +62,13 @@ def _write_frames(
 
 
 def _attributes(node: DiagramNode) -> dict[str, str]:
-    x, y = node.center[0] * _POINTS_PER_PIXEL, -node.center[1] * _POINTS_PER_PIXEL
-    attributes = {**_SHAPES[node.node_type], "pos": f"{x:.1f},{y:.1f}!"}
+    attributes = {**_SHAPES[node.node_type], "pos": _position(*node.center)}
     return attributes | ({"peripheries": "2"} if node.final else {})
+
+
+def _position(x: float, y: float) -> str:
+    """A fixed position in points, y upwards, from one in pixels."""
+    return f"{x * _POINTS_PER_PIXEL:.1f},{-y * _POINTS_PER_PIXEL:.1f}!"
 
 
 def _unshortened_label(node: DiagramNode) -> str:

@@ -14,3 +14,4 @@ def _register(package: str) -> Path:
 
 
 CANVAS_JS, CODE_JS, TABLE_JS = _register("canvas"), _register("code"), _register("table")
+INSPECTOR_JS = _register("inspector")

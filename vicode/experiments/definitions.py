@@ -28,6 +28,7 @@ class Experiment:
         turns: Whether the robot turns around once; otherwise it drives to a goal, if the map has one.
         last_state: The state of the root in which a run ends, "" if it ends at a goal.
         thesis_design: File of the design that the thesis shows.
+        thesis_option: File of the option as printed in the thesis, which runs next to ours; "" if there is none.
         thesis_doc: What the thesis reports.
     """
 
@@ -42,6 +43,7 @@ class Experiment:
     turns: bool = False
     last_state: str = ""
     thesis_design: str = ""
+    thesis_option: str = ""
     thesis_doc: tuple[str, ...] = ()
 
     def load_maps(self) -> tuple[WorldMap, ...]:
@@ -82,7 +84,8 @@ _CORRIDOR = (
 )
 _CORRIDOR_RESULT = (
     "The thesis does not say whether the robot touched walls: “The corridor traversing had a bit of problems.” "
-    "Here, the robot also turns away from walls that are near at its sides."
+    "Here, the robot also turns away from walls that are near at its sides, and is slower while it turns. The "
+    "option as printed, which waits for 2 s before each movement, runs with the same worlds, seeds and new data."
 )
 _ONE_ROBOT = (
     "“Currently the program only supports using one XABSL engine with one robot and one connection to a robot "
@@ -113,6 +116,7 @@ _EXPERIMENTS = (
         maps=("straight", "bent", "t"),
         seconds=240.0,
         thesis_design="walk_corridor",
+        thesis_option="walk_corridor.xabsl",
         thesis_doc=(_CORRIDOR, _CORRIDOR_RESULT, _DELAY),
     ),
     Experiment(

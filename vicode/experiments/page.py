@@ -1,7 +1,8 @@
 """The page of an experiment: results per seed, paths, ages of data, who waited for whom, and the thesis beside it."""
 
+from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from statistics import fmean
 
@@ -11,7 +12,7 @@ from vicode.diagram.svg import write_svg
 from vicode.experiments.age_chart import AgeChart, build_age_chart
 from vicode.experiments.definitions import Experiment
 from vicode.experiments.path_chart import PathChart, build_path_chart, number_states
-from vicode.experiments.runs import RunResult, RunsResult, mean_age_ms
+from vicode.experiments.runs import FaultResult, RunResult, RunsResult
 from vicode.experiments.wait_chart import WaitChart, build_wait_chart, find_waiting_states
 from vicode.model.design import Design
 from vicode.simulated_robot.session import RobotTrack
@@ -19,7 +20,7 @@ from vicode.simulated_robot.world_map import WorldMap
 from vicode.store import read_design
 from vicode.templating import render
 
-_THESIS_FOLDER = Path(__file__).parent / "thesis"
+THESIS_FOLDER = Path(__file__).parent / "thesis"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,12 +28,16 @@ class VersionResult:
     """The runs of one version of the behavior, such as "design", and what its bridge used.
 
     Attributes:
+        is_reference: Whether it is that of the thesis, which need not succeed.
         real_time: The robots of a run in real time; empty if there was none.
+        faults: Runs in real time with faults of the robot.
     """
 
     title: str
     result: RunsResult
+    is_reference: bool = False
     real_time: tuple[RobotTrack, ...] = ()
+    faults: tuple[FaultResult, ...] = ()
     cpu_s: float = 0.0
     memory_mb: float = 0.0
 
@@ -86,22 +91,39 @@ class EffortRow:
     memory: str
     mean_age: str
     highest_age: str
+    command_age: str
+    highest_command_age: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FaultRow:
+    """A run with a fault; `ages` are mean and highest of the data, then of the commands."""
+
+    fault: str
+    doc: str
+    version: str
+    ages: tuple[str, str, str, str]
+    rests: int
+    contacts: int
 
 
 def write_page(experiment: Experiment, design: Design, versions: Sequence[VersionResult]) -> str:
     """The page as one file."""
-    runs = [run for version in versions for run in version.result.runs]
-    colors = number_states(track for run in runs for track in run.tracks)
+    runs = [run for version in versions if not version.is_reference for run in version.result.runs]
+    every_run = [run for version in versions for run in version.result.runs]
+    colors = number_states(track for run in every_run for track in run.tracks)
     return render(
         "experiments/page.html.jinja",
         experiment=experiment,
         passed=sum(not run.problem for run in runs),
         runs=len(runs),
         summary=[_summary(experiment, version, world_map) for world_map in _maps(versions) for version in versions],
-        equal=_count_equal(versions),
+        references=_describe_references(versions),
+        equal=_count_equal([version for version in versions if not version.is_reference]),
         pairs=len(versions[0].result.runs),
         seeds=[_seed_row(version, run) for version in versions for run in version.result.runs],
         uses=[_use(version) for version in versions],
+        faults=[_fault_row(version, result) for version in versions for result in version.faults],
         states=list(colors.items()),
         sections=[_section(world_map, versions, colors) for world_map in _maps(versions)],
         waits=_waits(design, versions, colors),
@@ -111,6 +133,22 @@ def write_page(experiment: Experiment, design: Design, versions: Sequence[Versio
         light=palette_variables(LIGHT),
         dark=palette_variables(DARK),
     )
+
+
+def _describe_references(versions: Sequence[VersionResult]) -> list[str]:
+    """How the versions of the thesis did, one sentence each."""
+    sentences = []
+    for version in versions:
+        runs = version.result.runs
+        if version.is_reference:
+            failed = [run for run in runs if run.problem]
+            problems = Counter(run.problem for run in failed)
+            words = "; ".join(f"{number} × {problem}" for problem, number in problems.most_common())
+            sentences.append(
+                f"The option {version.title} succeeded in {len(runs) - len(failed)} of {len(runs)} runs"
+                + (f": {words}." if words else ".")
+            )
+    return sentences
 
 
 def _count_equal(versions: Sequence[VersionResult]) -> int:
@@ -159,15 +197,36 @@ def _seed_row(version: VersionResult, run: RunResult) -> SeedRow:
 
 
 def _use(version: VersionResult) -> EffortRow:
-    ages = [point.age_ms for track in version.real_time for point in track.points if point.age_ms is not None]
-    mean = mean_age_ms(version.real_time)
+    mean_age, highest_age, command_age, highest_command_age = _describe_ages(version.real_time)
     return EffortRow(
         version=version.title,
         speed=f"{version.result.speed:.0f} ×",
         cpu=f"{version.cpu_s:.1f} s",
         memory=f"{version.memory_mb:.0f} MB",
-        mean_age="" if mean is None else f"{mean:.1f} ms",
-        highest_age=f"{max(ages):.1f} ms" if ages else "",
+        mean_age=mean_age,
+        highest_age=highest_age,
+        command_age=command_age,
+        highest_command_age=highest_command_age,
+    )
+
+
+def _describe_ages(tracks: Sequence[RobotTrack]) -> tuple[str, str, str, str]:
+    """Mean and highest age of the data, then of the commands; empty texts if they are not known."""
+    points = [point for track in tracks for point in track.points]
+    ages = [point.age_ms for point in points if point.age_ms is not None]
+    command_ages = [point.command_age_ms for point in points if point.command_age_ms is not None]
+    texts = [(f"{fmean(each):.1f} ms", f"{max(each):.1f} ms") if each else ("", "") for each in (ages, command_ages)]
+    return (*texts[0], *texts[1])
+
+
+def _fault_row(version: VersionResult, result: FaultResult) -> FaultRow:
+    return FaultRow(
+        fault=result.fault.name,
+        doc=result.fault.doc,
+        version=version.title,
+        ages=_describe_ages(result.tracks),
+        rests=result.rests,
+        contacts=result.contacts,
     )
 
 
@@ -198,13 +257,17 @@ def _ages(versions: Sequence[VersionResult]) -> AgeChart | None:
         for version in versions
         if version.real_time
     ]
-    return build_age_chart(runs) if runs else None
+    commands = [
+        (f"{title}, obeyed commands", [replace(point, age_ms=point.command_age_ms) for point in points])
+        for title, points in runs
+    ]
+    return build_age_chart([*runs, *commands]) if runs else None
 
 
 def _thesis_diagram(experiment: Experiment) -> str:
     if not experiment.thesis_design:
         return ""
-    path = _THESIS_FOLDER / f"{experiment.thesis_design}.yaml"
+    path = THESIS_FOLDER / f"{experiment.thesis_design}.yaml"
     design = read_design(path.read_bytes(), path.name).design
     assert design is not None, f"{path.name} has errors"
     return _diagram(design)

@@ -4,10 +4,10 @@ import asyncio
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from statistics import fmean
 
 from vicode.experiments.definitions import FULL_CIRCLE_DEG, Experiment
 from vicode.simulated_robot.arena import Arena
+from vicode.simulated_robot.faults import Fault
 from vicode.simulated_robot.session import BridgeAddress, RobotTrack, SimulationSession
 from vicode.simulated_robot.world_map import WorldMap
 
@@ -17,6 +17,7 @@ Advance = Callable[[float], None]
 _AT_ONCE = 6
 _SETTLE_S = 0.5
 _FAST_PERIOD_S = 0.005
+_FAULT_S = 12.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,6 +63,23 @@ class RunsResult:
 
     def of_map(self, name: str) -> tuple[RunResult, ...]:
         return tuple(run for run in self.runs if run.world_map.name == name)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FaultResult:
+    """A run with a fault."""
+
+    fault: Fault
+    tracks: tuple[RobotTrack, ...]
+
+    @property
+    def rests(self) -> int:
+        """How often the watchdog of the bridge stopped a robot."""
+        return sum("at rest" in notice for track in self.tracks for notice in track.notices)
+
+    @property
+    def contacts(self) -> int:
+        return sum(track.robot.contacts for track in self.tracks)
 
 
 async def run_seeds(
@@ -120,9 +138,11 @@ async def run_real_time(
     return session.tracks
 
 
-def mean_age_ms(tracks: Sequence[RobotTrack]) -> float | None:
-    ages = [point.age_ms for track in tracks for point in track.points if point.age_ms is not None]
-    return fmean(ages) if ages else None
+async def run_with_fault(experiment: Experiment, world_map: WorldMap, fault: Fault, *, port: int) -> FaultResult:
+    """Run in real time for a while, with a robot that does something wrong."""
+    session = _session(experiment, world_map, 1, port=port, name=f"{fault.name.replace(' ', '-')}-")
+    await session.run_real_time(_FAULT_S, period_s=_FAST_PERIOD_S, fault=fault)
+    return FaultResult(fault=fault, tracks=session.tracks)
 
 
 def _session(experiment: Experiment, world_map: WorldMap, seed: int, *, port: int, name: str = "") -> SimulationSession:

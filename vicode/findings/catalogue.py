@@ -105,6 +105,7 @@ _RECORDS = (
     ("D428", "unused-use", Severity.WARNING, "unused alias in uses"),
     ("D430", "no-effect", Severity.NOTE, "transition from a state to itself"),
     ("D431", "bad-frame", Severity.WARNING, "frame without states or around an unknown state"),
+    ("D432", "hidden-method", Severity.WARNING, "method in class code that hides a generated one"),
     # XABSL as a target language
     ("L701", "not-in-xabsl", Severity.ERROR, "feature that XABSL does not support"),
     ("L702", "other-result-in-xabsl", Severity.ERROR, "expression with a different result in XABSL"),
@@ -115,6 +116,8 @@ _RECORDS = (
     ("G502", "stale-output", Severity.ERROR, "generated file that is out of date"),
     ("G503", "broken-marks", Severity.ERROR, "region marks that do not match"),
     ("G504", "region-conflict", Severity.ERROR, "code that was edited in a generated file and in the design"),
+    ("G505", "merge-markers", Severity.ERROR, "unresolved merge conflict in a generated file"),
+    ("G506", "kept-patch", Severity.ERROR, "a patch with edits that are missing from the design"),
     # XABSL syntax and files
     ("X601", "illegal-character", Severity.ERROR, "illegal character or unterminated text"),
     ("X602", "open-comment", Severity.ERROR, "unterminated comment"),
@@ -126,6 +129,8 @@ _RECORDS = (
     ("X608", "included-twice", Severity.WARNING, "file included twice"),
     ("X609", "nothing-defined", Severity.ERROR, "file without a definition, or behavior without an agent"),
     ("X610", "several-definitions", Severity.ERROR, "several definitions in a file, or agents in several files"),
+    ("X611", "doubtful-encoding", Severity.WARNING, "file that does not look like the encoding in which it is read"),
+    ("X612", "wrong-encoding", Severity.ERROR, "file that is not in the specified encoding"),
     # XABSL declarations and semantics
     ("X621", "unknown-symbol", Severity.ERROR, "undeclared name"),
     ("X622", "ambiguous-name", Severity.ERROR, "ambiguous name"),

@@ -163,7 +163,7 @@ def component_generator(
             code = write_component(plan_component(project, design, plan.package.modules, source))
         except UnsoundDesignError:
             return None
-        return replace(code, origins=map_to_full_design(design, code.origins))
+        return replace(code, find_origins=lambda: map_to_full_design(design, code.origins))
 
     return write
 

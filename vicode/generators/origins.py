@@ -1,7 +1,8 @@
 """Map lines of generated code to the design elements they were generated from."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from vicode.findings import DesignPath
 from vicode.generators.plan import Branch, DecisionPlan
@@ -20,12 +21,16 @@ class Origin:
     path: DesignPath
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class ComponentCode:
-    """The file of one component and the origins of its lines."""
+    """The file of one component and the origins of its lines, which are found when they are read first."""
 
     file: OutputFile
-    origins: tuple[Origin, ...]
+    find_origins: Callable[[], tuple[Origin, ...]]
+
+    @cached_property
+    def origins(self) -> tuple[Origin, ...]:
+        return self.find_origins()
 
 
 def leaf_paths(alternatives: Iterable[DecisionPlan]) -> Iterator[DesignPath]:

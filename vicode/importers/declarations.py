@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 from vicode.findings import DesignPath
+from vicode.importers.comments import PlacedComment
 from vicode.importers.names import DesignNames, to_design_number, xabsl_name_or_empty
 from vicode.model.design import Declaration
 from vicode.model.project import INTERNAL, WORLD, Enumeration, Interface
@@ -14,9 +15,6 @@ from vicode.xabsl.source_loader import ProgramSource
 from vicode.xabsl.symbol_table import BOOLEAN, DECIMAL, ENUM, Definition, SymbolTable
 
 _TYPES = {BOOLEAN: "bool", DECIMAL: "float"}
-
-PlacedComment = tuple[DesignPath, str]
-"""The path of a design element and the comment above it."""
 
 
 @dataclass(slots=True)
@@ -135,7 +133,7 @@ class _DeclarationImporter:
             self._add_interface(item, "_internal" if world else "", INTERNAL, internal)
         if first is not None and not world and not internal:
             texts = [f"namespace {item.name.text}", item.title, item.doc]
-            self.result.comments.append((first, ": ".join(text for text in texts if text)))
+            self.result.comments.append(PlacedComment(path=first, text=": ".join(text for text in texts if text)))
 
     def _add_interface(
         self, item: tree.NamespaceNode, suffix: str, implementation: str, symbols: Iterable[Definition]

@@ -32,7 +32,7 @@ class ExpressionTranslator:
             case tree.KeywordNode(text=text):
                 return _KEYWORDS.get(text, text)
             case tree.ReferenceNode():
-                return self.design_name(self.resolve(self.tokens, expression.first_token))
+                return self._reference(self.resolve(self.tokens, expression.first_token))
             case tree.FunctionCallNode():
                 return self._function(expression)
             case tree.ParenthesizedNode(inner=inner):
@@ -58,9 +58,17 @@ class ExpressionTranslator:
         text = self.translate(expression)
         return f"({text})" if isinstance(expression, tree.ConditionalNode) else text
 
+    def _reference(self, declared: Definition) -> str:
+        """A function without arguments is called with their defaults."""
+        return self.design_name(declared) + ("()" if _is_function(declared) else "")
+
     def _function(self, function: tree.FunctionCallNode) -> str:
         declared = self.resolve(self.tokens, function.name.first_token)
-        if not isinstance(declared.node, tree.SymbolNode) or declared.node.parameters is None:
+        if not _is_function(declared):
             return self.design_name(declared)
         arguments = ", ".join(f"{name}={value}" for name, value in self.translate_arguments(function.arguments))
         return f"{self.design_name(declared)}({arguments})"
+
+
+def _is_function(declared: Definition) -> bool:
+    return isinstance(declared.node, tree.SymbolNode) and declared.node.parameters is not None

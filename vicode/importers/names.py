@@ -23,14 +23,21 @@ _RESERVED = frozenset(
 
 
 class DesignNames:
-    """Allocates names that are unique ignoring case, since some file systems ignore it."""
+    """Allocates names that are unique ignoring case, since some file systems ignore it.
 
-    def __init__(self, taken: frozenset[str] = frozenset()) -> None:
+    Args:
+        taken: Names that are in use.
+        keywords: Names that get a trailing `_`, in addition to those that have another meaning in designs.
+    """
+
+    def __init__(self, taken: frozenset[str] = frozenset(), keywords: frozenset[str] = frozenset()) -> None:
         self._taken = {name.casefold() for name in taken}
+        self._keywords = keywords
 
     def allocate(self, xabsl_name: str) -> str:
         """Return an unused design name derived from an XABSL name."""
         stem = to_design_name(xabsl_name)
+        stem = f"{stem}_" if stem in self._keywords else stem
         name, number = stem, 1
         while name.casefold() in self._taken:
             number += 1

@@ -4,10 +4,21 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from vicode.findings import DesignPath
-from vicode.importers.comments import Anchor, comment_text, group_comments, looks_like_code, place_comments
-from vicode.importers.declarations import ImportedDeclarations, PlacedComment, convert_declaration
+from vicode.importers.comments import (
+    Anchor,
+    CommentPlaces,
+    PlacedComment,
+    comment_text,
+    group_comments,
+    looks_like_code,
+    place_comments,
+    place_header,
+    plain_text,
+)
+from vicode.importers.declarations import ImportedDeclarations, convert_declaration
 from vicode.importers.expressions import ExpressionTranslator
 from vicode.importers.names import DesignNames, xabsl_name_or_empty
+from vicode.importers.notes import TokenNote
 from vicode.model.design import (
     Action,
     Assign,
@@ -45,6 +56,8 @@ class OptionImporter:
     states: dict[str, str] = field(init=False)
     uses: dict[str, str] = field(default_factory=dict)
     anchors: list[Anchor] = field(default_factory=list)
+    places: CommentPlaces = field(default_factory=CommentPlaces)
+    notes: list[TokenNote] = field(default_factory=list)
     parameter_names: dict[Definition, str] = field(default_factory=dict)
     translator: ExpressionTranslator = field(init=False)
     _comments: dict[int, list[Comment]] = field(init=False)
@@ -60,7 +73,7 @@ class OptionImporter:
     def import_design(self) -> tuple[Design, list[PlacedComment]]:
         option = self.option
         component = self.declarations.components[self.definition]
-        self.anchors.append((option.first_token, ("component",)))
+        self._add_anchor(option.first_token, ("component",))
         parameters = tuple(self._parameters())
         common = self._common()
         states = tuple(self._state(state) for state in option.states)
@@ -77,9 +90,12 @@ class OptionImporter:
             common=common,
             states=states,
         )
-        comments = list(place_comments(self._comments, self.anchors))
-        header = self.parsed.file.header
-        return design, [*([((), header)] if header else []), *comments]
+        header = place_header(self.parsed.tokens, self.parsed.file.header)
+        return design, [*header, *place_comments(self._comments, self.places)]
+
+    def _add_anchor(self, token: int, path: DesignPath) -> None:
+        self.anchors.append((token, path))
+        self.places.add(token, path)
 
     @property
     def option(self) -> tree.OptionNode:
@@ -105,7 +121,7 @@ class OptionImporter:
     def _parameters(self) -> Iterator[Declaration]:
         for parameter, name in self.parameter_names.items():
             assert isinstance(parameter.node, tree.ParameterNode)
-            self.anchors.append((parameter.node.first_token, ("parameters", name)))
+            self._add_anchor(parameter.node.first_token, ("parameters", name))
             yield convert_declaration(parameter.node, parameter, name, self.declarations)
 
     def _common(self) -> CommonSection:
@@ -113,8 +129,11 @@ class OptionImporter:
         decision, actions = self.option.common_decision, self.option.common_actions
         transitions: tuple[Decision, ...] = ()
         if decision is not None:
-            self.anchors.append((decision.first_token - 3, path))
+            self._add_anchor(decision.first_token - 3, path)
             transitions = self._decisions(decision, "", (*path, "transitions"))
+            self.places.add_end(decision.last_token + 1, path)
+        if actions is not None:
+            self.places.add(actions.first_token - 2, path)
         return CommonSection(transitions=transitions, actions=self._actions(actions, (*path, "actions")))
 
     def _state(self, state: tree.StateNode) -> State:
@@ -122,14 +141,21 @@ class OptionImporter:
         path: DesignPath = ("states", name)
         doc = self._leading_comment(state)
         self.anchors.append((state.first_token, path))
+        # A comment above a state would become its description: new ones are written after its brace.
+        self.places.add_end(state.first_token, path)
         transitions: tuple[Decision, ...] = ()
+        keyword = state.actions.first_token - 1
         if state.decision is not None:
-            self.anchors.append((state.decision.first_token, path))
+            self._add_anchor(state.decision.first_token, path)
+            self.places.add_end(state.decision.last_token, path)
             transitions = self._decisions(state.decision.tree, state.decision.else_doc, (*path, "transitions"))
             # A final `stay` is the default.
             if isinstance(transitions[-1], Stay) and not transitions[-1].doc:
                 transitions = transitions[:-1]
+        has_place = state.decision is not None and bool(state.actions.actions)
+        self.places.add(keyword, (*path, "actions") if has_place else path)
         actions = self._actions(state.actions, (*path, "actions"))
+        self.places.add_end(state.last_token, path)
         robots = int(float(state.robots or 0))
         return State(
             name=name,
@@ -164,7 +190,7 @@ class OptionImporter:
         current: tree.DecisionTreeNode | None = node
         while current is not None:
             decision_path = (*path, len(decisions))
-            self.anchors.append((current.first_token, decision_path))
+            self._add_anchor(current.first_token, decision_path)
             match current:
                 case tree.BlockNode(inner=inner):
                     current = inner
@@ -172,10 +198,12 @@ class OptionImporter:
                     decisions.append(self._leaf(current, Guard(), doc))
                     current = None
                 case tree.IfNode(otherwise=tree.SyntaxNode()) if self._is_inverted(current, path):
-                    decisions.append(self._inverted_branch(current, _join_docs(doc, current.doc), decision_path))
+                    text = "decisions are nested too deeply: the design has the branches of this one in reverse order"
+                    self.notes.append((current.first_token, text))
+                    decisions.append(self._inverted_branch(current, self._join_docs(doc, current), decision_path))
                     doc, current = "", current.then
                 case tree.IfNode():
-                    decisions.append(self._branch(current, _join_docs(doc, current.doc), decision_path))
+                    decisions.append(self._branch(current, self._join_docs(doc, current), decision_path))
                     doc, current = current.else_doc, current.otherwise
         return tuple(decisions)
 
@@ -185,9 +213,15 @@ class OptionImporter:
         while isinstance(then, tree.BlockNode):
             then = then.inner
         if isinstance(then, tree.GotoNode | tree.StayNode):
-            self.anchors.append((then.first_token, path))
+            self._add_anchor(then.first_token, path)
             return self._leaf(then, guard, doc)
         return DecisionGroup(guard=guard, then=self._decisions(then, "", (*path, "then")), doc=doc)
+
+    def _join_docs(self, doc: str, node: tree.IfNode) -> str:
+        """Join the description before an `else` and that before the `if` that follows."""
+        if doc and node.doc:
+            self.notes.append((node.first_token, "two descriptions of a decision: the design has them as one"))
+        return _join_docs(doc, node.doc)
 
     def _is_inverted(self, node: tree.IfNode, path: DesignPath) -> bool:
         """Whether the first branch follows in the list and the second one forms a group.
@@ -241,13 +275,21 @@ class OptionImporter:
 
     def _actions(self, actions: tree.ActionBlockNode | None, path: DesignPath) -> tuple[Action, ...]:
         converted: list[Action] = []
+        place: DesignPath = path[:-1]
         for action in actions.actions if actions else ():
             converted = self._append_action(converted, action)
-            self.anchors.append((action.first_token, (*path, len(converted) - 1)))
+            last, here = converted[-1], (*path, len(converted) - 1)
+            self.anchors.append((action.first_token, here))
+            place = here
+            if isinstance(last, Assign) and len(last.values) > 1:
+                place = (*here, "set", last.values[-1][0])
+            self.places.add(action.first_token, place)
+        if actions is not None:
+            self.places.add_end(actions.last_token, place)
         return tuple(converted)
 
     def _append_action(self, converted: list[Action], action: tree.ActionNode) -> list[Action]:
-        """Append an action; consecutive assignments form one action."""
+        """Append an action; consecutive assignments form one action, unless a comment stands above the second one."""
         if isinstance(action, tree.CallNode):
             called = self._resolve(self.parsed.tokens, action.name.first_token)
             alias = self._alias(self.declarations.components[called])
@@ -257,9 +299,12 @@ class OptionImporter:
         symbol = self._resolve(self.parsed.tokens, action.symbol.first_token)
         pair = (self._design_name(symbol), self.translator.translate(action.value))
         last = converted[-1] if converted else None
-        if isinstance(last, Assign) and pair[0] not in dict(last.values):
+        if isinstance(last, Assign) and pair[0] not in dict(last.values) and not self._has_comment(action):
             return [*converted[:-1], Assign(values=(*last.values, pair))]
         return [*converted, Assign(values=(pair,))]
+
+    def _has_comment(self, action: tree.ActionNode) -> bool:
+        return any(each.own_line and plain_text(each.text) for each in self._comments.get(action.first_token, ()))
 
     def _parameter_name(self, called: Definition, parameter: Definition) -> str:
         """Return the name of a parameter in the called design, which allocates its names in the same order."""

@@ -4,26 +4,23 @@ from collections.abc import Mapping
 from functools import lru_cache
 from types import MappingProxyType
 
-from vicode.model.design import Declaration
-from vicode.model.expressions import UNKNOWN, Scope, Value, build_scope, evaluate, parse_expression
-from vicode.model.project import Enumeration, Project
+from vicode.bica import arithmetic
+from vicode.model.expressions import INT, UNKNOWN, Scope, Value, constant_scopes, evaluate, parse_expression
+from vicode.model.project import Project
 
 ConstantValue = Value
 
 
 def evaluate_constants(project: Project) -> Mapping[str, ConstantValue]:
     """Evaluate the constants in order, each using the previous ones. Invalid constants are omitted."""
-    return _evaluate_declarations(project.constants, project.enumerations)
+    return _evaluate_constants(Project(name="", constants=project.constants, enumerations=project.enumerations))
 
 
 # Constants are evaluated after every edit, but rarely change.
 @lru_cache(maxsize=64)
-def _evaluate_declarations(
-    constants: tuple[Declaration, ...], enumerations: tuple[Enumeration, ...]
-) -> Mapping[str, ConstantValue]:
+def _evaluate_constants(project: Project) -> Mapping[str, ConstantValue]:
     values: dict[str, ConstantValue] = {}
-    for index, constant in enumerate(constants):
-        scope = build_scope(Project(name="", constants=constants[:index], enumerations=enumerations), None)
+    for constant, scope in zip(project.constants, constant_scopes(project), strict=True):
         value = evaluate_initial_value(constant.initial, scope.type_of(constant), scope, values)
         if value is not None:
             values[constant.name] = value
@@ -37,7 +34,10 @@ def evaluate_initial_value(
     if not text or text in scope.enumerations:
         return zero_value(type_, scope)
     parsed = parse_expression(text, scope, type_)
-    return None if parsed.tree is None or parsed.diagnostics else evaluate(parsed.tree, constants)
+    if parsed.tree is None or parsed.diagnostics:
+        return None
+    value = evaluate(parsed.tree, constants)
+    return arithmetic.limit(value) if type_ == INT and isinstance(value, int) else value
 
 
 def zero_value(type_: str, scope: Scope) -> ConstantValue | None:

@@ -33,6 +33,11 @@ def snake_case(name: str) -> str:
     return _WORD_BOUNDARY.sub("_", name).lower()
 
 
+def identifier_stem(text: str) -> str:
+    """Convert any text to a part of an identifier."""
+    return re.sub(r"[^a-z0-9]+", "_", snake_case(text), flags=re.ASCII).strip("_") or "x"
+
+
 def python_attribute_name(name: str) -> str:
     """Convert an XABSL name to a Python attribute: `ball.seen` to `ball_seen`, `class` to `class_`."""
     plain = name.replace(".", "_")

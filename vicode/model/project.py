@@ -108,10 +108,11 @@ class Agent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Profile:
-    """Other implementations behind the same interfaces, and another world."""
+    """Other implementations behind the same interfaces, and another world; `clock` is "world" if it sets the pace."""
 
     name: str
     world: str = ""
+    clock: str = ""
     components: tuple[ProfileClass | RemoteReference, ...] = ()
 
 
@@ -128,7 +129,8 @@ class BridgeSettings:
 class Project:
     """The designs and declarations of a folder.
 
-    `world` is "module:Class", `generated` the output folder, relative to the project folder. `unreadable` are pairs of
+    `world` is "module:Class", `clock` is "world" if the world sets the pace, `generated` the output folder, relative to
+    the project folder, `xabsl_encoding` that of imported XABSL files that are not UTF-8. `unreadable` are pairs of
     component and file for designs that cannot be read.
     """
 
@@ -136,7 +138,9 @@ class Project:
     doc: str = ""
     languages: tuple[str, ...] = ("python",)
     world: str = ""
+    clock: str = ""
     generated: str = "generated"
+    xabsl_encoding: str = ""
     enumerations: tuple[Enumeration, ...] = ()
     constants: tuple[Declaration, ...] = ()
     components: tuple[Interface, ...] = ()
@@ -145,16 +149,19 @@ class Project:
     bridge: BridgeSettings = field(default_factory=BridgeSettings)
     designs: tuple[Design, ...] = ()
     unreadable: tuple[tuple[str, str], ...] = ()
-    _interfaces: dict[str, "Interface"] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _interfaces: dict[str, Interface] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _designs: dict[str, Design] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        """Index the interfaces. The first of several with the same name is used; P201 reports the others."""
+        """Index interfaces and designs. The first of several with the same name is used; P201 reports the others."""
         for interface in (*self.components, *(derive_interface(design) for design in self.designs)):
             self._interfaces.setdefault(interface.component, interface)
+        for design in self.designs:
+            self._designs.setdefault(design.component, design)
 
     def design(self, component: str) -> Design | None:
         """Return the design of a component, None if it is hand-written or unknown."""
-        return next((design for design in self.designs if design.component == component), None)
+        return self._designs.get(component)
 
     def interface(self, component: str) -> Interface | None:
         return self._interfaces.get(component)
@@ -181,6 +188,8 @@ def select_profile(project: Project, name: str) -> Project:
     return replace(
         project,
         world=profile.world or project.world,
+        # The clock belongs to its world.
+        clock=profile.clock or ("" if profile.world else project.clock),
         components=tuple(_choose(each, choices.get(each.component)) for each in (*project.components, *designs)),
         designs=tuple(design for design in project.designs if design.component not in remote),
     )

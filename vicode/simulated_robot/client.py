@@ -2,7 +2,8 @@
 
 import asyncio
 import contextlib
-from collections.abc import AsyncIterator, Mapping, Sequence
+import ssl
+from collections.abc import AsyncIterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,9 +17,11 @@ from vicode.bridge.frames import (
     encode_jxi,
     split_parameters,
 )
+from vicode.simulated_robot.faults import Sensors
 
-Sensors = Mapping[str, Sequence[float]]
 _ANSWER_TIMEOUT_S = 30.0
+_TLS_ALERT = b"\x15\x03"
+_NO_GREETING = "the bridge closed the connection without a greeting; if it has a certificate, add --tls or --ca"
 
 
 class BridgeError(Exception):
@@ -68,13 +71,17 @@ class Answer:
         commands: New parameters by command.
         active: Active options or components with their states, the root first; None if the message does not say.
         age_ms: Age of the oldest sensor value that the behavior read.
+        command_age_ms: Age of the commands that the robot obeyed before.
         errors: What went wrong in the tick: exceptions, and values that could not be read.
+        notices: What the bridge reports that is no error, such as commands at rest.
     """
 
     commands: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     active: tuple[tuple[str, str], ...] | None = None
     age_ms: float | None = None
+    command_age_ms: float | None = None
     errors: tuple[str, ...] = ()
+    notices: tuple[str, ...] = ()
 
 
 class RobotConnection:
@@ -82,16 +89,26 @@ class RobotConnection:
 
     def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, *, is_jxi: bool) -> None:
         self._reader, self._writer, self._is_jxi = reader, writer, is_jxi
+        self._lines = 0
 
     @staticmethod
-    async def connect(host: str, port: int, hello: HelloMessage, *, is_jxi: bool = False) -> "RobotConnection":
+    async def connect(
+        host: str, port: int, hello: HelloMessage, *, is_jxi: bool = False, tls: ssl.SSLContext | None = None
+    ) -> "RobotConnection":
         """Connect and say hello.
 
         Raises:
             OSError: Nothing listens there.
             BridgeError: The server is no bridge, or it refuses the robot.
         """
-        reader, writer = await asyncio.open_connection(host, port, limit=2 * MAX_LINE_BYTES)
+        try:
+            reader, writer = await asyncio.open_connection(host, port, limit=2 * MAX_LINE_BYTES, ssl=tls)
+        except ssl.SSLCertVerificationError as error:
+            raise BridgeError(
+                f"the certificate of the bridge is not trusted: {error.verify_message}; add --ca with its certificate"
+            ) from None
+        except ssl.SSLError:
+            raise BridgeError("the bridge does not use TLS; leave out --tls and --ca") from None
         connection = RobotConnection(reader, writer, is_jxi=is_jxi)
         try:
             await connection._greet(hello)
@@ -101,10 +118,15 @@ class RobotConnection:
         return connection
 
     async def _greet(self, hello: HelloMessage) -> None:
-        greeting = await self._read_line()
+        # Before the greeting: a server with TLS sends none, but it answers what is no handshake.
+        self._writer.write(hello.to_jxi() if self._is_jxi else hello.to_json())
+        greeting = await self._read_line(_NO_GREETING)
+        if greeting.startswith(_TLS_ALERT):
+            raise BridgeError(_NO_GREETING)
         if greeting != GREETING:
             raise BridgeError(f"the server is no bridge: it greets with {greeting[:40]!r}")
-        self._writer.write(hello.to_jxi() if self._is_jxi else hello.to_json())
+        if self._is_jxi:
+            self._writer.write(encode_jxi("ACK", [0]))
         if not self._is_jxi:
             welcome = _decode(await self._read_line())
             if "welcome" not in welcome:
@@ -128,17 +150,31 @@ class RobotConnection:
             BridgeError: It is an error, or none comes.
         """
         while True:
-            line = await self._read_line()
-            answer = _read_jxi(line) if self._is_jxi else _read_json(line)
+            answer = self._take(await self._read_line())
             if answer is not None:
                 return answer
 
     async def answers(self) -> AsyncIterator[Answer]:
         """All further messages, until the bridge closes the connection."""
         while line := await _read_or_end(self._reader):
-            answer = _read_jxi(line) if self._is_jxi else _read_json(line)
+            answer = self._take(line)
             if answer is not None:
                 yield answer
+
+    def _take(self, line: bytes) -> Answer | None:
+        """Decode a line and acknowledge its commands; None if it has none."""
+        if self._is_jxi:
+            command = _decode_jxi(line)
+            if command is not None and command[0] == "NOTICE":
+                return Answer(notices=(command[1].decode(errors="replace").strip(),))
+            if command is not None:
+                self._lines += 1
+                self._writer.write(encode_jxi("ACK", [self._lines]))
+            return _read_jxi(command) if command is not None else None
+        message = _decode(line)
+        if "time" in message:
+            self._writer.write(encode_json({"ack": message["time"]}))
+        return _read_json(message)
 
     async def drain(self) -> None:
         """Wait until the bridge has room for more messages; a closed connection is reported by reading."""
@@ -151,14 +187,15 @@ class RobotConnection:
         with contextlib.suppress(OSError):
             await self._writer.wait_closed()
 
-    async def _read_line(self) -> bytes:
+    async def _read_line(self, end: str = "the bridge closed the connection") -> bytes:
+        """Read a line; `end` says what happened if there is none."""
         try:
             async with asyncio.timeout(_ANSWER_TIMEOUT_S):
                 line = await _read_or_end(self._reader)
         except TimeoutError:
             raise BridgeError(f"the bridge did not answer for {_ANSWER_TIMEOUT_S:g} s") from None
         if not line:
-            raise BridgeError("the bridge closed the connection")
+            raise BridgeError(end)
         return line
 
 
@@ -180,23 +217,35 @@ def _decode(line: bytes) -> dict[str, Any]:
     return message
 
 
-def _read_json(line: bytes) -> Answer | None:
-    message = _decode(line)
-    if not message.keys() & {"tick", "commands", "state", "errors"}:
+def _read_json(message: Mapping[str, Any]) -> Answer | None:
+    if not message.keys() & {"tick", "commands", "state", "errors", "notice"}:
         return None
     active = message.get("state", {}).get("active")
     return Answer(
         commands={name: tuple(values) for name, values in message.get("commands", {}).items()},
         active=None if active is None else tuple((option, state) for option, state in active),
         age_ms=message.get("age_ms"),
+        command_age_ms=message.get("command_age_ms"),
         errors=tuple(map(str, message.get("errors", ()))),
+        notices=(*map(str, message.get("notices", ())), *([str(message["notice"])] if "notice" in message else [])),
     )
 
 
-def _read_jxi(line: bytes) -> Answer | None:
-    """A line of JXI; unknown ones are ignored, as JXI does."""
+def _decode_jxi(line: bytes) -> tuple[str, bytes] | None:
+    """The target and the parameters of a command; None for a line that is no command."""
     try:
         target, parameters = decode_jxi(line)
+    except FrameError:
+        return None
+    if target == "ERROR":
+        raise BridgeError(f"the bridge reports: {parameters.decode(errors='replace').strip()}")
+    return target, parameters
+
+
+def _read_jxi(command: tuple[str, bytes]) -> Answer | None:
+    """A command; one whose parameters are no numbers is ignored."""
+    target, parameters = command
+    try:
         return Answer(commands={target: tuple(float(each) for each in split_parameters(parameters))})
-    except (FrameError, ValueError):
+    except ValueError:
         return None

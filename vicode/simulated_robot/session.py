@@ -1,13 +1,17 @@
 """Runs a simulated world whose robots are driven by behaviors behind a bridge, in lock step or in real time."""
 
 import asyncio
+import ssl
 from collections.abc import Callable, Sequence
 from contextlib import AsyncExitStack
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import count, pairwise
 
 from vicode.simulated_robot.arena import Arena, SimulatedRobot
-from vicode.simulated_robot.client import Answer, BridgeError, HelloMessage, RobotConnection, Sensors
+from vicode.simulated_robot.client import Answer, BridgeError, HelloMessage, RobotConnection
+from vicode.simulated_robot.faults import NO_FAULT, Fault, FaultySender, Sensors
+from vicode.simulated_robot.robot_model import RobotModel
 from vicode.simulated_robot.world_map import Point
 
 TICK_S = 0.05
@@ -27,6 +31,7 @@ class BridgeAddress:
     is_jxi: bool = False
     name: str = "robot"
     team: str = ""
+    tls: ssl.SSLContext | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,6 +43,7 @@ class TrackPoint:
     yaw: float
     active: tuple[tuple[str, str], ...] = ()
     age_ms: float | None = None
+    command_age_ms: float | None = None
 
     @property
     def state(self) -> str:
@@ -52,8 +58,10 @@ class RobotTrack:
     points: list[TrackPoint] = field(default_factory=list)
     active: tuple[tuple[str, str], ...] = ()
     age_ms: float | None = None
+    command_age_ms: float | None = None
     ranges: Sequence[float] = ()
     errors: list[str] = field(default_factory=list)
+    notices: list[str] = field(default_factory=list)
 
     @property
     def state(self) -> str:
@@ -64,15 +72,17 @@ class RobotTrack:
         states = [point.state for point in self.points]
         return sum(before != after for before, after in pairwise(states))
 
-    def take(self, answer: Answer) -> None:
+    def take(self, answer: Answer, model: RobotModel) -> None:
         """Follow an answer of the bridge."""
-        if command := answer.commands.get("DIFFERENTIALDRIVE"):
-            self.robot.drive(*command[:2])
+        model.obey(self.robot, answer.commands)
         if answer.active is not None and answer.active != self.active:
             # Equal states share one tuple, of which the points of a long run keep many.
             self.active = answer.active
         self.errors += answer.errors[: _KEPT_ERRORS - len(self.errors)]
+        self.notices += answer.notices[: _KEPT_ERRORS - len(self.notices)]
         self.age_ms = answer.age_ms if answer.age_ms is not None else self.age_ms
+        if answer.command_age_ms is not None:
+            self.command_age_ms = answer.command_age_ms
 
 
 class SimulationSession:
@@ -83,9 +93,12 @@ class SimulationSession:
         tracks: What each robot did.
     """
 
-    def __init__(self, arena: Arena, address: BridgeAddress, *, is_recorded: bool = True) -> None:
-        """Prepare a session; only if it `is_recorded`, the tracks have points."""
+    def __init__(
+        self, arena: Arena, address: BridgeAddress, *, model: RobotModel | None = None, is_recorded: bool = True
+    ) -> None:
+        """Prepare a session with what the robots send and obey; only if it `is_recorded`, the tracks have points."""
         self.arena = arena
+        self._model = model or RobotModel()
         self._is_recorded = is_recorded
         self.tracks = tuple(RobotTrack(robot) for robot in arena.robots)
         self._address = address
@@ -107,7 +120,7 @@ class SimulationSession:
                 for track, link in zip(self.tracks, self._links, strict=True):
                     link.send_tick(self._sense(track), time_s=now)
                 for track, link in zip(self.tracks, self._links, strict=True):
-                    track.take(await link.read())
+                    track.take(await link.read(), self._model)
                     self._record(track)
                 on_tick()
                 if is_over() or now >= seconds:
@@ -120,6 +133,7 @@ class SimulationSession:
         is_over: Callable[[], bool] = lambda: False,
         on_tick: Callable[[], None] = lambda: None,
         period_s: float = TICK_S,
+        fault: Fault = NO_FAULT,
     ) -> None:
         """Simulate in real time; messages that the bridge does not take in time are not sent.
 
@@ -130,7 +144,8 @@ class SimulationSession:
             await self._connect(stack, is_lock_step=False)
             group = await stack.enter_async_context(_ReaderGroup())
             for track, link in zip(self.tracks, self._links, strict=True):
-                group.follow(track, link)
+                group.follow(link, partial(track.take, model=self._model), fault.read_pause_s)
+            senders = [FaultySender(fault, track.robot.number) for track in self.tracks]
             loop = asyncio.get_running_loop()
             start = due = loop.time()
             while True:
@@ -138,8 +153,10 @@ class SimulationSession:
                 due = max(due + period_s, loop.time())
                 await asyncio.sleep(due - loop.time())
                 self.arena.advance(max(0.0, due - start - self.arena.now_s))
-                for track, link in zip(self.tracks, self._links, strict=True):
-                    link.send(self._sense(track), time_s=round(self.arena.now_s, 6))
+                for track, link, sender in zip(self.tracks, self._links, senders, strict=True):
+                    sender.put(self.arena.now_s, self._sense(track))
+                    for measured_s, sensors in sender.take(self.arena.now_s):
+                        link.send(sensors, time_s=round(measured_s, 6))
                     self._record(track)
                     await link.drain()
                 on_tick()
@@ -157,7 +174,9 @@ class SimulationSession:
                 is_lock_step=is_lock_step,
                 priority=len(self.tracks) - track.robot.number,
             )
-            link = await RobotConnection.connect(address.host, address.port, hello, is_jxi=address.is_jxi)
+            link = await RobotConnection.connect(
+                address.host, address.port, hello, is_jxi=address.is_jxi, tls=address.tls
+            )
             stack.push_async_callback(link.close)
             links.append(link)
         self._links = tuple(links)
@@ -165,18 +184,21 @@ class SimulationSession:
     def _record(self, track: RobotTrack) -> None:
         if self._is_recorded:
             time_s, robot = round(self.arena.now_s, 6), track.robot
-            point = TrackPoint(time_s=time_s, at=robot.at, yaw=robot.yaw, active=track.active, age_ms=track.age_ms)
-            track.points.append(point)
+            track.points.append(
+                TrackPoint(
+                    time_s=time_s,
+                    at=robot.at,
+                    yaw=robot.yaw,
+                    active=track.active,
+                    age_ms=track.age_ms,
+                    command_age_ms=track.command_age_ms,
+                )
+            )
 
     def _sense(self, track: RobotTrack) -> Sensors:
-        robot = track.robot
-        track.ranges = self.arena.scan(robot)
-        return {
-            "NUMBER": (robot.number,),
-            "LASER": track.ranges,
-            "INS": _rounded(robot.odometry()),
-            "GROUNDTRUTH": _rounded((*robot.at, robot.yaw)),
-        }
+        sensors = self._model.sense(self.arena, track.robot)
+        track.ranges = sensors.get("LASER", ())
+        return sensors
 
 
 class _ReaderGroup:
@@ -190,8 +212,8 @@ class _ReaderGroup:
         """Whether a connection has ended."""
         return any(task.done() for task in self._tasks)
 
-    def follow(self, track: RobotTrack, link: RobotConnection) -> None:
-        self._tasks.append(asyncio.create_task(_follow(track, link)))
+    def follow(self, link: RobotConnection, take: Callable[[Answer], None], pause_s: float) -> None:
+        self._tasks.append(asyncio.create_task(_follow(link, take, pause_s)))
 
     async def __aenter__(self) -> "_ReaderGroup":
         return self
@@ -204,11 +226,9 @@ class _ReaderGroup:
                 raise result
 
 
-async def _follow(track: RobotTrack, link: RobotConnection) -> None:
+async def _follow(link: RobotConnection, take: Callable[[Answer], None], pause_s: float) -> None:
     async for answer in link.answers():
-        track.take(answer)
+        take(answer)
+        if pause_s:
+            await asyncio.sleep(pause_s)
     raise BridgeError("the bridge closed the connection")
-
-
-def _rounded(values: Sequence[float]) -> tuple[float, ...]:
-    return tuple(round(value, 4) for value in values)

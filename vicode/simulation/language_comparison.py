@@ -1,5 +1,6 @@
 """The result of comparing a design in several languages, which the editor receives from another process."""
 
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 
@@ -54,23 +55,81 @@ class LanguageDifference:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CoverageCount:
+    """How many parts of a kind the inputs reached, such as 9 of 10 `transitions`."""
+
+    kind: str
+    seen: int
+    total: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NeverSeen:
+    """A part of a design in words, and what did not happen to it; `component` and `path` name it in the design."""
+
+    text: str
+    outcome: str
+    component: str
+    path: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InputCoverage:
+    """What the inputs reached in the reference interpreter."""
+
+    counts: tuple[CoverageCount, ...]
+    never: tuple[NeverSeen, ...]
+
+    @property
+    def summary(self) -> str:
+        """The counts as text."""
+        return ", ".join(f"{each.seen} of {each.total} {each.kind}" for each in self.counts)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class LanguageComparison:
-    """The languages that were compared, those that were not, and the differences from Python.
+    """The languages that were compared, those that were not, and the differences from the baseline.
 
     Attributes:
+        partial: The languages that could not run all inputs.
+        coverage: What the inputs reached; None if the reference interpreter cannot run the design.
         failed: The languages whose code does not compile, cannot be loaded or crashed.
+        limited: The languages that differ by their nature from some iteration on, and are compared before it.
         iterations: The number of iterations of all runs.
     """
 
     languages: tuple[str, ...]
     absent: tuple[AbsentLanguage, ...]
+    partial: tuple[AbsentLanguage, ...]
     failed: tuple[AbsentLanguage, ...]
     differences: tuple[LanguageDifference, ...]
+    coverage: InputCoverage | None
     iterations: int
     runs: int
+    limited: tuple[AbsentLanguage, ...] = ()
+
+    @property
+    def baseline(self) -> str:
+        """The language with which the others are compared; "" without one."""
+        return find_baseline(self.languages)
 
 
-LANGUAGE_TITLES = {"python": "Python", "cpp": "C++", "xabsl": "XABSL", "simulator": "simulator"}
+def as_design_path(texts: Sequence[str]) -> tuple[str | int, ...]:
+    """Return the path of a part of a design; its numbers were sent as texts."""
+    return tuple(int(part) if at > 1 and part.isdecimal() else part for at, part in enumerate(texts))
+
+
+def find_baseline(languages: Collection[str]) -> str:
+    return next((each for each in ("reference", "python") if each in languages), "")
+
+
+LANGUAGE_TITLES = {
+    "reference": "reference",
+    "python": "Python",
+    "cpp": "C++",
+    "xabsl": "XABSL",
+    "simulator": "simulator",
+}
 
 
 def verdict(comparison: LanguageComparison) -> str:

@@ -29,6 +29,8 @@ _MS_RDONLY, _MS_NOSUID, _MS_NODEV, _MS_REMOUNT, _MS_BIND, _MS_REC, _MS_PRIVATE =
 _MNT_DETACH = 2
 # Flags of a mount that a user namespace must keep, as `statvfs` and `mount` name them.
 _KEPT_FLAGS = {2: 2, 4: 4, 8: 8, 1024: 1024, 2048: 2048, 4096: 1 << 21}
+# A flag of /proc/PID/stat.
+_PF_EXITING = 4
 _PIVOT_ROOT = {"x86_64": 155, "aarch64": 41}
 _SYSTEM_PATHS = (
     *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/opt"),
@@ -80,8 +82,8 @@ def main() -> int:
         # Only the program may hold the pipes, so that their ends are seen.
         os.dup2(os.open(os.devnull, os.O_RDWR), descriptor)
     status = _wait_for(child)
-    # After an orderly end the files are not needed. The program may notice the end of the editor before this process.
-    if status == 0 or os.getppid() != editor:
+    # After an orderly end the files are not needed.
+    if status == 0 or _has_ended(editor):
         _end(config, 0 if status == 0 else 1)
     _kill_descendants()
     return _exit_like(status)
@@ -191,6 +193,20 @@ def _wait_for(child: int) -> int:
         ended, status = os.waitpid(-1, 0)
         if ended == child:
             return status
+
+
+def _has_ended(parent: int) -> bool:
+    """Whether the parent has ended or is about to.
+
+    The kernel closes the files of a process before its children get another parent: the program may read the end of a
+    pipe and fail while `getppid` still names the parent. Its flags tell earlier.
+    """
+    try:
+        with open(f"/proc/{parent}/stat", encoding="utf-8", errors="replace") as file:
+            flags = int(file.read().rpartition(")")[2].split()[6])
+    except OSError:
+        return True
+    return os.getppid() != parent or bool(flags & _PF_EXITING)
 
 
 def _end(config: LaunchConfig, code: int) -> None:

@@ -6,7 +6,7 @@ The editor sends a setup, then requests. Each request is answered by any number 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any, Literal
 
@@ -154,11 +154,13 @@ class IterationResult:
             return self.tree[0]
         return next((step for step in reversed(self.tree) if step["component"] == self.component), {})
 
-    def values(self) -> Iterator[tuple[str, dict[str, Any] | None]]:
-        """Components and their recorded values (None: not recorded): first the inputs, then those of each step."""
-        yield from self.inputs.items()
+    def values(self) -> dict[str, dict[str, Any] | None]:
+        """The recorded values by component (None: not recorded): its inputs, and then those of each step."""
+        found: dict[str, dict[str, Any] | None] = dict(self.inputs)
         for step in self.tree:
-            yield str(step["component"]), step.get("values")
+            name, known = str(step["component"]), found.get(str(step["component"]))
+            found[name] = step.get("values") if known is None else {**known, **(step.get("values") or {})}
+        return found
 
     @property
     def state(self) -> str:

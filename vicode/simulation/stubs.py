@@ -8,7 +8,7 @@ from enum import Enum
 from types import ModuleType
 from typing import Any
 
-from vicode.bica import Component, Root
+from vicode.bica import Component, Root, arithmetic
 from vicode.bica.observer import to_json_value
 from vicode.simulation.messages import Stub, StubOutput
 
@@ -134,8 +134,10 @@ def convert_value(value: Any, type_: str, enumerations: Enumerations) -> Any:
     """Convert a JSON value to a design type; an unsuitable value becomes false, 0 or the first element."""
     if type_ == "bool":
         return bool(value)
-    if type_ in ("int", "float"):
-        return _number(value, int if type_ == "int" else float)
+    if type_ == "int":
+        return arithmetic.limit(int(_number(value, int)))
+    if type_ == "float":
+        return _number(value, float)
     elements = enumerations.get(type_)
     if elements is None:
         return value

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from vicode.bica.recorder import find_segments
+from vicode.bica.recorder import find_segments, split_segment
 from vicode.simulation.messages import IterationResult, ProtocolError, decode_iteration
 
 VERSION = 1
@@ -64,6 +64,37 @@ def open_trace(path: Path) -> TraceFiles:
         line = stream.readline(10_000)
     header = _parse_header(1, line.decode(errors="replace"))
     return TraceFiles(files=files, header=header)
+
+
+def open_runs(paths: Iterable[Path]) -> list[TraceFiles]:
+    """Open traces and records, one for each run: segments of one run that are given by themselves belong together.
+
+    Raises:
+        TraceError: A path is no trace; the message names it.
+        OSError: A path does not exist or cannot be read.
+    """
+    runs: dict[object, list[TraceFiles]] = {}
+    for number, path in enumerate(paths):
+        try:
+            trace = open_trace(path)
+        except TraceError as error:
+            raise TraceError(f"{path}: {error}") from error
+        place = split_segment(path.resolve()) if "segment" in trace.header and len(trace.files) == 1 else None
+        runs.setdefault(number if place is None else place[:2], []).append(trace)
+    return [_join(traces) for traces in runs.values()]
+
+
+def _join(traces: list[TraceFiles]) -> TraceFiles:
+    """The trace of a run, of which segments are given."""
+    if len(traces) == 1:
+        return traces[0]
+    files = sorted({file for trace in traces for file in trace.files}, key=_segment_number)
+    return TraceFiles(files=tuple(files), header=traces[0].header)
+
+
+def _segment_number(file: Path) -> int:
+    place = split_segment(file)
+    return place[2] if place is not None else 0
 
 
 def _complete_lines(file: Path) -> Iterator[tuple[int, str]]:

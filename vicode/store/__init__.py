@@ -3,7 +3,7 @@
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from vicode.store.conflicts import TextConflict, find_conflicts, resolve_conflicts
+from vicode.store.conflicts import ConflictPart, TextConflict, find_conflicts, resolve_conflicts
 from vicode.store.documents import DesignReadResult, ProjectReadResult, read_design, read_project_file
 from vicode.store.durable_write import FileChangedError, is_read_only, replace_text, write_text
 from vicode.store.locations import find_faulty_components, find_location, iter_owning_components, locate_findings
@@ -22,12 +22,15 @@ from vicode.store.source_map import SourceMap
 from vicode.store.unread import UnreadContentError
 
 if TYPE_CHECKING:
-    from vicode.store.comments import add_comments
+    from vicode.store.comments import CommentedFile, add_comments, merge_comments
     from vicode.store.json_schema import design_schema, project_schema
     from vicode.store.merge_texts import TextMerge, merge_file_texts
     from vicode.store.save import save_design, save_project_file
+from vicode.store.unread import UnreadMember, list_unread
 
 __all__ = [
+    "CommentedFile",
+    "ConflictPart",
     "DesignReadResult",
     "FileChangedError",
     "OpenProject",
@@ -36,6 +39,7 @@ __all__ = [
     "TextConflict",
     "TextMerge",
     "UnreadContentError",
+    "UnreadMember",
     "add_comments",
     "design_schema",
     "find_conflicts",
@@ -48,8 +52,10 @@ __all__ = [
     "is_project_text",
     "is_read_only",
     "iter_owning_components",
+    "list_unread",
     "locate_findings",
     "looks_like_design",
+    "merge_comments",
     "merge_file_texts",
     "open_project",
     "project_schema",
@@ -64,7 +70,9 @@ __all__ = [
 ]
 
 _LAZY_MODULES = {
+    "CommentedFile": "comments",
     "add_comments": "comments",
+    "merge_comments": "comments",
     "TextMerge": "merge_texts",
     "design_schema": "json_schema",
     "merge_file_texts": "merge_texts",

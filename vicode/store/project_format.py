@@ -29,8 +29,14 @@ from vicode.store.format import (
     XABSL_NAME_KEY,
     declarations,
 )
-from vicode.store.schema_types import KeySchema, MapSchema, RecordSchema
+from vicode.store.schema_types import KeySchema, MapSchema, RecordSchema, ScalarSchema, ScalarType
+from vicode.xabsl.source_text import ENCODINGS
 
+_CLOCK = KeySchema(
+    "clock",
+    ScalarSchema(scalar_type=ScalarType.NAME, choices=("world",)),
+    "`world`: the world sets the pace (docs/own-components.md)",
+)
 TITLE_KEY = KeySchema("title", TEXT, "short heading")
 
 ENUMERATION = RecordSchema(
@@ -109,6 +115,7 @@ PROFILE = RecordSchema(
     model=Profile,
     keys=(
         KeySchema("world", TEXT, "class of the world as module:Class, if it is another one"),
+        _CLOCK,
         KeySchema(
             "components",
             MapSchema(description="a mapping of components to classes", value_schema=CHOICE, name_field="component"),
@@ -138,8 +145,14 @@ PROJECT = RecordSchema(
         DOC_KEY,
         KeySchema("languages", NAMES, "languages of the generated code", default=("python",), keeps_empty=True),
         KeySchema("world", TEXT, "class of the simulated world as module:Class"),
+        _CLOCK,
         KeySchema(
             "generated", TEXT, "folder of generated files, relative to this file", default="generated", keeps_empty=True
+        ),
+        KeySchema(
+            "xabsl_encoding",
+            ScalarSchema(scalar_type=ScalarType.NAME, choices=ENCODINGS),
+            "encoding of XABSL files that are not UTF-8; default: `cp1252`",
         ),
         KeySchema(
             "enumerations",

@@ -4,11 +4,16 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import cast
 
+from vicode.findings import DesignPath
 from vicode.store.schema_types import FormatValue, KeySchema, RecordSchema
+from vicode.store.source_map import SourceMap
 from vicode.store.typed_node import TypedNode
 from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar
 
 _MAX_SHOWN = 60
+
+UnreadMember = tuple[DesignPath, str]
+"""The path of the parent, and the text."""
 
 
 class UnreadContentError(ValueError):
@@ -36,17 +41,29 @@ def require_unread(missing: Counter[str], root: TypedNode, text: str) -> None:
             )
 
 
+def list_unread(source: SourceMap) -> tuple[UnreadMember, ...]:
+    """The members of a file that were not understood, each with the path of its parent."""
+    if source.root is None:
+        return ()
+    text = source.line_index.text
+    return tuple((path, text[start:end]) for path, (start, end) in _iter_unread(source.root, ()))
+
+
 def iter_unread_spans(read: TypedNode) -> Iterator[tuple[int, int]]:
     """The offsets of the members that were not understood."""
+    return (span for _path, span in _iter_unread(read, ()))
+
+
+def _iter_unread(read: TypedNode, path: DesignPath) -> Iterator[tuple[DesignPath, tuple[int, int]]]:
     if not read.child_keys:
-        for child in read.children.values():
-            yield from iter_unread_spans(child)
+        for step, child in read.children.items():
+            yield from _iter_unread(child, (*path, step))
         return
     for index, key in enumerate(read.child_keys):
         if _is_unread_member(read, index):
-            yield _member_span(read.node, index)
+            yield path, _member_span(read.node, index)
         elif key is not None:
-            yield from iter_unread_spans(read.children[key])
+            yield from _iter_unread(read.children[key], (*path, key))
 
 
 def _is_unread_member(read: TypedNode, index: int) -> bool:

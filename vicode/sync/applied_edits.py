@@ -1,14 +1,16 @@
-"""Remembers which edits of regions a design contains while their file was not generated again since.
+"""Remembers which edits of regions a design contains while the file with the edit has not been generated again.
 
 Without it, the mark of such a region still names the text from before the edit: a later change of the same lines in the
-design would look like a conflict.
+design would look like a conflict. The same holds for a file that was generated again, and then saved by a text editor
+that had read it before.
 """
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from vicode.regions import find_regions, get_comment_prefix
 from vicode.transactions import STATE_FOLDER, replace_files
 
 APPLIED_FILE = f"{STATE_FOLDER}/applied.json"
@@ -51,10 +53,32 @@ def format_applied(applied: Mapping[RegionKey, RecordedEdit]) -> str:
     return json.dumps([[*key, asdict(edit)] for key, edit in sorted(applied.items())], indent=1) + "\n"
 
 
-def without_paths(applied: Mapping[RegionKey, RecordedEdit], paths: Iterable[str]) -> dict[RegionKey, RecordedEdit]:
-    """The records of other files."""
-    dropped = set(paths)
-    return {key: edit for key, edit in applied.items() if key[0] not in dropped}
+def still_applied(
+    recorded: Mapping[RegionKey, RecordedEdit], new: Mapping[RegionKey, RecordedEdit], texts: Mapping[str, str]
+) -> dict[RegionKey, RecordedEdit]:
+    """The records after files were generated.
+
+    A record ends when its region is generated with the same text again, since the same edit is a new one then. So does
+    the record that a user decided against an edit.
+
+    Args:
+        recorded: The records before.
+        new: The edits that the designs contain since.
+        texts: The generated texts, by path.
+    """
+    records = {**recorded, **new}
+    checksums = {
+        (path, region.id): region.checksum
+        for path, text in texts.items()
+        if any(path == key[0] for key in records)
+        for region in find_regions(text, get_comment_prefix(path)).regions
+    }
+    return {
+        key: edit
+        for key, edit in records.items()
+        if key[0] not in texts
+        or (edit.design_text is not None and key in checksums and checksums[key] != edit.checksum)
+    }
 
 
 def record_applied(folder: Path, changes: Mapping[RegionKey, RecordedEdit | None]) -> None:

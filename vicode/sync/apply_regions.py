@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
 
 from vicode.findings import DesignPath
 from vicode.generators import list_regions
@@ -10,14 +9,12 @@ from vicode.model.design import Code, Design, RunCode
 from vicode.model.edits import replace_decision, update_actions
 from vicode.model.project import Project
 from vicode.model.traversal import find_decision
+from vicode.sync.choices import NO_CHOICES, Choices, SettledConflict
 from vicode.sync.file_edits import FileEdits
 from vicode.sync.region_merge import RegionEdit
 
 _EMPTY = {"python": "pass", "cpp": ";", "xabsl": ""}
 """Code without an effect: the design has no empty code."""
-
-Side = Literal["file", "design"]
-"""The side that wins a conflict."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,47 +28,61 @@ class AppliedEdit:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AppliedEdits:
-    """The designs with the edits, by component, and the edits that could not be applied."""
+    """The designs with the edits, by component, the edits that could not be applied, and the chosen sides."""
 
     designs: Mapping[str, Design]
     applied: tuple[AppliedEdit, ...]
     conflicts: tuple[tuple[FileEdits, RegionEdit, DesignPath], ...]
+    settled: tuple[SettledConflict, ...] = ()
 
 
-def apply_regions(project: Project, files: Iterable[FileEdits], take: Side | None = None) -> AppliedEdits:
+def apply_regions(project: Project, files: Iterable[FileEdits], choices: Choices = NO_CHOICES) -> AppliedEdits:
     """Apply all edits of regions to the designs of a project.
 
     Args:
         project: The project, of which the generated texts of `files` were made.
         files: The edited files.
-        take: The side that wins conflicts; None leaves them.
+        choices: The sides that win conflicts; the others are left.
     """
     designs = {design.component: design for design in project.designs}
     changed: dict[str, Design] = {}
     applied: list[AppliedEdit] = []
     conflicts: list[tuple[FileEdits, RegionEdit, DesignPath]] = []
+    settled: list[SettledConflict] = []
     for file in files:
         # A file that no design generates any more has no component.
         paths = list_regions(project, file.component, file.language) if file.component and file.regions else {}
         for region in file.regions:
-            text = _choose(region, take)
-            if region.target not in paths:
-                conflicts += [] if take == "design" else [(file, region, ())]
-            elif text is None:
-                conflicts.append((file, region, paths[region.target]))
-            elif text != region.design_text:
-                path = paths[region.target]
+            path = paths.get(region.target, ())
+            choice = None
+            if region.is_conflict or not path:
+                choice = _settle(file, region, choices)
+                if choice is None or (choice.side == "file" and not path):
+                    conflicts.append((file, region, path))
+                    continue
+                settled.append(choice)
+            text = _text_of(region, choice)
+            if path and text != region.design_text:
                 design = changed.get(file.component, designs[file.component])
                 code = text.strip("\n") or _EMPTY[file.language]
                 changed[file.component] = set_code(design, path, file.language, code)
                 applied.append(AppliedEdit(file=file, region=region, path=path))
-    return AppliedEdits(designs=changed, applied=tuple(applied), conflicts=tuple(conflicts))
+    return AppliedEdits(designs=changed, applied=tuple(applied), conflicts=tuple(conflicts), settled=tuple(settled))
 
 
-def _choose(region: RegionEdit, take: Side | None) -> str | None:
-    if region.merged is not None or take is None:
-        return region.merged
-    return region.file_text if take == "file" else region.design_text
+def _settle(file: FileEdits, region: RegionEdit, choices: Choices) -> SettledConflict | None:
+    names = (region.id, f"{file.path}:{region.line}")
+    side = choices.find(names)
+    if side is None:
+        return None
+    dropped = region.design_text if side == "file" else region.file_text
+    return SettledConflict(path=file.path, names=names, side=side, dropped=dropped)
+
+
+def _text_of(region: RegionEdit, choice: SettledConflict | None) -> str:
+    if choice is not None:
+        return region.file_text if choice.side == "file" else region.design_text
+    return region.merged or ""
 
 
 def set_code(design: Design, path: DesignPath, language: str, text: str) -> Design:

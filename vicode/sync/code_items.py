@@ -7,6 +7,7 @@ import ast
 import copy
 import inspect
 import io
+import re
 import tokenize
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator
@@ -17,6 +18,16 @@ from vicode.regions import find_regions, has_header
 
 CODE, COMMENT, DOCSTRING, HEADER, IMPORT, REGION = "code", "comment", "docstring", "header", "import", "region"
 
+GENERATED_DOCSTRINGS = frozenset(
+    {
+        "Set the parameters.",
+        "Test the common transitions; return whether one of them ended the decision.",
+        "Run the common actions.",
+    }
+)
+"""What the generator writes by itself, so that its absence is no edit."""
+_CLASS = re.compile(r"class (\w+)\b.*:")
+_METHOD = ("    def ", "    async def ")
 _REGION_CALL = "_vicode_region_"
 _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 
@@ -68,6 +79,73 @@ def split_items(text: str) -> tuple[CodeItem, ...]:
         raise SyntaxError(str(error)) from error
     statements = _Splitter(masked.split("\n"), tokens, last_lines).split(tree)
     return _with_blank_lines(_with_comments(statements, tokens, text), masked.split("\n"))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModulePart:
+    """A part of a module that is read by itself: lines before the first method, or a method with what follows it.
+
+    Attributes:
+        owner: The class of the method; empty for the lines before.
+        first: The first line of the part in the module, from 1.
+        text: The lines.
+    """
+
+    owner: str
+    first: int
+    text: str
+
+    def split(self) -> tuple[CodeItem, ...]:
+        """Split the part into items, with lines counted in the part.
+
+        Raises:
+            SyntaxError: The part is not Python.
+        """
+        if not self.owner:
+            return split_items(self.text)
+        return split_items(f"class {self.owner}():\n{self.text}")[1:]
+
+    def split_in_place(self) -> tuple[CodeItem, ...]:
+        """Split the part into items, with lines of the module.
+
+        Raises:
+            SyntaxError: The part is not Python.
+        """
+        if not self.owner:
+            return split_items(self.text)
+        header, *items = split_items(f"class {self.owner}():\n{self.text}")
+        offset = self.first - 2
+        for item in (header, *items):
+            if item.depth == 0 and item.node is not None:
+                ast.increment_lineno(item.node, offset)
+        return tuple(replace(item, first=item.first + offset, last=item.last + offset) for item in items)
+
+
+def split_parts(text: str) -> list[ModulePart]:
+    """Split a module at the methods of its classes, so that parts that did not change need not be read again."""
+    inside = {line for region in find_regions(text).regions for line in range(region.line - 1, region.end_line)}
+    lines = text.split("\n")
+    owner, starts = "", [(0, "")]
+    for number, line in enumerate(lines):
+        if number in inside:
+            continue
+        if line[:1].strip() and line[0] != "#":
+            found = _CLASS.match(line)
+            owner = found[1] if found else ""
+        elif owner and line.startswith(_METHOD):
+            start = number
+            while start - 1 > starts[-1][0] and start - 1 not in inside and _stands_above_method(lines[start - 1]):
+                start -= 1
+            starts.append((start, owner))
+    ends = [start for start, _owner in starts[1:]] + [len(lines)]
+    return [
+        ModulePart(owner=name, first=start + 1, text="\n".join(lines[start:end]))
+        for (start, name), end in zip(starts, ends, strict=True)
+    ]
+
+
+def _stands_above_method(line: str) -> bool:
+    return not line.strip() or line.startswith(("    #", "    @"))
 
 
 def imported_names(items: Iterable[CodeItem]) -> tuple[tuple[str, str, str], ...]:

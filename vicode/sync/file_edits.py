@@ -8,8 +8,8 @@ from vicode.findings import Finding, SourceLocation, get_rule
 from vicode.model.merge import contains_edits
 from vicode.output import FileDiff, FileStatus, OutputFile
 from vicode.regions import ParsedRegions, Region, find_regions, get_comment_prefix, has_header, is_edited, strip_bodies
-from vicode.store import find_conflicts, resolve_conflicts
 from vicode.sync.applied_edits import RecordedEdit, RegionKey
+from vicode.sync.merge_markers import MergeConflict, find_merge_conflicts
 from vicode.sync.region_merge import RegionEdit, merge_region_edits
 from vicode.sync.same_code import is_same_code
 
@@ -29,6 +29,7 @@ class FileEdits:
         regions: The edited regions.
         is_edited_outside: Whether the file was edited outside regions, or may have been.
         is_origin_known: Whether an earlier generated text of the file is known.
+        merge_conflicts: The conflicts that git left in the file; nothing else of it is read then.
         problems: Errors in the file, such as broken marks.
     """
 
@@ -39,6 +40,7 @@ class FileEdits:
     regions: tuple[RegionEdit, ...] = ()
     is_edited_outside: bool = False
     is_origin_known: bool = True
+    merge_conflicts: tuple[MergeConflict, ...] = ()
     problems: tuple[Finding, ...] = ()
 
     @property
@@ -47,7 +49,7 @@ class FileEdits:
 
     @property
     def is_empty(self) -> bool:
-        return not (self.regions or self.is_edited_outside or self.problems)
+        return not (self.regions or self.is_edited_outside or self.merge_conflicts or self.problems)
 
 
 def find_file_edits(
@@ -93,44 +95,38 @@ class _EditFinder:
         path, old, new = difference.path, difference.old or "", difference.new
         file = f"{self.display_folder}/{path}" if self.display_folder else path
         edits = FileEdits(path=path, component=self.components.get(path, ""), old=old, new=new)
-        # After a merge in git that left conflicts, both sides may contain edits.
-        conflicts = find_conflicts(old)
-        sides: tuple[str, ...] = (old,)
-        if conflicts:
-            sides = tuple(resolve_conflicts(old, conflicts, takes_theirs=is_theirs) for is_theirs in (False, True))
-        if not all(map(has_header, sides)):
+        comment = get_comment_prefix(path)
+        if conflicts := find_merge_conflicts(old, new or "", comment):
+            return replace(edits, merge_conflicts=conflicts)
+        if not has_header(old):
             message = "this file was not generated; generation would replace it"
             fix = f"move it away, or generate with --force, which keeps it as {file.rpartition('/')[2]}.edited"
             location = SourceLocation(file=file, line=1, column=1)
             return replace(
                 edits, problems=(Finding(rule=get_rule("G501"), message=message, fix=fix, location=location),)
             )
-        comment = get_comment_prefix(path)
-        parsed = [find_regions(side, comment, file=file) for side in sides]
-        problems = tuple(finding for each in parsed for finding in each.findings)
-        if problems:
-            return replace(edits, problems=problems)
+        parsed = find_regions(old, comment, file=file)
+        if parsed.findings:
+            return replace(edits, problems=parsed.findings)
         targets = _regions(new, path) if new is not None else self._renamed_regions(parsed)
-        base_texts = _BaseTexts(path, sides, self.history)
-        regions = tuple(
-            edit
-            for each in parsed
-            for edit in merge_region_edits(
-                each.regions, targets, base_texts.find, lambda region: self.applied.get((path, region)), comment=comment
-            )
+        regions = merge_region_edits(
+            parsed.regions,
+            targets,
+            _BaseTexts(path, old, self.history).find,
+            lambda region: self.applied.get((path, region)),
+            comment=comment,
         )
-        # The statements of a merge conflict were generated in two branches.
-        is_outside = len(sides) == 1 and self._is_edited_outside(path, old, new)
+        is_outside = self._is_edited_outside(path, old, new)
         return replace(
             edits,
-            regions=tuple(dict.fromkeys(regions)),
+            regions=regions,
             is_edited_outside=is_outside,
             is_origin_known=not is_outside or any(True for _text in self.history(path)),
         )
 
-    def _renamed_regions(self, parsed: Iterable[ParsedRegions]) -> tuple[Region, ...]:
+    def _renamed_regions(self, parsed: ParsedRegions) -> tuple[Region, ...]:
         """The regions of new files with the same code as those of a file that no design generates any more."""
-        checksums = {region.checksum for each in parsed for region in each.regions}
+        checksums = {region.checksum for region in parsed.regions}
         return tuple(region for region in self.added_regions if region.checksum in checksums)
 
     def _is_edited_outside(self, path: str, old: str, new: str | None) -> bool:
@@ -141,16 +137,17 @@ class _EditFinder:
         return not any(
             is_same_code(old, base, comment) or (new is not None and _has_all_edits(path, base, old, new))
             for base in self.history(path)
+            if base != new
         )
 
 
 class _BaseTexts:
     """Finds generated texts of regions by their checksum; the history is read when it is needed."""
 
-    def __init__(self, path: str, sides: Iterable[str], history: History) -> None:
+    def __init__(self, path: str, text: str, history: History) -> None:
         self._path = path
         self._found: dict[str, str] = {}
-        self._unread = (text for texts in (sides, _later(history, path)) for text in texts)
+        self._unread = (text for texts in ((text,), _later(history, path)) for text in texts)
 
     def find(self, checksum: str) -> str | None:
         while checksum not in self._found:

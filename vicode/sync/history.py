@@ -70,10 +70,15 @@ def _generate_revisions(folder: Path) -> Iterator[Mapping[str, str]]:
     except GitError:
         return
     for revision in revisions:
-        with tempfile.TemporaryDirectory(prefix="vicode-revision-") as name, contextlib.suppress(OSError):
-            # The name of a project without project.yaml is that of its folder.
-            opened = _check_out(repository, revision, path, Path(name) / folder.resolve().name)
-            yield _generate_sound(opened)
+        yield generate_revision(repository, revision, path)
+
+
+def generate_revision(repository: Repository, revision: str, path: str) -> Mapping[str, str]:
+    """What a revision of the project in a folder generates, by path; empty if a design has errors."""
+    with tempfile.TemporaryDirectory(prefix="vicode-revision-") as name, contextlib.suppress(OSError):
+        # The name of a project without project.yaml is that of its folder.
+        return _generate_sound(_check_out(repository, revision, path, Path(name) / (repository.root / path).name))
+    return {}
 
 
 def _check_out(repository: Repository, revision: str, path: str, folder: Path) -> OpenProject:

@@ -43,6 +43,11 @@ class RegionEdit:
         return self.merged is not None and self.merged != self.file_text
 
 
+def record_edit(region: RegionEdit) -> RecordedEdit:
+    """The record that the design contains an edit."""
+    return RecordedEdit(checksum=region.checksum, file_text=region.file_text, design_text=region.design_text)
+
+
 def merge_region_edits(
     found: Sequence[Region],
     generated: Sequence[Region],

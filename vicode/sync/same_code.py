@@ -1,24 +1,19 @@
 """Whether two versions of a generated file differ in layout only."""
 
-import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 from vicode.regions import has_header, strip_bodies
-from vicode.sync.code_items import HEADER, IMPORT, CodeItem, imported_names, split_items
-
-# Numbers of C++ may contain single quotes.
-_TOKEN = re.compile(
-    r"""(?P<comment>/\*.*?\*/|//[^\n]*)|"(?:[^"\\\n]|\\.)*"|\d(?:'?\w|\.(?=\d))*|'(?:[^'\\\n]|\\.)*'|\w+|[^\w\s]""",
-    re.DOTALL,
-)
+from vicode.sync.code_items import HEADER, IMPORT, CodeItem, ModulePart, imported_names, split_items, split_parts
+from vicode.sync.cpp_tokens import iter_tokens, iter_words, number_value
 
 
 def is_same_code(a: str, b: str, comment: str = "#") -> bool:
     """Whether two texts are the same code with the same comments outside of the bodies of their regions.
 
-    Numbers are compared by value. Line breaks, indentation, quotes, brackets without a meaning, the order of imports
-    and the header do not count.
+    Numbers are compared by value; in C++ only in generated code, where the type of a number changes no result unless
+    it is divided or calculated with another number. Line breaks, indentation, quotes, brackets without a meaning, the
+    order of imports and the header do not count.
 
     Args:
         a: One version of the file.
@@ -26,15 +21,37 @@ def is_same_code(a: str, b: str, comment: str = "#") -> bool:
         comment: The start of a comment, "#" (Python) or "//" (C++, XABSL).
     """
     if comment != "#":
-        return _tokens(a, comment) == _tokens(b, comment)
+        return a == b or _tokens(a, comment) == _tokens(b, comment)
+    texts = [strip_bodies(_without_header(text)) for text in (a, b)]
+    if texts[0] == texts[1]:
+        return True
+    parts = [split_parts(text.replace("\r\n", "\n").replace("\r", "\n")) for text in (a, b)]
     try:
-        return list(_python_keys(a)) == list(_python_keys(b))
+        return _has_same_keys(*parts)
     except SyntaxError:
-        return strip_bodies(_without_header(a)).split() == strip_bodies(_without_header(b)).split()
+        pass
+    try:
+        return list(_python_keys(split_items(a))) == list(_python_keys(split_items(b)))
+    except SyntaxError:
+        return texts[0].split() == texts[1].split()
 
 
-def _python_keys(text: str) -> Iterator[object]:
-    items = (item for item in split_items(text) if item.kind != HEADER)
+def _has_same_keys(a: Sequence[ModulePart], b: Sequence[ModulePart]) -> bool:
+    """Whether the parts of two modules are the same code; equal parts at the start and the end are not read."""
+    shorter = min(len(a), len(b))
+    start = next((at for at in range(shorter) if not _is_same_part(a[at], b[at])), shorter)
+    rest = shorter - start
+    end = next((at for at in range(rest) if not _is_same_part(a[-1 - at], b[-1 - at])), rest)
+    keys = [[key for part in side[start : len(side) - end] for key in _python_keys(part.split())] for side in (a, b)]
+    return keys[0] == keys[1]
+
+
+def _is_same_part(a: ModulePart, b: ModulePart) -> bool:
+    return a.owner == b.owner and (a.text == b.text or strip_bodies(a.text) == strip_bodies(b.text))
+
+
+def _python_keys(split: Sequence[CodeItem]) -> Iterator[object]:
+    items = (item for item in split if item.kind != HEADER)
     for is_import, group in groupby(items, key=lambda item: item.kind == IMPORT):
         if is_import:
             yield _import_key(list(group))
@@ -48,32 +65,38 @@ def _import_key(items: list[CodeItem]) -> object:
 
 
 def _tokens(text: str, comment: str) -> list[str]:
-    return [plain_token(word) for word, _span in find_token_spans(strip_bodies(_without_header(text), comment))]
+    is_generated = has_header(text)
+    words = list(iter_words(strip_bodies(_without_header(text), comment)))
+    if not is_generated:
+        return [word for _is_number, word in words]
+    return [
+        plain_token(word) if is_number and not _is_typed(words, at) else word
+        for at, (is_number, word) in enumerate(words)
+    ]
 
 
-def find_token_spans(text: str) -> Iterator[tuple[str, tuple[int, int]]]:
-    """The tokens of C++ code, with spaces in comments collapsed, and their places in the text."""
-    for token in _TOKEN.finditer(text):
-        yield " ".join(token[0].split()) if token["comment"] else token[0], token.span()
+def _is_typed(words: Sequence[tuple[bool, str]], at: int) -> bool:
+    """Whether the result of a calculation may depend on the type of a number."""
+    sides = (words[max(0, at - 2) : at][::-1], words[at + 1 : at + 3])
+    return any(
+        side[0][1] in ("/", "%") or (side[0][1] in ("+", "-", "*") and side[1][0]) for side in sides if len(side) == 2
+    )
 
 
 def find_tokens(text: str) -> Iterator[tuple[str, int]]:
-    """The tokens of C++ code with their lines."""
+    """Yield the tokens of C++ code with their lines."""
     line, end = 1, 0
-    for word, (start, _end) in find_token_spans(text):
-        line, end = line + text.count("\n", end, start), start
-        yield word, line
+    for token in iter_tokens(text):
+        line, end = line + text.count("\n", end, token.start), token.start
+        yield token.text, line
 
 
 def plain_token(word: str) -> str:
-    """A token as it is compared: numbers are equal by value."""
-    text = word.replace("'", "")
-    if text.isdecimal():
-        return str(int(text))
-    try:
-        return repr(float(text)).removesuffix(".0") if text[:1].isdigit() else word
-    except ValueError:
+    """Return a token as it is compared: numbers are equal by value."""
+    value = number_value(word)
+    if value is None:
         return word
+    return str(int(value)) if abs(value) < 1e15 and value == int(value) else repr(value)
 
 
 def _without_header(text: str) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Collection
 
 from vicode.findings import Finding, did_you_mean, get_rule
 from vicode.xabsl.engine.recursion import depth_limit
-from vicode.xabsl.lexer import Tokens
+from vicode.xabsl.lexer import Tokens, plain_line_ends
 from vicode.xabsl.tokens import DOC, END, HEADER, KEYWORDS, NAME
 from vicode.xabsl.tree import NameNode
 
@@ -87,7 +87,7 @@ class TokenCursor:
         """Consume a description if it is the next token, and return its text without the delimiters."""
         if self.kind != DOC:
             return ""
-        return self.tokens.texts[self.advance()][3:-2].replace("\r", "").strip()
+        return plain_line_ends(self.tokens.texts[self.advance()][3:-2]).strip()
 
     def increase_depth(self) -> None:
         """Count one more level of nesting; the caller decreases `depth`.

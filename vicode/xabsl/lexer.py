@@ -18,6 +18,7 @@ _KINDS = {
     "initial": HEADER,
 }
 _BLANK_LINE = re.compile(r"\n[ \t\r]*\n\s*")
+_LINE_END = re.compile(r"\r*\n|\r")
 _COMMENTS = ("line", "block", "initial", "doc")
 
 
@@ -41,11 +42,17 @@ _TOKEN_ERRORS = {
 
 @dataclass(slots=True)
 class Comment:
-    """A comment with its delimiters, not a description. `own_line`: it is the first text in its line."""
+    """A comment with its delimiters, not a description.
+
+    Attributes:
+        own_line: Whether it is the first text in its line.
+        span: The offsets of its start and end in the text of the file.
+    """
 
     text: str
     own_line: bool
     after_blank_line: bool = field(default=False, compare=False)
+    span: tuple[int, int] = field(default=(0, 0), compare=False)
 
 
 @dataclass
@@ -97,10 +104,11 @@ def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
         group = match.lastgroup or END
         word, start = match[group], match.start(group)
         kind = word if group == "own" or word in KEYWORDS else _KINDS.get(group, "")
-        if not kind or (group == "initial" and kinds) or (kind == DOC and not word[3:-2].strip()):
+        is_empty = (kind == DOC and not word[3:-2].strip()) or (kind == HEADER and not word[4:-2].strip())
+        if not kind or is_empty or (group == "initial" and kinds):
             if group == "end":
                 break
-            if group != "doc":
+            if group != "doc" and (kinds or not is_empty):
                 invalid.append((group, word, start))
             if group in _COMMENTS:
                 _add_comment(tokens, word, start)
@@ -127,10 +135,19 @@ def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:
     return tokens, [finding for token in invalid for finding in _token_findings(tokens, *token)]
 
 
+def plain_line_ends(text: str) -> str:
+    """The text with a line feed for each line end, also where several carriage returns precede it."""
+    return _LINE_END.sub("\n", text)
+
+
 def _add_comment(tokens: Tokens, word: str, start: int) -> None:
     line = tokens.text.rfind("\n", 0, start) + 1
     is_first = not tokens.text[line:start].strip()
-    comment = Comment(word.rstrip().replace("\r", ""), is_first, start in tokens.after_blank_lines)
+    text = plain_line_ends(word.rstrip())
+    # A line comment ends at a line feed; a carriage return in it is a space.
+    text = text.replace("\n", " ") if text.startswith("//") else text
+    span = (start, start + len(word.rstrip()))
+    comment = Comment(text, is_first, start in tokens.after_blank_lines, span=span)
     tokens.comments.setdefault(len(tokens.kinds), []).append(comment)
 
 

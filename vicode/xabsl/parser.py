@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from vicode.findings import Finding
 from vicode.xabsl.cursor import TokenCursor, XabslSyntaxError
 from vicode.xabsl.declaration_parser import parse_agent, parse_namespace, parse_parameters
-from vicode.xabsl.lexer import Tokens, tokenize
+from vicode.xabsl.lexer import Tokens, plain_line_ends, tokenize
 from vicode.xabsl.state_parser import parse_actions, parse_decision_tree, parse_state
 from vicode.xabsl.tokens import DOC, END, HEADER, STRING
 from vicode.xabsl.tree import (
@@ -38,7 +38,7 @@ def parse(text: str, file: str = "") -> ParsedFile:
     cursor = TokenCursor(tokens)
     result = FileNode(comments=tokens.comments)
     if cursor.kind == HEADER:
-        result.header = tokens.texts[cursor.advance()][4:-2].strip()
+        result.header = plain_line_ends(tokens.texts[cursor.advance()][4:-2]).strip()
     while cursor.kind != END:
         start = cursor.position
         try:

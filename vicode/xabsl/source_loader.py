@@ -6,30 +6,30 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from vicode.findings import Finding, Severity, SourceLocation, did_you_mean, get_rule
+from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.parser import ParsedFile, parse
 from vicode.xabsl.printer import print_file
+from vicode.xabsl.source_text import EncodedText, ReadText, encoding_title, read_source
 from vicode.xabsl.tree import AgentNode
 
-ReadText = Callable[[Path], str]
 ParseText = Callable[[str, str], ParsedFile]
 EXTENSIONS = (".xabsl", ".yabsl")
 _MAX_FOLDERS = 8
-_UNDEFINED = (0x81, 0x8D, 0x8F, 0x90, 0x9D)
-_WINDOWS_1252 = {byte: bytes([byte]).decode("cp1252") for byte in range(0x80, 0xA0) if byte not in _UNDEFINED}
-"""The characters of Windows-1252 by their bytes, where it differs from latin-1."""
 _UTF16_MARKS = ("ÿþ", "þÿ")
 """The byte order marks of UTF-16, read as Windows-1252."""
 
 
+_WINDOWS_LINE_END = re.compile(r"\r+\n")
 _AGENT = re.compile(r"^[ \t]*agent\s+\w+\s*\(", re.MULTILINE)
 
 
 @dataclass(slots=True)
 class ProgramSource:
-    """All files of a program by their real paths, in the order of their first include."""
+    """All files of a program by their real paths, in the order of their first include, with their encodings."""
 
     main: Path
     files: dict[Path, ParsedFile] = field(default_factory=dict)
+    encodings: dict[Path, str] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
 
     @property
@@ -48,42 +48,11 @@ def parse_header(header: str) -> dict[str, str]:
     return {key.strip(): value.strip() for key, colon, value in lines if colon}
 
 
-def read_text(path: Path) -> str:
-    """Read a file as UTF-8, with or without a byte order mark, or else as Windows-1252, which older behaviors use.
-
-    Raises:
-        OSError: The file cannot be read.
-    """
-    return decode_text(path.read_bytes())
-
-
-def decode_text(data: bytes) -> str:
-    """Decode the content of a file; `encode_text` returns the same bytes."""
-    try:
-        return data.decode("utf-8")
-    except UnicodeDecodeError:
-        # Unlike the codec, latin-1 maps every byte to a character.
-        return data.decode("latin-1").translate(_WINDOWS_1252)
-
-
-def encode_text(text: str, old: bytes) -> bytes:
-    """Encode a text in the encoding of the old content of its file.
-
-    Raises:
-        UnicodeEncodeError: The encoding does not have a character of the text.
-    """
-    try:
-        old.decode("utf-8")
-        return text.encode("utf-8")
-    except UnicodeDecodeError:
-        return text.translate({ord(char): byte for byte, char in _WINDOWS_1252.items()}).encode("latin-1")
-
-
 def find_agent_files(folder: Path, *, recursive: bool = True) -> Iterator[Path]:
     """Yield the files of a folder, except hidden ones, that appear to declare agents: the main files of behaviors."""
     for path in sorted(folder.rglob("*") if recursive else folder.glob("*")):
         is_hidden = any(part.startswith(".") for part in path.relative_to(folder).parts)
-        if path.suffix in EXTENSIONS and not is_hidden and path.is_file() and _AGENT.search(read_text(path)):
+        if path.suffix in EXTENSIONS and not is_hidden and path.is_file() and _AGENT.search(read_source(path).text):
             yield path
 
 
@@ -97,7 +66,7 @@ def find_main_file(path: Path) -> Path:
     return path
 
 
-def load_source(main: Path, read: ReadText = read_text, parse_text: ParseText = parse) -> ProgramSource:
+def load_source(main: Path, read: ReadText = read_source, parse_text: ParseText = parse) -> ProgramSource:
     """Load a program from the file with its agents. Files that cannot be read are reported as findings."""
     source = ProgramSource(main.resolve())
     pending: list[tuple[Path, SourceLocation | None, str]] = [(source.main, None, str(main))]
@@ -117,27 +86,45 @@ def load_source(main: Path, read: ReadText = read_text, parse_text: ParseText = 
 
 @dataclass(frozen=True, slots=True)
 class FormatResult:
-    """The original and the formatted text of a file, or its syntax errors."""
+    """The original and the formatted text of a file, and findings: its syntax errors, doubts about its encoding."""
 
-    original: str
+    original: EncodedText
     formatted: str
     findings: tuple[Finding, ...]
 
 
-def format_file(path: Path, read: ReadText = read_text) -> FormatResult:
+def format_file(path: Path, read: Callable[[Path], EncodedText] = read_source) -> FormatResult:
     """Format a file; the most frequent kind of line ending is kept.
 
     Raises:
         OSError: The file cannot be read.
     """
-    before = read(path)
-    parsed = parse(before, str(path))
-    errors = tuple(finding for finding in parsed.findings if finding.severity is Severity.ERROR)
-    if errors:
-        return FormatResult(before, before, errors)
+    original = read(path)
+    before = original.text
+    findings = tuple(_check_encoding(original, str(path)))
+    # Before parsing, because titles and comments can contain line ends.
+    parsed = parse(_WINDOWS_LINE_END.sub("\n", before), str(path))
+    if original.invalid_at is None:
+        findings += tuple(finding for finding in parsed.findings if finding.severity is Severity.ERROR)
+    if any(finding.severity is Severity.ERROR for finding in findings):
+        return FormatResult(original, before, findings)
     text = print_file(parsed.file)
     is_windows = before.count("\r\n") * 2 > before.count("\n")
-    return FormatResult(before, text.replace("\n", "\r\n") if is_windows else text, ())
+    return FormatResult(original, text.replace("\n", "\r\n") if is_windows else text, findings)
+
+
+def _check_encoding(text: EncodedText, name: str) -> Iterator[Finding]:
+    """Report bytes that are not text in the assumed encoding, or do not look like it."""
+    title = encoding_title(text.encoding)
+    if text.invalid_at is not None:
+        message, fix = f"{name} is not encoded in {title}", "specify its encoding with --encoding, or save it as UTF-8"
+        location = Tokens(name, text.text).location_at(text.invalid_at)
+        yield Finding(rule=get_rule("X612"), message=message, fix=fix, location=location)
+    elif text.doubtful_at is not None:
+        message = f"{name} is read as {title}, but does not look like it"
+        fix = "specify its encoding, such as --encoding gbk, or save it as UTF-8"
+        location = Tokens(name, text.text).location_at(text.doubtful_at)
+        yield Finding(rule=get_rule("X611"), message=message, fix=fix, location=location)
 
 
 def _resolve_includes(
@@ -164,26 +151,34 @@ def _read(source: ProgramSource, path: Path, location: SourceLocation | None, sh
         )
         return None
     try:
-        text = read(path)
+        found = read(path)
     except OSError as error:
         fix = did_you_mean(path.name, _sibling_files(path), "check the path, which is relative to the including file")
         reason = error.strerror or type(error).__name__
         _add_finding(source, location, "X606", f"{shown} cannot be read: {reason}", fix, shown=source.main.name)
         return None
-    if text.startswith(_UTF16_MARKS) and "\0" in text:
+    encoded = EncodedText(text=found) if isinstance(found, str) else found
+    if encoded.text.startswith(_UTF16_MARKS) and "\0" in encoded.text:
         message = f"{shown} is encoded in UTF-16"
         _add_finding(source, location, "X601", message, "save it as UTF-8", shown=source.main.name)
         return None
-    return text
+    source.encodings[path] = encoded.encoding
+    source.findings += _check_encoding(encoded, _name_of(source, path))
+    # Also what is invalid is read, so that all such files are reported at once.
+    return encoded.text
 
 
 def _parse(source: ProgramSource, path: Path, text: str, parse_text: ParseText) -> ParsedFile:
-    name = str(path.relative_to(source.main.parent)) if path.is_relative_to(source.main.parent) else str(path)
-    parsed = parse_text(text, name)
+    parsed = parse_text(text, _name_of(source, path))
     if not parsed.file.body and not any(finding.rule.code in ("X604", "X605") for finding in parsed.findings):
         location = parsed.tokens.location(len(parsed.tokens.kinds) - 1)
         _add_finding(source, location, "X609", "the file defines nothing", "add an option, a namespace or an agent")
     return parsed
+
+
+def _name_of(source: ProgramSource, path: Path) -> str:
+    """The name of a file in findings."""
+    return str(path.relative_to(source.main.parent)) if path.is_relative_to(source.main.parent) else str(path)
 
 
 def _sibling_files(path: Path) -> list[str]:

@@ -1,4 +1,8 @@
-"""Perception: detects ball and net in the images and remembers their positions while they are not visible."""
+"""Simulated perception: ball, net and the pose of the robot are read from the world, with noise.
+
+There are no images and no landmarks. A camera of the world returns ball and net if they are in its view. On a robot, a
+component with the same interface detects them in images and localizes the robot on the field.
+"""
 
 import math
 
@@ -20,7 +24,7 @@ _TO_TOP_DEG = 24.0
 
 
 class Perception(Component):
-    """Uses one of the two cameras at a time; `bottom_camera` is the one that should see the ball.
+    """Uses one of the two simulated cameras at a time; `bottom_camera` is the one that should see the ball.
 
     Positions are stored in the odometry frame, so that they stay valid while the robot walks.
     """
@@ -72,7 +76,7 @@ class Perception(Component):
         self._tell_net(robot.odometry)
 
     def bearing_to(self, *, x: float, y: float) -> float:
-        """Return the direction to a field position by self-localization, in degrees to the left."""
+        """Return the direction to a field position in degrees to the left, by simulated localization and odometry."""
         moved = self._located_at.to_local(Point(self.world.robot.odometry.x, self.world.robot.odometry.y))
         turned = self.world.robot.odometry.heading - self._located_at.heading
         place = self._located.to_field(moved)
@@ -96,7 +100,7 @@ class Perception(Component):
         self._net_s = self.root.now_ns / 1e9
 
     def _locate(self) -> None:
-        """Update the pose estimate with the localization error of the paper: 14 cm and 8 degrees."""
+        """Simulate localization: the true pose, with noise of the size of the paper's error, 14 cm and 8 degrees."""
         pose, draw = self.world.robot.pose, self._noise.gauss
         x, y, heading = pose.x + draw(0.0, 140.0), pose.y + draw(0.0, 140.0), pose.heading + draw(0.0, 8.4)
         self._located = Pose(x=x, y=y, heading=normalized(heading))

@@ -9,7 +9,7 @@ from field.camera import sees_ball, sees_net, view_of
 from field.geometry import ORIGIN, Point, Pose
 from field.kicks import kicked_velocity
 from field.pitch import Whereabouts
-from field.robot import Robot, Swing
+from field.robot import STANDING, Robot, Swing
 
 STEP_NS = 10_000_000
 REACHED_MM = 300.0
@@ -35,7 +35,7 @@ class Record:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Image:
-    """An image: positions of the visible objects in the frame of the robot (x ahead, y left, in mm)."""
+    """What a camera has in view: positions of objects in the frame of the robot (x ahead, y left, in mm); no pixels."""
 
     ball: Point | None
     net: Point | None
@@ -82,8 +82,13 @@ class World:
             self._steps += 1
             self._step()
 
+    def hold(self) -> None:
+        """Let legs and head stand still."""
+        self.robot.walk(STANDING)
+        self.robot.turn_head(0.0, 0.0)
+
     def look(self, *, is_bottom: bool) -> Image:
-        """Return the noise-free image of the top or bottom camera; empty while the robot lies."""
+        """Return what is in view of the top or bottom camera, without noise; nothing while the robot lies."""
         robot = self.robot
         view = view_of(robot.pan, robot.tilt, is_bottom=is_bottom)
         ball = robot.pose.to_local(self.ball.position)

@@ -10,10 +10,11 @@ class MeetingWorld(World):
     """A laser scanner, odometry and a differential drive that finds its way to a point."""
 
     published = ("ins",)
+    max_age = 0.5
 
     laser = Sensor("LASER", float, length=181, range=(0, 100), unit="m", max_age=0.5)
     """Distances from right (-90 degrees) to left (90 degrees)."""
-    ins = Sensor("INS", float, fields=("x", "y", "yaw"))
+    ins = Sensor("INS", float, fields=("x", "y", "yaw"), max_age=0.5)
     """Position in m; heading in degrees, counter-clockwise."""
     ground_truth = Sensor("GROUNDTRUTH", float, fields=("x", "y", "yaw"))
     robot_number = Sensor("NUMBER", int)

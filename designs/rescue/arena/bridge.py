@@ -1,17 +1,23 @@
 """What the rescue robot sends and obeys when `vicode bridge` drives it."""
 
+import math
+
 from arena.world import REGIONS
 from vicode.bridge import Command, Sensor, World, cached_per_tick
 
 
 class RescueWorld(World):
-    """A laser scanner, an inertial navigation system and a differential drive."""
+    """A laser scanner, an inertial navigation system and a differential drive.
+
+    The robot stands when nothing arrives for `max_age`, or when one of its sensors is lost.
+    """
 
     published = ("ins",)
+    max_age = 0.5
 
     laser = Sensor("LASER", float, length=(7, 1081), range=(0, 100), unit="m", max_age=0.5)
     """Distances from right (-90 degrees) to left (90 degrees)."""
-    ins = Sensor("INS", float, fields=("x", "y", "yaw"))
+    ins = Sensor("INS", float, fields=("x", "y", "yaw"), max_age=0.5)
     """Position in m; heading in degrees, counter-clockwise."""
     ground_truth = Sensor("GROUNDTRUTH", float, fields=("x", "y", "yaw"))
     number = Sensor("NUMBER", int)
@@ -58,8 +64,8 @@ class RescueWorld(World):
         return max(self.least_distances.values())
 
     def differential_drive(self, *, speed: float, turning_speed: float) -> None:
-        """Drive; a robot that steers by its laser stands while the distances are stale."""
-        if self._reads_laser and self.laser_is_stale:
+        """Drive; a robot that steers by its laser stands until there are distances."""
+        if self._reads_laser and self.laser_age == math.inf:
             self.drive(0.0, 0.0)
         elif self.time >= self._free_at:
             self.drive(speed, turning_speed)

@@ -70,6 +70,10 @@ class Corridor:
 
     # Simulation
 
+    def hold(self) -> None:
+        """Stop the motors."""
+        self._speed = self._turning_speed = 0.0
+
     @property
     def finished(self) -> bool:
         """Whether the robot has reached the end of the corridor."""

@@ -16,12 +16,16 @@ _AIMS = (0.0, -3.0, 3.0, -6.0, 6.0)
 _KICKS = ("kick_off", "kick_in", "free_kick", "indirect_free_kick", "goal_kick", "corner_kick", "goalie_catch_ball")
 _WAITING = ("before_kick_off", "goal", "half_time", "time_over", "time_up")
 _IMAGE_TIMEOUT_S = 0.05
+_SILENCE_S = 1.0
+"""After so long without a message, the program may check whether it has to end."""
 _REMEMBERED_CYCLES = 5
+_BUFFERED_CYCLES = 10
+"""After so many cycles at once, the buffer of the socket may have been full, and newer messages dropped."""
 _NEAREST_MATE, _FARTHEST_MATE = 4.0, 30.0
 
 
 class World:
-    """Connects to the server, and lets it set the pace: an iteration waits for the next cycle of the server.
+    """Connects to the server, which sets the pace (`clock: world`): one iteration is one cycle of the server.
 
     All values are in the view of the own team: its goal is at x = -52.5.
 
@@ -53,7 +57,7 @@ class World:
         self.mate_is_free = False
         self.mate_distance, self.mate_direction = _FAR, 0.0
         self.mate_to_ball = self.opponent_distance = _FAR
-        self.cycle = 0
+        self.cycle = self._server_time = 0
         self.goals = self.conceded = 0
         self._team, self._timeout_s = team, timeout_s
         self._is_synchronous = False
@@ -61,6 +65,8 @@ class World:
         self._ball_cycle = -10_000
         self._mates: list[tuple[int, complex]] = []
         self._body_command = self._neck_command = ""
+        self._sent_cycle = 0
+        self._silent_s = 0.0
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.settimeout(timeout_s)
         self._server = server
@@ -91,33 +97,51 @@ class World:
     # The run
 
     def now_ns(self) -> int:
-        """Return the time of the server, so that the world can be the clock of a root."""
+        """Return the time of the server."""
         return self.cycle * CYCLE_NS
 
-    def advance(self, now_ns: int) -> None:
-        """Wait until the server has begun the cycle at `now_ns`."""
-        while self.now_ns() <= now_ns and not self.finished:
-            self.send_commands()
+    def next_cycle(self) -> int:
+        """Send the commands unless they are sent, take the newest cycle, and return how many have begun."""
+        self.send_commands()
+        before = self.cycle
+        self.receive_cycle()
+        if self.cycle - before > _BUFFERED_CYCLES and not self._is_synchronous:
             self.receive_cycle()
+        return 0 if self.finished else self.cycle - before
+
+    def hold(self) -> None:
+        """Drop the commands of this cycle: a player who is not commanded slows down and stops."""
+        self._body_command = self._neck_command = ""
 
     def receive_cycle(self) -> None:
         """Take the messages of the newest cycle: in real time until the image, in synchronous mode until `(think)`."""
         has_begun = is_complete = False
         while not self.finished and (not is_complete or select.select([self._socket], [], [], 0)[0]):
-            self._socket.settimeout(_IMAGE_TIMEOUT_S if has_begun and not self._is_synchronous else self._timeout_s)
+            wait_s = min(_SILENCE_S, self._timeout_s)
+            if has_begun:
+                wait_s = self._timeout_s if self._is_synchronous else _IMAGE_TIMEOUT_S
+            self._socket.settimeout(wait_s)
             try:
                 kind = self.update(parse(self._socket.recv(8192).decode("utf-8", "replace").strip("\0")))
             except ValueError:
                 continue
-            except OSError as error:
-                self.finished = not (has_begun and isinstance(error, TimeoutError))
+            except TimeoutError:
+                self._silent_s += 0.0 if has_begun else wait_s
+                self.finished = self._silent_s >= self._timeout_s
                 break
+            except OSError:
+                self.finished = True
+                break
+            self._silent_s = 0.0
             if kind == "sense_body":
                 has_begun, is_complete = True, False
             is_complete = is_complete or (has_begun and kind == ("think" if self._is_synchronous else "see"))
 
     def send_commands(self) -> None:
         """Send the commands of this cycle; a server in synchronous mode continues when all players have sent theirs."""
+        if self._sent_cycle == self.cycle:
+            return
+        self._sent_cycle = self.cycle
         done = "(done)" if self._is_synchronous and self.cycle else ""
         for command in (self._body_command, self._neck_command, done):
             if command:
@@ -165,7 +189,10 @@ class World:
     def update(self, message: list[Any]) -> str:
         """Take a message of the server and return its kind."""
         match message:
-            case ["sense_body", _time, *fields]:
+            case ["sense_body", time, *fields]:
+                # The time stands still while the ball is not in play, and jumps if messages were lost.
+                self.cycle += max(1, int(time) - self._server_time) if self.cycle else 1
+                self._server_time = int(time)
                 self._sense({name: values for name, *values in fields})
             case ["see", _time, *objects]:
                 # Of objects that are far away, only the direction is seen.
@@ -177,7 +204,6 @@ class World:
         return str(message[0])
 
     def _sense(self, fields: dict[str, list[str]]) -> None:
-        self.cycle += 1
         self.stamina = float(fields["stamina"][0])
         self.speed = float(fields["speed"][0])
         self.neck = float(fields["head_angle"][0])

@@ -6,18 +6,20 @@
 #include "bica.hpp"
 
 namespace rescue {
+BICA_BEGIN
 
 /// With nothing farther away than this there is no way ahead (in m)
-inline constexpr double maximum_laser_value = 0.8;
+inline constexpr bica::Real maximum_laser_value = 0.8;
 /// In m/s
-inline constexpr double forward_speed = 0.4;
+inline constexpr bica::Real forward_speed = 0.4;
 /// Of the robot while it turns (in m/s)
-inline constexpr double curve_speed = 0.2;
+inline constexpr bica::Real curve_speed = 0.2;
 /// A wall at a side is near below this distance from the center of the robot (in m)
-inline constexpr double side_clearance = 0.45;
+inline constexpr bica::Real side_clearance = 0.45;
 /// Until what the sensors say is new; the thesis took 2 s, as its sensor data came late (in s)
-inline constexpr double settling_time = 0.2;
+inline constexpr bica::Real settling_time = 0.2;
 /// To the left; turned round it is to the right (in deg/s)
 inline constexpr std::int64_t turn_speed = 30;
 
+BICA_END
 }  // namespace rescue

@@ -2,6 +2,7 @@
 #include "rescue/drive_circle.hpp"
 
 namespace rescue {
+BICA_BEGIN
 
 drive_circle::drive_circle(
     bica::Root& root_,
@@ -73,4 +74,5 @@ BICA_INLINE void drive_circle::change_to(State next, const char* transition) {
     state_ = next;
 }
 
+BICA_END
 }  // namespace rescue

@@ -8,6 +8,7 @@
 #include "rescue/interfaces.hpp"
 
 namespace rescue {
+BICA_BEGIN
 
 /// Makes the robot drive a circle.
 class drive_circle final : public bica::Component {
@@ -21,7 +22,7 @@ public:
 
     State state() const { return state_; }
     void step() override;
-    const char* state_name() const override;
+    const char* state_name() const BICA_NAMED;
 
     // Used components
     Odometry& odometry;
@@ -41,4 +42,5 @@ private:
     State state_ = State::turn;
 };
 
+BICA_END
 }  // namespace rescue

@@ -7,42 +7,48 @@
 #include "rescue/declarations.hpp"
 
 namespace rescue {
+BICA_BEGIN
 
 /// What the robot program provides: inputs and basic behaviors.
 class World {
 public:
-    virtual ~World() = default;
     /// Turned since the start, either way (in deg, 0 to 100000)
-    virtual double amount_turned() = 0;
+    virtual bica::Real amount_turned() = 0;
     /// In m, 0 to 20
-    virtual double laser_max() = 0;
+    virtual bica::Real laser_max() = 0;
     /// In m, 0 to 20
-    virtual double laser_min_wnw() = 0;
+    virtual bica::Real laser_min_wnw() = 0;
     /// In m, 0 to 20
-    virtual double laser_min_nw() = 0;
+    virtual bica::Real laser_min_nw() = 0;
     /// In m, 0 to 20
-    virtual double laser_min_nnw() = 0;
+    virtual bica::Real laser_min_nnw() = 0;
     /// In m, 0 to 20
-    virtual double laser_min_n() = 0;
+    virtual bica::Real laser_min_n() = 0;
     /// In m, 0 to 20
-    virtual double laser_min_nne() = 0;
+    virtual bica::Real laser_min_nne() = 0;
     /// In m, 0 to 20
-    virtual double laser_min_ne() = 0;
+    virtual bica::Real laser_min_ne() = 0;
     /// In m, 0 to 20
-    virtual double laser_min_ene() = 0;
+    virtual bica::Real laser_min_ene() = 0;
     /// Both together say every movement that a simple robot can make.
-    virtual void differential_drive(double speed, double turning_speed) = 0;
+    virtual void differential_drive(bica::Real speed, bica::Real turning_speed) = 0;
     /// Take no other command for a while.
-    virtual void wait(double time) = 0;
+    virtual void wait(bica::Real time) = 0;
+
+protected:
+    ~World() = default;
 };
 
 /// Odometry
-class Odometry : public bica::Component {
+class Odometry final : public bica::Component {
 public:
     Odometry(bica::Root& root_, World& world) : bica::Component(root_, "Odometry"), world_(world) {}
+    void visit_inputs(bica::ValueVisitor& visitor) const BICA_NAMED {
+        visitor.visit("amount_turned", amount_turned());
+    }
 
     /// Turned since the start, either way (in deg, 0 to 100000)
-    double amount_turned() const { return world_.amount_turned(); }
+    bica::Real amount_turned() const { return world_.amount_turned(); }
 
 private:
     World& world_;
@@ -50,49 +56,59 @@ private:
 
 /// The least distance in each of seven regions, from west (left) to east (right), and the largest of the
 /// seven.
-class Laser : public bica::Component {
+class Laser final : public bica::Component {
 public:
     Laser(bica::Root& root_, World& world) : bica::Component(root_, "Laser"), world_(world) {}
+    void visit_inputs(bica::ValueVisitor& visitor) const BICA_NAMED {
+        visitor.visit("laser_max", laser_max());
+        visitor.visit("laser_min_wnw", laser_min_wnw());
+        visitor.visit("laser_min_nw", laser_min_nw());
+        visitor.visit("laser_min_nnw", laser_min_nnw());
+        visitor.visit("laser_min_n", laser_min_n());
+        visitor.visit("laser_min_nne", laser_min_nne());
+        visitor.visit("laser_min_ne", laser_min_ne());
+        visitor.visit("laser_min_ene", laser_min_ene());
+    }
 
     /// In m, 0 to 20
-    double laser_max() const { return world_.laser_max(); }
+    bica::Real laser_max() const { return world_.laser_max(); }
     /// In m, 0 to 20
-    double laser_min_wnw() const { return world_.laser_min_wnw(); }
+    bica::Real laser_min_wnw() const { return world_.laser_min_wnw(); }
     /// In m, 0 to 20
-    double laser_min_nw() const { return world_.laser_min_nw(); }
+    bica::Real laser_min_nw() const { return world_.laser_min_nw(); }
     /// In m, 0 to 20
-    double laser_min_nnw() const { return world_.laser_min_nnw(); }
+    bica::Real laser_min_nnw() const { return world_.laser_min_nnw(); }
     /// In m, 0 to 20
-    double laser_min_n() const { return world_.laser_min_n(); }
+    bica::Real laser_min_n() const { return world_.laser_min_n(); }
     /// In m, 0 to 20
-    double laser_min_nne() const { return world_.laser_min_nne(); }
+    bica::Real laser_min_nne() const { return world_.laser_min_nne(); }
     /// In m, 0 to 20
-    double laser_min_ne() const { return world_.laser_min_ne(); }
+    bica::Real laser_min_ne() const { return world_.laser_min_ne(); }
     /// In m, 0 to 20
-    double laser_min_ene() const { return world_.laser_min_ene(); }
+    bica::Real laser_min_ene() const { return world_.laser_min_ene(); }
 
 private:
     World& world_;
 };
 
 /// Both together say every movement that a simple robot can make.
-class differential_drive : public bica::Component {
+class differential_drive final : public bica::Component {
 public:
     struct Parameters {
         /// In m/s, -1 to 1
-        double speed = 0.0;
+        bica::Real speed = 0.0;
         /// Above 0 to the left (in deg/s, -90 to 90)
-        double turning_speed = 0.0;
+        bica::Real turning_speed = 0.0;
     };
 
     differential_drive(bica::Root& root_, World& world) : bica::Component(root_, "differential_drive"), world_(world) {}
 
     void modulate(const Parameters& values) { parameters = values; }
-    void visit_parameters(bica::ValueVisitor& visitor) const override {
+    void visit_parameters(bica::ValueVisitor& visitor) const BICA_NAMED {
         visitor.visit("speed", parameters.speed);
         visitor.visit("turning_speed", parameters.turning_speed);
     }
-    void visit_values(bica::ValueVisitor& visitor) const override {
+    void visit_values(bica::ValueVisitor& visitor) const BICA_NAMED {
         visitor.visit("speed", parameters.speed);
         visitor.visit("turning_speed", parameters.turning_speed);
     }
@@ -106,20 +122,20 @@ private:
 };
 
 /// Take no other command for a while.
-class wait : public bica::Component {
+class wait final : public bica::Component {
 public:
     struct Parameters {
         /// In s, 0 to 60
-        double time = 0.0;
+        bica::Real time = 0.0;
     };
 
     wait(bica::Root& root_, World& world) : bica::Component(root_, "wait"), world_(world) {}
 
     void modulate(const Parameters& values) { parameters = values; }
-    void visit_parameters(bica::ValueVisitor& visitor) const override {
+    void visit_parameters(bica::ValueVisitor& visitor) const BICA_NAMED {
         visitor.visit("time", parameters.time);
     }
-    void visit_values(bica::ValueVisitor& visitor) const override {
+    void visit_values(bica::ValueVisitor& visitor) const BICA_NAMED {
         visitor.visit("time", parameters.time);
     }
 
@@ -131,4 +147,5 @@ private:
     World& world_;
 };
 
+BICA_END
 }  // namespace rescue

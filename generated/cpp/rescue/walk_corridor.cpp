@@ -2,6 +2,7 @@
 #include "rescue/walk_corridor.hpp"
 
 namespace rescue {
+BICA_BEGIN
 
 walk_corridor::walk_corridor(
     bica::Root& root_,
@@ -152,4 +153,5 @@ BICA_INLINE void walk_corridor::change_to(State next, const char* transition) {
     state_ = next;
 }
 
+BICA_END
 }  // namespace rescue

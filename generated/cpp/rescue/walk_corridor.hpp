@@ -8,6 +8,7 @@
 #include "rescue/interfaces.hpp"
 
 namespace rescue {
+BICA_BEGIN
 
 /// Uses the data from the laser sensor to walk through a corridor as good as possible, without bumping into
 /// the walls.
@@ -29,7 +30,7 @@ public:
 
     State state() const { return state_; }
     void step() override;
-    const char* state_name() const override;
+    const char* state_name() const BICA_NAMED;
 
     // Used components
     Laser& laser;
@@ -49,4 +50,5 @@ private:
     State state_ = State::decide_movement;
 };
 
+BICA_END
 }  // namespace rescue

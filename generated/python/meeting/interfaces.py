@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from vicode.bica import Component
+from vicode.bica import Component, arithmetic
 
 if TYPE_CHECKING:
     from vicode.bica import Root
@@ -17,7 +17,7 @@ class Robot(Component):
     @property
     def number(self) -> int:
         """Number of the robot in the team (1 to 4)"""
-        return int(self.world.robot_number)
+        return arithmetic.limit(int(self.world.robot_number))
 
     @property
     def arrived(self) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from vicode.bica import Component, State
+from vicode.bica import Component, State, arithmetic
 
 from .declarations import lane, meeting_x, waiting_x
 from .interfaces import Robot, differential_drive, drive_to
@@ -41,7 +41,7 @@ class meet(Component):
         if decide and bool(self.world.arrived):
             self._change_to("wait_at_door")
             return
-        self._call(self.drive_to, x=waiting_x, y=lane * (5 - int(self.world.robot_number)))
+        self._call(self.drive_to, x=waiting_x, y=lane * (5 - arithmetic.limit(int(self.world.robot_number))))
 
     def _in_wait_at_door(self, decide: bool = True) -> None:
         if decide and True:
@@ -63,7 +63,7 @@ class meet(Component):
         if decide and bool(self.world.arrived):
             self._change_to("wait_for_others")
             return
-        self._call(self.drive_to, x=meeting_x, y=lane * int(self.world.robot_number))
+        self._call(self.drive_to, x=meeting_x, y=lane * arithmetic.limit(int(self.world.robot_number)))
 
     def _in_wait_for_others(self, decide: bool = True) -> None:
         if decide and True:

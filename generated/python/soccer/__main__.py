@@ -14,4 +14,4 @@ COMPONENTS = {
 }
 
 if __name__ == "__main__":
-    sys.exit(run_project(COMPONENTS, world="rcss.world:World"))
+    sys.exit(run_project(COMPONENTS, world="rcss.world:World", clock="world"))

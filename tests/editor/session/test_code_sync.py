@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from vicode.editor.session import DocumentSession, Workspace, code_sync
+from vicode.editor.session.code_generation import choose_texts
 from vicode.editor.session.code_sync import OutdatedChoiceError
 from vicode.editor.session.edits import apply_edit
 from vicode.editor.session.gestures import RenameGesture
@@ -268,3 +269,37 @@ def test_broken_marks_are_a_finding(workspace: Workspace, player: DocumentSessio
     edit_file(file, "x = 1\n", "# </vicode>\n")
     code_sync.follow_generated_files(workspace)
     assert {finding.rule.code for finding in player.shared.outside.findings} == {"G503"}
+
+
+def test_markers_of_a_merge_are_a_problem(workspace: Workspace, player: DocumentSession, file: Path) -> None:
+    before = player.design
+    edit_file(
+        file, "<<<<<<< HEAD\n    self.a = 1\n=======\n    self.a = 2\n>>>>>>> other\nclass Player", "class Player"
+    )
+    code_sync.follow_generated_files(workspace)
+    (problem,) = player.shared.outside.problems
+    assert problem.rule.code == "G505"
+    assert code_sync.find_lacking(workspace, "Player") == (player,)
+    assert player.design is before
+    text = file.read_text()
+    assert not workspace.generate(player).is_complete
+    assert file.read_text() == text
+
+
+@pytest.mark.parametrize(("side", "kept"), [("file", "77"), ("design", "88"), ("third", "99")])
+def test_a_text_is_chosen_for_lines_that_both_sides_changed(
+    workspace: Workspace, player: DocumentSession, file: Path, side: str, kept: str
+) -> None:
+    edit_file(file, "if self.perception.fallen and 1 < 77:", "if self.perception.fallen:")
+    text = player.file.read_text()
+    player.file.write_text(text.replace("when: perception.fallen,", "when: perception.fallen and 1 < 88,"))
+    workspace.sync_from_disk()
+    (reading,) = workspace.prepare_output(player).readings
+    assert reading.words == ()
+    (conflict,) = reading.rebased.conflicts
+    third = conflict.file_text.replace("77", "99")
+    chosen = {"file": conflict.file_text, "design": conflict.design_text, "third": third}[side]
+    read = choose_texts(reading, {conflict: chosen})
+    assert code_sync.apply_to_design(player, read.base, read.design, read.words) or side == "design"
+    workspace.save(player)
+    assert f"perception.fallen and 1 < {kept}" in player.file.read_text()

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import re
 import tempfile
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from vicode.editor.session.language_comparison import ComparisonError, ComparisonProcess
-from vicode.model.design import Design
+from vicode.model.design import CommonSection, Design
 from vicode.model.project import Project
 from vicode.simulation.isolation import isolation_problem
 from vicode.simulation.language_comparison import LanguageComparison, verdict
@@ -77,8 +78,13 @@ def test_the_design_of_the_editor_is_compared_and_not_its_file(tmp_path: Path, t
     languages: list[str] = []
     code = "{code: {python: self.n -= 1, cpp: n -= 2;}}"
     result = compare(tmp_path / "p", code, languages.append, change=without_code)
-    assert verdict(result) == "Python, C++, XABSL and simulator agree in 500 iterations of 5 runs"
-    assert languages == ["python", "cpp", "xabsl", "simulator"]
+    assert re.fullmatch(
+        r"reference, Python, C\+\+, XABSL and simulator agree in 500 iterations of \d+ runs", verdict(result)
+    )
+    assert result.coverage is not None
+    assert result.coverage.never == ()
+    assert result.coverage.summary.startswith("2 of 2 guards true and false, 2 of 2 transitions, 2 of 2 states")
+    assert languages == ["reference", "python", "cpp", "xabsl", "simulator"]
     assert not list(temporary.iterdir())
     assert sorted(path.name for path in (tmp_path / "p").iterdir()) == ["counter.yaml", "project.yaml"]
 
@@ -86,7 +92,11 @@ def test_the_design_of_the_editor_is_compared_and_not_its_file(tmp_path: Path, t
 def test_a_difference_has_the_inputs_and_both_traces(tmp_path: Path) -> None:
     result = compare(tmp_path / "p", "{code: {python: self.n -= 1, cpp: n -= 2;}}")
     (difference,) = result.differences
-    assert (difference.languages, difference.component, difference.field) == (("python", "cpp"), "Counter", "values.n")
+    assert (difference.languages, difference.component, difference.field) == (
+        ("reference", "cpp"),
+        "Counter",
+        "values.n",
+    )
     assert [each.name for each in difference.inputs] == ["Eye.distance"]
     left, right = difference.rows[-1]
     assert left.text != right.text
@@ -98,7 +108,7 @@ def test_a_difference_has_the_inputs_and_both_traces(tmp_path: Path) -> None:
 
 def test_code_that_does_not_compile_leaves_the_other_languages(tmp_path: Path) -> None:
     result = compare(tmp_path / "p", "{code: {python: self.n -= 1, cpp: no such thing;}}")
-    assert result.languages == ("python", "simulator")
+    assert result.languages == ("reference", "python", "simulator")
     (failed,) = result.failed
     assert failed.language == "cpp"
     assert failed.reason.startswith("the generated C++ does not compile\n")
@@ -111,7 +121,12 @@ def test_code_is_compiled_and_run_in_the_sandbox(tmp_path: Path) -> None:
         "python": f"import os\nself.n -= os.path.exists('{secret}')",
         "cpp": f'if (std::fopen("{secret}", "r")) n -= 2;\n#if __has_include("{secret}")\nn -= 4;\n#endif\n',
     }
-    result = compare(tmp_path / "p", json.dumps({"code": code}))
+
+    def run_in_each_iteration(design: Design) -> Design:
+        """Inputs are chosen that avoid code which the reference interpreter cannot run: here none can."""
+        return replace(design, common=CommonSection(actions=design.states[1].actions))
+
+    result = compare(tmp_path / "p", json.dumps({"code": code}), change=run_in_each_iteration)
     # Without user namespaces, code sees the file, and each language counts differently.
     assert bool(result.differences) == bool(isolation_problem())
     assert set(result.languages) == {"python", "cpp", "simulator"}

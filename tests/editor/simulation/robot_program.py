@@ -108,7 +108,7 @@ def running_robot(folder: Path, *, control: bool = True, port: int = 0) -> Itera
         module, _colon, name = python_class_path(opened.project, "Lamp").partition(":")
         component: type[Component] = getattr(importlib.import_module(module), name)
         root = Root(component, clock=SimulatedClock())
-        program = RobotProgram(folder, root, root.watch(port, control=control, token="right"))
+        program = RobotProgram(folder, root, root.watch(port, control=control, without_hold=True, token="right"))
         try:
             yield program
         finally:

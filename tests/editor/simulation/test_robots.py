@@ -241,6 +241,34 @@ def test_the_last_window_that_leaves_ends_the_connection(folder: Path, monkeypat
         attach(program, act)
 
 
+def test_a_value_that_was_written_back_is_no_other_version(folder: Path) -> None:
+    project, _lamp = project_and_lamp(folder)
+    constant = project.constants[0]
+
+    def with_value(text: str) -> Project:
+        return replace(project, constants=(replace(constant, initial=text), *project.constants[1:]))
+
+    async def act(link: RobotLink) -> None:
+        await first_iteration(link)
+        robot = link.robot
+        assert robot is not None
+        key, sources = ("", constant.name), {"Lamp": "lamp.yaml"}
+        robot.remember_written(key, constant.initial, "11")
+        robot.remember_written(key, "11", "12")
+        found = [
+            find_other_versions(with_value(text), sources, robot.description, robot.written)
+            for text in (constant.initial, "12", "13")
+        ]
+        assert found == [(), (), ("declarations.py",)]
+        robot.held["Lamp", "limit"] = 3
+        robot.remember_written(("Lamp", "limit"), "1", "3")
+        robot.release_all()
+        assert robot.written == {key: (constant.initial, "12")}
+
+    with running_robot(folder) as program:
+        attach(program, act)
+
+
 def test_another_version_of_the_design_is_noticed(folder: Path) -> None:
     project, lamp = project_and_lamp(folder)
 

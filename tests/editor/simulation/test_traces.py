@@ -144,7 +144,7 @@ states:
     modulates: {task: {}}
     transitions:
       - {to: Rest, when: action_done and done(task)}
-      - {to: Alone, when: conflict or state_time > 9}
+      - {to: Alone, when: conflict or state_time > 9 or team_size > 1}
   Rest:
     transitions:
       - {to: Order, when: not done(task) and not action_done, after: 0.05}
@@ -161,7 +161,7 @@ states:
 """
 
 
-def test_done_action_done_and_conflict_are_known_in_a_trace(tmp_path: Path) -> None:
+def test_done_action_done_conflict_and_the_size_of_the_team_are_known_in_a_trace(tmp_path: Path) -> None:
     (tmp_path / "project.yaml").write_text("vicode: 1\nproject: Office\n", encoding="utf-8")
     for name, text in (("boss.yaml", BOSS), ("task.yaml", TASK)):
         (tmp_path / name).write_text(text, encoding="utf-8")

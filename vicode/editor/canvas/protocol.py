@@ -1,7 +1,7 @@
 """Data exchanged with the canvas in the browser: scenes and scene changes to it, gestures from it."""
 
 from collections.abc import Awaitable, Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypedDict, get_args
 
 from vicode.editor.session.decoding import MalformedEventError, decode, decode_event
@@ -40,6 +40,8 @@ class OpenGesture:
 
     kind: ClassVar = "open"
     item: ItemRef
+    is_open: bool = field(default=False, metadata={"json": "isOpen"})
+    """Whether the browser has opened it already."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

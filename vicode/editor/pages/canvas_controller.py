@@ -30,12 +30,11 @@ from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import EditResult, apply_edit, clipboard, rebase_gesture, rebase_selection
 from vicode.editor.session.edits import RequestedEdit, canvas_point
 from vicode.editor.session.gestures import NoteGesture
-from vicode.editor.view import ItemRef, Scene, parse_transition_key, tooltip_sections
+from vicode.editor.view import ItemRef, Scene, tooltip_sections
 from vicode.editor.view.page_urls import design_url
 from vicode.model.design import Point
 from vicode.model.edits import add_use
 from vicode.model.merge import find_renamed_states
-from vicode.model.traversal import find_decision
 
 # The field appears when its code editor has loaded, a large script.
 _FOCUS_NOTE = """
@@ -45,14 +44,6 @@ _FOCUS_NOTE = """
   else if (left > 0) setTimeout(() => focus(left - 1), 50);
 })(40);
 """
-_FOCUS_FIELD = """
-(function focus(left) {
-  const field = document.querySelector(`.inspector %s`);
-  if (field) field.focus();
-  else if (left > 0) setTimeout(() => focus(left - 1), 50);
-})(100);
-"""
-_GUARD_FIELD, _TIMER_FIELD = ".expression-field .cm-content", 'input[aria-label^="After ("]'
 
 _MENU_GROUPS = {CommandGroup.VIEW: MenuGroup.VIEW, CommandGroup.NAVIGATE: MenuGroup.VIEW}
 # Commands of the page that the menu and the keys of the canvas trigger.
@@ -132,9 +123,10 @@ class CanvasController:
             case SelectGesture():
                 # The click may have committed a name that was being typed: the item may have a new name.
                 rebased = self._rebase(gesture, rev)
+                self.context.selection_seq = gesture.client_seq
                 self.context.select(*(rebased.items if rebased else ()))
             case OpenGesture():
-                self._open(gesture.item)
+                self._open(gesture.item, is_open=gesture.is_open)
             case CommandGesture():
                 self.page_commands.get(gesture.name, lambda: None)()
             case CopyGesture() | TooltipGesture() | InsideGesture():
@@ -225,13 +217,11 @@ class CanvasController:
     def _share_pointer(self, at: Point | None) -> None:
         self.context.presence.update(self.context.window, pointer=at)
 
-    def _open(self, item: ItemRef) -> None:
+    def _open(self, item: ItemRef, *, is_open: bool) -> None:
         if item.kind in ("transitions", "common"):
-            located = find_decision(self.context.design, parse_transition_key(item.id))
-            guard = located.decision.guard if located is not None else None
-            is_timer = guard is not None and guard.after and not guard.when
+            self.context.is_opening = not is_open
             self.context.select(item)
-            ui.run_javascript(_FOCUS_FIELD % (_TIMER_FIELD if is_timer else _GUARD_FIELD))
+            self.context.notify_subscribers()
             return
         if item.kind == "notes":
             self.context.select(item)

@@ -1,13 +1,14 @@
 """Keyboard shortcuts of a page, independent of the focus."""
 
+import inspect
 import json
-from collections.abc import Sequence
+from collections.abc import Coroutine, Sequence
 from pathlib import Path
 
 from nicegui import ui
 
 from vicode.editor.pages.form_input_preservation import preserve_form_input
-from vicode.editor.panels.command import Command
+from vicode.editor.panels.command import Command, CommandHandler
 
 ESCAPE_ATTRIBUTE = "data-escape-clicks"
 """Attribute of a button that Escape clicks while the button is visible, independent of the focus."""
@@ -18,8 +19,14 @@ _TYPE_AHEAD = Path(__file__).with_name("type_ahead.js")
 _SHORTCUT_SCRIPT = """
 <script>
 // A dialog opened by a key appears with a delay. Escape pressed before that closes it when it appears.
-let requestedMs = -Infinity, isCancelled = false;
-const isPending = () => performance.now() - requestedMs < 2000 && !document.querySelector(".q-dialog");
+let pendingCommands = 0, isCancelled = false;
+const isPending = () => pendingCommands > 0 && !document.querySelector(".q-dialog");
+const endCommand = () => {
+  pendingCommands = Math.max(pendingCommands - 1, 0);
+  isCancelled &&= pendingCommands > 0;
+};
+// The server reports the end of a command; a dialog that it opened is drawn within two frames.
+addEventListener("vicode-command-end", () => requestAnimationFrame(() => requestAnimationFrame(endCommand)));
 const cancelDialog = (left) => {
   if (left > 0 && document.querySelector(".q-dialog")) {
     dispatchEvent(new KeyboardEvent("keydown", { key: "Escape", keyCode: 27, bubbles: true }));
@@ -29,7 +36,7 @@ const cancelDialog = (left) => {
 };
 new MutationObserver(() => {
   if (!isCancelled || !document.querySelector(".q-dialog")) return;
-  if (performance.now() - requestedMs < 2000) cancelDialog(20);
+  cancelDialog(100);
   isCancelled = false;
 }).observe(document.body, { childList: true });
 document.addEventListener("pointerdown", () => (isCancelled = false), true);
@@ -52,22 +59,21 @@ document.addEventListener("keydown", (event) => {
   const writes = event.key.length === 1 && !event.ctrlKey && !event.metaKey && !event.altKey;
   if (!command || (types && !command.typing) || (writes && event.target.closest?.(".vicode-table"))) return;
   event.preventDefault();
-  requestedMs = performance.now();
   // A command that the browser can start alone cancels the event.
   if (!dispatchEvent(new CustomEvent("vicode-command", { detail: command.name, cancelable: true }))) return;
+  pendingCommands += 1;
   // The page is visible before its connection is open; commands wait for the connection.
   const send = () => (window.did_handshake ? emitEvent("command-" + command.name) : setTimeout(send, 10));
   // Fields send typed text after a pause. Send it now, before the command.
-  if (event.target.matches?.("input, textarea")) event.target.dispatchEvent(new Event("change", { bubbles: true }));
+  dispatchEvent(new Event("vicode-send-text"));
   queueMicrotask(send);
 }, true);
-// Send typed text before the page shows another design or unloads, as the pause would be cut short.
+// Send typed text before a command, and before the page shows another design or unloads: the pause would be cut short.
 const sendText = () => {
   const field = document.activeElement;
   if (field?.matches("input, textarea")) field.dispatchEvent(new Event("change", { bubbles: true }));
 };
-addEventListener("vicode-leave", sendText);
-addEventListener("beforeunload", sendText);
+for (const event of ["vicode-send-text", "vicode-leave", "beforeunload"]) addEventListener(event, sendText);
 </script>
 """
 
@@ -81,7 +87,29 @@ def register_shortcuts(commands: Sequence[Command]) -> None:
         for keys in command.keys:
             shortcuts[keys] = {"name": command.name, "typing": command.while_typing}
         if command.keys:
-            ui.on(f"command-{command.name}", command.handler)
+            ui.on(f"command-{command.name}", _reporting_end(command.handler))
     preserve_form_input()
     ui.add_body_html(f"<script>\n{_TYPE_AHEAD.read_text(encoding='utf-8')}</script>")
     ui.add_body_html(_SHORTCUT_SCRIPT.replace("COMMANDS", json.dumps(shortcuts)).replace("ESCAPE", ESCAPE_ATTRIBUTE))
+
+
+def _reporting_end(handler: CommandHandler) -> CommandHandler:
+    def handle() -> object:
+        result = handler()
+        if inspect.iscoroutine(result):
+            return _finish(result)
+        _report_end()
+        return None
+
+    return handle
+
+
+async def _finish(running: Coroutine[object, object, object]) -> None:
+    try:
+        await running
+    finally:
+        _report_end()
+
+
+def _report_end() -> None:
+    ui.run_javascript('dispatchEvent(new Event("vicode-command-end"))')

@@ -6,11 +6,12 @@ from dataclasses import replace
 from nicegui import ui
 
 from vicode.editor.panels.code_field import pairs_field
-from vicode.editor.panels.code_language_tabs import code_fields, replace_text
+from vicode.editor.panels.code_language_tabs import code_fields
 from vicode.editor.panels.fields import Attribute, attribute_binding
 from vicode.editor.panels.form import Form, ItemRows, Rows
 from vicode.editor.panels.widgets import add_button, reorder_buttons
 from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.forms.fields import replace_text
 from vicode.editor.session.item_paths import TrackedItem, item_at
 from vicode.model.design import Action, Assign, Call, Declaration, RunCode
 from vicode.model.expressions import build_scope

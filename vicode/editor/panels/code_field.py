@@ -38,7 +38,6 @@ class CodeFieldSpec:
     find_marks: Callable[[str], Sequence[CodeMark]]
     css_class: str
     is_expression: bool = True
-    is_single: bool = False
     mode: Literal["Python", "C++", "C"] = "Python"
     open_in_editor: Callable[[], None] | None = None
 
@@ -69,18 +68,6 @@ def code_field(form: Form, binding: FieldBinding, language: str = "python") -> F
         is_expression=False,
         mode=LANGUAGES[language].editor_mode,
         open_in_editor=lambda: open_in_editor(context, binding.get_path(), language),
-    )
-    return add_field(form, _build(context, binding, spec))
-
-
-def expression_field(form: Form, binding: FieldBinding) -> Field:
-    """Build a field for one expression, which may have several lines."""
-    context = form.context
-    spec = CodeFieldSpec(
-        complete=lambda text, at: complete_expression(context.workspace.project, context.design, text, at),
-        find_marks=lambda text: mark_text(text, binding.get_path(), context.document.findings),
-        css_class="code-field expression-field",
-        is_single=True,
     )
     return add_field(form, _build(context, binding, spec))
 
@@ -120,7 +107,6 @@ def _build(
             label=binding.label,
             complete=spec.complete,
             is_expression=spec.is_expression,
-            is_single=spec.is_single,
             hint=binding.hint,
         )
         messages = ui.column().classes("field-messages").props('role="status"')

@@ -9,9 +9,10 @@ from vicode.editor.panels import texts
 from vicode.editor.panels.code_field import code_field
 from vicode.editor.panels.fields import Attribute, FieldBinding, attribute_binding
 from vicode.editor.panels.form import Form, Rows
+from vicode.editor.session.forms.decision_form import CODE_HINTS
+from vicode.editor.session.forms.fields import replace_text
 from vicode.editor.session.item_paths import TrackedItem
 from vicode.languages import LANGUAGES, language_title
-from vicode.model.design import Code
 
 
 def code_fields(
@@ -73,17 +74,4 @@ def _binding(item: TrackedItem, name: str, label: str, language: str) -> FieldBi
         format=lambda code: (code.in_language(language) if code else "") or "",
         parse=lambda text: replace_text(getattr(item.get(), name), language, text),
     )
-    hint = {"python": texts.CODE_HINT, "cpp": texts.CPP_CODE_HINT}.get(language, "")
-    return replace(attribute_binding(item, attribute), hint=hint)
-
-
-def replace_text(code: Code | None, language: str, text: str) -> Code:
-    """Replace the text in one language; texts in other languages stay. Without any text, the Python text is empty."""
-    # A YAML block of several lines ends with a newline; a single line does not.
-    ended = text + "\n" if "\n" in text and not text.endswith("\n") else text
-    texts_ = dict(code.texts if code else ())
-    if text.strip():
-        python = {"python": ended} if language == "python" else {}
-        return Code(texts=tuple({**python, **texts_, language: ended}.items()))
-    texts_.pop(language, None)
-    return Code(texts=tuple((texts_ or {"python": text if language == "python" else ""}).items()))
+    return replace(attribute_binding(item, attribute), hint=CODE_HINTS.get(language, ""))

@@ -8,7 +8,7 @@ from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.simulation.trust_dialog import COMPARE, ask_for_trust
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.language_comparison import RUNS, ComparisonError, ComparisonProcess
+from vicode.editor.session.language_comparison import ComparisonError, ComparisonProcess
 from vicode.simulation.language_comparison import LANGUAGE_TITLES, LanguageComparison, verdict
 
 _LANGUAGES = tuple(LANGUAGE_TITLES)
@@ -24,7 +24,7 @@ class ComparisonDialog:
         self._language = ""
         self._result: LanguageComparison | None = None
         self._error = ""
-        self._first_seed = 0
+        self._seed = 0
         self._rev = -1
         self._dialog: ui.dialog | None = None
         context.closings.subscribe(self.cancel)
@@ -51,10 +51,10 @@ class ComparisonDialog:
         if process is not None:
             process.cancel()
 
-    def _start(self, first_seed: int = 0) -> None:
+    def _start(self, seed: int = 0) -> None:
         """Start, unless it is started already and may be waiting for an answer of the user."""
         if self._started is None:
-            self._started, self._first_seed = object(), first_seed
+            self._started, self._seed = object(), seed
             self._context.run_in_background(self._compare(self._started), "compare languages")
 
     async def _compare(self, started: object) -> None:
@@ -75,7 +75,7 @@ class ComparisonDialog:
             project=context.workspace.project,
             design=context.design,
             folder=context.workspace.folder,
-            first_seed=self._first_seed,
+            seed=self._seed,
             on_language=self._show_progress,
         )
         self._process, self._rev, self._language = process, context.document.rev, ""
@@ -147,9 +147,9 @@ class ComparisonDialog:
             else:
                 if self._rev != self._context.document.rev:
                     ui.label(texts.COMPARISON_OUTDATED).classes("field-finding is-info")
-                ComparisonView(self._context, self._result, self._first_seed, self._close).build()
+                ComparisonView(self._context, self._result, self._seed, self._close).build()
         with self._buttons:
             ui.button("Close", on_click=self._close).props("flat no-caps")
-            primary_button("Compare again", lambda: self._start(self._first_seed + RUNS)).props["aria-label"] = (
+            primary_button("Compare again", lambda: self._start(self._seed + 1)).props["aria-label"] = (
                 "Compare again, with other inputs"
             )

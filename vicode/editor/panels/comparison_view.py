@@ -8,15 +8,18 @@ from nicegui import ui
 from vicode.editor.panels import texts
 from vicode.editor.panels.open_design import open_design
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.language_comparison import ITERATIONS
 from vicode.editor.view import ItemRef, item_at_path
 from vicode.editor.view.page_urls import design_url
 from vicode.simulation.language_comparison import (
     LANGUAGE_TITLES,
     AbsentLanguage,
+    CoverageCount,
+    InputCoverage,
     LanguageComparison,
     LanguageDifference,
+    NeverSeen,
     TraceCell,
+    as_design_path,
     verdict,
 )
 
@@ -30,7 +33,7 @@ class ComparisonView:
 
     context: WindowContext
     result: LanguageComparison
-    first_seed: int
+    seed: int
     close: Callable[[], None]
 
     def build(self) -> None:
@@ -38,29 +41,55 @@ class ComparisonView:
         is_good = not result.differences and not result.failed and len(result.languages) > 1
         with ui.element("div").classes("comparison-verdict" + (" is-good" if is_good else "")).props('role="status"'):
             ui.icon("check_circle" if is_good else "error").props('aria-hidden="true"')
-            ui.label(verdict(result))
-        ui.label(texts.comparison_inputs(self.first_seed, result.runs, ITERATIONS)).classes("small")
+            ui.label(texts.sentence(verdict(result)))
+        ui.label(texts.comparison_inputs(self.seed)).classes("small")
         different = {difference.languages[1] for difference in result.differences}
         with ui.element("div").classes("comparison-languages").props('role="list"'):
-            for language in result.languages if different and "python" in result.languages else ():
-                if language != "python":
-                    words = "differs from Python" if language in different else "agrees with Python"
-                    ui.label(f"{_title(language)} {words}").props('role="listitem"')
+            first = LANGUAGE_TITLES.get(result.baseline, "")
+            for language in result.languages if different else ():
+                if language != result.baseline:
+                    words = "differs from" if language in different else "agrees with"
+                    ui.label(f"{_title(language)} {words} {first}").props('role="listitem"')
             for absent in result.failed:
                 self._add_absent(absent, "fails: ", "is-failed")
             for absent in result.absent:
                 self._add_absent(absent, "is not compared: ", "")
+            for limited in result.limited:
+                self._add_absent(limited, "is not compared ", "")
+            for partial in result.partial:
+                ui.label(f"{_title(partial.language)} is compared in {partial.reason}").props('role="listitem"')
         for difference in result.differences:
             self._add_difference(difference)
+        if result.coverage is not None:
+            self._add_coverage(result.coverage)
 
     def _add_absent(self, absent: AbsentLanguage, words: str, css_class: str) -> None:
         title = _title(absent.language)
         with ui.element("div").classes(f"comparison-language {css_class}").props('role="listitem"'):
             ui.label(f"{title} {words}{absent.reason}")
-            item = _item_at(absent.path)
+            item = item_at_path(as_design_path(absent.path))
             if self._exists(absent.component, item):
                 name = item.id or absent.component
                 self._link("Show", f"Show {name}, for which {title} {words.rstrip(': ')}", absent.component, item)
+
+    def _add_coverage(self, coverage: InputCoverage) -> None:
+        with ui.element("section").classes("comparison-coverage").props('aria-label="Coverage of the inputs"'):
+            with ui.element("table"), ui.element("tbody"):
+                for count in coverage.counts:
+                    _add_count(count)
+            if coverage.never:
+                self._add_never(coverage.never)
+
+    def _add_never(self, never: tuple[NeverSeen, ...]) -> None:
+        with ui.element("div").classes("comparison-never").props('role="list" aria-label="Never"'):
+            for each in never[:_MAX_INPUTS]:
+                with ui.element("div").classes("comparison-language").props('role="listitem"'):
+                    ui.label(f"Never {each.outcome}: {each.text}"[:_MAX_TEXT])
+                    item = item_at_path(as_design_path(each.path))
+                    if each.path and self._exists(each.component, item):
+                        self._link("Show", f"Show {each.text}", each.component, item)
+            if len(never) > _MAX_INPUTS:
+                ui.label(texts.more(len(never) - _MAX_INPUTS, "goals"))
 
     def _add_difference(self, difference: LanguageDifference) -> None:
         titles = tuple(LANGUAGE_TITLES.get(each, each) for each in difference.languages)
@@ -140,12 +169,14 @@ class ComparisonView:
             self.context.page.reveal(item)
 
 
+def _add_count(count: CoverageCount) -> None:
+    with ui.element("tr").classes("" if count.seen < count.total else "is-complete"):
+        with ui.element("th").props('scope="row"'):
+            ui.label(texts.sentence(count.kind))
+        with ui.element("td"):
+            ui.label(f"{count.seen} of {count.total}")
+
+
 def _title(language: str) -> str:
     """The title at the beginning of a sentence."""
     return texts.sentence(LANGUAGE_TITLES.get(language, language))
-
-
-def _item_at(path: tuple[str, ...]) -> ItemRef:
-    """The item at a path of a message, in which numbers are texts."""
-    parts = tuple(int(part) if at > 1 and part.isdecimal() else part for at, part in enumerate(path))
-    return item_at_path(parts)

@@ -9,10 +9,11 @@ from vicode.editor.panels.form import Form, Rows
 from vicode.editor.panels.texts import NO_TRANSITIONS
 from vicode.editor.panels.widgets import add_button, reorder_buttons
 from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.forms.decision_form import decision_target
 from vicode.editor.session.item_paths import TrackedItem
 from vicode.editor.view import ItemRef, guard_label, transition_key
 from vicode.findings import DesignPath
-from vicode.model.design import COMMON, Decision, DecisionGroup, Guard, Stay, Transition
+from vicode.model.design import COMMON, Decision, DecisionGroup, Guard, Stay
 from vicode.model.edits import add_transition, decisions_path, remove_decisions, reorder_decision
 
 _MAX_STATES_IN_MENU = 60
@@ -91,24 +92,14 @@ def _row(context: WindowContext, dragging: DraggableRows, path: DesignPath, item
         button = ui.element("button").classes("decision").props('type="button"')
         with button.on("click", _opener(context, ItemRef(kind="transitions", id=transition_key(path)))):
             ui.label(f"{index + 1}").classes("order")
-            ui.label(_target(item) + (" (disabled)" if item.disabled else "")).classes("decision-target")
+            ui.label(decision_target(item) + (" (disabled)" if item.disabled else "")).classes("decision-target")
             ui.label(guard_label(item.guard, context.design.time_unit) or "always").classes("decision-guard mono")
         reorder_buttons(
-            f"{index + 1} {_target(item)}",
+            f"{index + 1} {decision_target(item)}",
             up=None if index == 0 else _mover(context, path, index - 1),
             down=None if is_last else _mover(context, path, index + 1),
             remove=_remover(context, path),
         )
-
-
-def _target(item: Decision) -> str:
-    match item:
-        case Transition(to=to):
-            return f"→ {to}"
-        case Stay():
-            return "stay"
-        case DecisionGroup():
-            return "if"
 
 
 def _opener(context: WindowContext, decision_ref: ItemRef) -> Callable[[], None]:

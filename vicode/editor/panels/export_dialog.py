@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from nicegui import run, ui
 
-from vicode.diagram.export_formats import EXPORT_FORMATS, ExportFormat, ExportOptions
+from vicode.diagram.export_formats import EXPORT_FORMATS, ExportFormat, ExportOptions, NotExportableError
 from vicode.editor.panels import texts
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.dialogs import titled_dialog
@@ -101,13 +101,19 @@ def _show_preview(context: WindowContext, form: ExportFormat, options: ExportOpt
         return
 
     async def draw() -> None:
-        content = await run.io_bound((form if form.is_text else _SVG).write, context.design, options)
+        content, problem = None, ""
+        try:
+            content = await run.io_bound((form if form.is_text else _SVG).write, context.design, options)
+        except NotExportableError as error:
+            problem = str(error)
         # The user may have chosen other options or closed the dialog.
-        if content is None or container.is_deleted:
+        if container.is_deleted or not (content or problem):
             return
         container.clear()
         with container:
-            if form.is_text:
+            if content is None:
+                ui.label(problem).classes("empty").props('role="status"')
+            elif form.is_text:
                 ui.label(content.decode()).classes("mono export-text")
             else:
                 image = ui.element("img").props('alt="Preview of the exported diagram"')
@@ -124,7 +130,11 @@ def _copier(context: WindowContext, form: ExportFormat) -> Callable[[], None]:
 
 
 def _copy(context: WindowContext, form: ExportFormat, options: ExportOptions) -> None:
-    text = json.dumps(form.write(context.design, options).decode())
+    try:
+        text = json.dumps(form.write(context.design, options).decode())
+    except NotExportableError as error:
+        context.show_toast(str(error), "warning")
+        return
 
     async def write() -> None:
         try:
@@ -142,7 +152,11 @@ def _copy(context: WindowContext, form: ExportFormat, options: ExportOptions) ->
 def _download(context: WindowContext, form: ExportFormat, options: ExportOptions) -> None:
     async def paint() -> None:
         # Large images take seconds.
-        content = await run.io_bound(form.write, context.design, options)
+        try:
+            content = await run.io_bound(form.write, context.design, options)
+        except NotExportableError as error:
+            context.show_toast(str(error), "warning")
+            return
         if content is not None:
             ui.download(content, f"{snake_case(context.design.component)}{form.suffixes[0]}", form.media_type)
 

@@ -85,12 +85,12 @@ def _fill_fix_menu(context: WindowContext, menu: ui.menu, finding: Finding) -> N
     fixes = find_fixes(context.workspace.project, context.design, finding)
     with menu:
         for fix in fixes:
-            ui.menu_item(fix.label, on_click=lambda fix=fix: _apply_fix(context, fix)).props("role=menuitem")
+            ui.menu_item(fix.label, on_click=lambda fix=fix: apply_fix(context, fix)).props("role=menuitem")
         if not fixes:
             ui.menu_item(texts.NO_FIX).props("disable role=menuitem")
 
 
-def _apply_fix(context: WindowContext, fix: "Fix") -> None:
+def apply_fix(context: WindowContext, fix: "Fix") -> None:
     """Apply a fix as one edit, which can be undone."""
     label = f"fix: {fix.label}"
     error = ""

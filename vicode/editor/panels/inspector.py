@@ -2,18 +2,18 @@
 
 from nicegui import ui
 
-from vicode.editor.panels.decision_panel import decision_panel
 from vicode.editor.panels.design_panel import common_panel, design_panel
 from vicode.editor.panels.form import Form, RemovedTexts, Rows
 from vicode.editor.panels.frame_panel import frame_panel
+from vicode.editor.panels.item_forms import ItemForms
 from vicode.editor.panels.multi_selection_panel import multi_selection_panel
 from vicode.editor.panels.note_panel import note_panel
 from vicode.editor.panels.state_panel import state_panel
 from vicode.editor.panels.use_panel import link_panel, use_panel
 from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.forms.form_data import has_form
 from vicode.editor.session.rebase import rebase_selection
-from vicode.editor.view import ItemRef, parse_transition_key
-from vicode.model.traversal import find_decision
+from vicode.editor.view import ItemRef
 
 # Escape returns the focus to the canvas, unless it closes an open list or completion.
 _FOCUS_CANVAS = """(event) => {
@@ -37,11 +37,13 @@ class Inspector:
         """Changes if another item is selected, but not if the same item was renamed or moved."""
         self._form = Form(context, RemovedTexts())
         with ui.element("div").props("data-form") as self._host:
+            self._item_forms = ItemForms(context)
             Rows(self._form, self._list_keys, self._build, "inspector")
         self._host.on("keydown.escape", js_handler=_FOCUS_CANVAS)
         context.linter.changes.subscribe(lambda: None if self._host.is_deleted else self.refresh())
 
     def refresh(self) -> None:
+        self._item_forms.refresh()
         self._form.refresh()
 
     def _list_keys(self) -> list[object]:
@@ -55,12 +57,12 @@ class Inspector:
     def _item_kind(self) -> object:
         """What a form cannot follow in place; None if the item does not exist."""
         context = self.context
+        if len(context.selected) == 1 and has_form(context.design, context.selected[0]):
+            # Drawn by the browser.
+            return None
         match context.single_selection:
             case ItemRef(kind="states", id=name):
                 return "state" if context.design.state(name) is not None else None
-            case ItemRef(kind="transitions", id=key):
-                located = find_decision(context.design, parse_transition_key(key))
-                return located and type(located.decision)
             case ItemRef(kind="components", id=alias):
                 use, project = context.design.use(alias), context.workspace.project
                 interface = project.interface(use.component) if use else None
@@ -83,8 +85,6 @@ class Inspector:
         match context.single_selection:
             case ItemRef(kind="states", id=name):
                 state_panel(form, name)
-            case ItemRef(kind="transitions", id=key):
-                decision_panel(form, key)
             case ItemRef(kind="components", id=alias):
                 use_panel(form, alias)
             case ItemRef(kind="links", id=key):

@@ -49,8 +49,6 @@ ARITHMETIC_HELP = "xabsl: arithmetic and restart semantics of XABSL. Empty: defa
 TIME_UNIT_HELP = "Unit of state_time and component_time in expressions. Empty: seconds."
 USER_NAME_HELP = "Other users see this name next to your selection and in the history."
 
-CODE_HINT = "Python statements, such as self.tries += 1"
-CPP_CODE_HINT = "Translated from Python where possible; or statements in C++, such as tries += 1;"
 CODE_OWNER_CHANGED = "Another user removed, renamed or moved the owner of this code."
 DESIGN_CHANGED_RENAME_AGAIN = "The design changed. Rename again."
 USED_BY_FOLLOWING = "It is used in these places, which will report errors:"
@@ -68,6 +66,8 @@ EDITED_OUTSIDE = "Generated code was edited"
 CHOOSE_TEXTS = "Choose a text for each. The other one stays in the undo history or in the file until Generate."
 IN_FILE = "In the generated file"
 IN_DESIGN = "In the design"
+GENERATED_BEFORE = "Generated before"
+STATEMENTS_CHANGED = "The file and the design changed the same lines."
 CODE_GONE = "This code was removed from the design. Copy what you need; the edit is dropped with the next Generate."
 SAME_LINES_CHANGED = "Both sides changed the same lines."
 DESIGN_CHANGED_GENERATE_AGAIN = "The design has changed. Generate again."
@@ -243,9 +243,9 @@ def comparison_failed(reason: str) -> str:
     return f"The languages were not compared: {reason}"
 
 
-def comparison_inputs(first_seed: int, runs: int, iterations: int) -> str:
+def comparison_inputs(seed: int) -> str:
     """What the runs have read."""
-    return f"Random inputs with the seeds {first_seed} to {first_seed + runs - 1}, {iterations} iterations each"
+    return f"Inputs chosen to reach the parts of the design, with the seed {seed}"
 
 
 def traces_differ(languages: Sequence[str], run: int, iteration: int, time_ns: int) -> str:

@@ -41,6 +41,10 @@ class WindowContext:
     page: PageServices
     external_editor: ExternalEditor = field(default_factory=ExternalEditor)
     selected: tuple[ItemRef, ...] = ()
+    selection_seq: int = 0
+    """The number of the browser's latest selection, from 1."""
+    is_opening: bool = False
+    """Whether the form of the selected item takes the focus when it is shown."""
     open_sections: set[str] = field(default_factory=set)
     """Keys of the open sections of forms."""
     code_language: str = ""

@@ -1,6 +1,6 @@
 """The Generate command: checks and generates, shows the differences, protects hand edits, and writes the files."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,12 +9,14 @@ from vicode.editor.session import texts
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
 from vicode.model.project import Project
-from vicode.output import FileDiff, FileStatus, format_diff
+from vicode.output import FileDiff
 from vicode.sync import (
     FileEdits,
     GeneratedHistory,
     GenerationInput,
     GenerationPlan,
+    OutsideConflict,
+    RebasedFile,
     RecordedEdit,
     RegionKey,
     back_up,
@@ -52,14 +54,26 @@ class GenerationRequest:
 class FileReading:
     """The edits outside regions of a file, read back as edits of its design.
 
-    `base` is the design that the file was compared with, `leftover` what was not understood, as a patch.
+    Attributes:
+        project: The project with the design that the file was compared with.
+        rebased: The text generated now with the edits, and lines that the design changed as well.
+        design: The design with the edits.
+        words: The edits in words.
+        leftover: What was not understood, as a patch.
     """
 
     file: FileEdits
-    base: Design
+    project: Project
+    rebased: RebasedFile
     design: Design
     words: tuple[str, ...]
     leftover: str
+
+    @property
+    def base(self) -> Design:
+        design = self.project.design(self.file.component)
+        assert design is not None
+        return design
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,16 +148,28 @@ def _read_edits(project: Project, file: FileEdits, generated: str | None) -> Fil
     """Read the edits of a file since it was generated; None if there are none that a design might express."""
     from vicode.sync.interpret import INTERPRETERS  # noqa: PLC0415 - later
 
-    base = project.design(file.component)
-    if not file.is_edited_outside or file.language not in INTERPRETERS or file.new is None or base is None:
-        return None
-    edited = rebase_outside_edits(file, generated)
-    if edited is None:
-        leftover = format_diff(FileDiff(path=file.path, status=FileStatus.CHANGED, old=file.new, new=file.old))
-        return FileReading(file=file, base=base, design=base, words=(), leftover=leftover)
-    read = INTERPRETERS[file.language](project, file.component, generated=file.new, edited=edited)
+    is_readable = file.is_edited_outside and file.language in INTERPRETERS and project.design(file.component)
+    rebased = rebase_outside_edits(file, generated) if is_readable else None
+    return None if rebased is None else _interpret(project, file, rebased, lambda conflict: conflict.design_text)
+
+
+def choose_texts(reading: FileReading, texts: Mapping[OutsideConflict, str]) -> FileReading:
+    """Read a file again, with texts for its conflicts."""
+    return _interpret(reading.project, reading.file, reading.rebased, texts.__getitem__)
+
+
+def _interpret(
+    project: Project, file: FileEdits, rebased: RebasedFile, choose: Callable[[OutsideConflict], str]
+) -> FileReading:
+    from vicode.sync.interpret import INTERPRETERS  # noqa: PLC0415 - later
+
+    edited = rebased.resolve(choose)
+    generated = file.new or ""
+    read = INTERPRETERS[file.language](project, file.component, generated=generated, edited=edited, file=file.path)
     words = tuple(edit.words for edit in read.edits)
-    return FileReading(file=file, base=base, design=read.design, words=words, leftover=read.leftover)
+    return FileReading(
+        file=file, project=project, rebased=rebased, design=read.design, words=words, leftover=read.leftover
+    )
 
 
 def _reason(errors: Sequence[Finding], component: str) -> str:

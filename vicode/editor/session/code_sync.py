@@ -25,6 +25,7 @@ from vicode.sync import (
     RegionKey,
     apply_regions,
     describe_conflict,
+    describe_problems,
     find_file_edits,
     find_new_errors,
     read_applied,
@@ -93,7 +94,8 @@ def apply_edits(workspace: "Workspace", document: DocumentSession) -> None:
         outside.announce(f"Applied from {PurePath(new[0].file.path).name}: {_listed(new)}", document.history.current_id)
         edits = tuple(edit for edit in edits if edit not in new)
     outside.waiting = edits
-    outside.problems = tuple(each for file in files for each in file.problems)
+    folder = workspace.output_folder.name
+    outside.problems = tuple(each for file in files for each in describe_problems(file, folder))
     outside.edited_outside = tuple(file for file in files if file.is_edited_outside and file.is_origin_known)
     if (outside.waiting, outside.problems) != before:
         _tell_problem(document, before[0], before[1])

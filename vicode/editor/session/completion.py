@@ -17,6 +17,7 @@ _TIMES = (("state_time", "time in the state"), ("component_time", "time since th
 _STATUSES = (
     ("action_done", "whether a component called by the state is done"),
     ("conflict", "whether the state holds its maximum number of robots of the team"),
+    ("team_size", "number of robots of the team that are alive, including this one"),
 )
 _KEYWORDS = ("and", "or", "not", "if", "else", "True", "False")
 _RUNTIME_MEMBERS = ("is_done", "state", "state_time", "component_time", "step", "restart")

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from vicode.editor.session import texts
+from vicode.editor.session.forms.form_data import Forms, FormWriter
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
 from vicode.editor.session.outside_edits import OutsideEdits
 from vicode.editor.session.positions import keep_positions
@@ -83,6 +84,8 @@ class SharedDocument:
     changes: Subscribers[["DocumentSession"]] = field(init=False, default_factory=Subscribers)
     """Called after every change with the session that made it."""
     _drawn: tuple[tuple[object, ...], Scene] | None = field(init=False, default=None)
+    _forms: FormWriter = field(init=False, default_factory=FormWriter)
+    _written_forms: tuple[tuple[Project, int], Forms] | None = field(init=False, default=None)
     _recent_designs: dict[int, Design] = field(init=False, default_factory=dict)
     _differences: deque[tuple[Scene, Scene, dict[str, Any]]] = field(
         init=False, default_factory=lambda: deque(maxlen=8)
@@ -111,6 +114,15 @@ class SharedDocument:
             design = self.history.current.design
             self._drawn = (key, make_scene(project, design, self.findings, self.rev, changed_outside=marked))
         return self._drawn[1]
+
+    def forms(self, project: Project) -> Forms:
+        """The forms of all items, cached for all windows."""
+        if self._written_forms is None or not (
+            self._written_forms[0][0] is project and self._written_forms[0][1] == self.rev
+        ):
+            forms = self._forms.write(project, self.history.current.design)
+            self._written_forms = ((project, self.rev), forms)
+        return self._written_forms[1]
 
     def scene_diff(self, before: Scene, now: Scene) -> dict[str, Any]:
         """The difference of two scenes, cached for all windows that show the first."""

@@ -19,7 +19,7 @@ from vicode.model.project import Project
 from vicode.simulation.isolation import make_temporary
 from vicode.simulation.language_comparison import LANGUAGE_TITLES, LanguageComparison
 
-ITERATIONS, RUNS = 100, 5
+ITERATIONS = 500
 LIMIT_S = 300.0
 
 
@@ -29,18 +29,18 @@ class ComparisonError(Exception):
 
 @dataclass(eq=False, kw_only=True)
 class ComparisonProcess:
-    """One comparison with random inputs, of the project with the unsaved edits of its designs.
+    """One comparison with chosen inputs, of the project with the unsaved edits of its designs.
 
     Attributes:
         folder: The folder of the project.
-        first_seed: The seed of the first run; the others follow.
+        seed: The seed of the inputs.
         on_language: Is called before a language runs.
     """
 
     project: Project
     design: Design
     folder: Path
-    first_seed: int = 0
+    seed: int = 0
     on_language: Callable[[str], None] = lambda _language: None
     limit_s: float = LIMIT_S
     _transport: ProcessTransport | None = field(init=False, default=None)
@@ -90,7 +90,7 @@ class ComparisonProcess:
         request = {
             "project": replace(self.project, designs=tuple(designs)),
             "root": self.design.component,
-            "seeds": list(range(self.first_seed, self.first_seed + RUNS)),
+            "seed": self.seed,
             "iterations": ITERATIONS,
             "folder": folder,
             "modules": str(self.folder.resolve()),

@@ -7,8 +7,8 @@ from vicode.diagram.diff_diagram import css_variable_diff, render_diff
 from vicode.diagram.svg import write_svg
 from vicode.git import Commit, find_repository
 from vicode.model.design import Design
-from vicode.model.diff import describe_change, diff_designs
-from vicode.store import read_design
+from vicode.model.diff import describe_changes, diff_designs, diff_unread
+from vicode.store import list_unread, read_design
 
 MAX_REVISIONS = 200
 
@@ -41,9 +41,11 @@ def compare_with_revision(file: Path, commit: Commit, design: Design) -> Revisio
         GitError: The repository cannot be read.
     """
     content = find_repository(file).read(commit.revision, commit.path)
-    old = None if content is None else read_design(content, commit.path).design
-    if old is None:
+    before = None if content is None else read_design(content, commit.path)
+    if before is None or before.design is None:
         return RevisionComparison(error="The design cannot be read in this revision")
-    changes = diff_designs(old, design)
+    old = before.design
+    now = read_design(file.read_bytes(), file.name) if file.exists() else before
+    changes = (*diff_designs(old, design), *diff_unread(list_unread(before.source_map), list_unread(now.source_map)))
     picture = write_svg(render_diff(old, design, css_variable_diff()), is_embedded=True) if changes else ""
-    return RevisionComparison(lines=tuple(map(describe_change, changes)), picture=picture)
+    return RevisionComparison(lines=describe_changes(changes), picture=picture)

@@ -78,6 +78,8 @@ class WatchedRobot:
     """Values that this editor holds, by component and name."""
     tuned: dict[str, Any] = field(default_factory=dict)
     """Constants that were tuned from here."""
+    written: dict[tuple[str, str], tuple[str, str]] = field(default_factory=dict)
+    """Values that were written into the files from here: the texts before and after, by component and name."""
     frequencies_hz: dict[str, float] = field(default_factory=dict)
     """Frequencies of components that were changed from here."""
     _recordings: dict[str, tuple["Recording", Adapt]] = field(default_factory=dict)
@@ -137,6 +139,7 @@ class WatchedRobot:
             self._times.clear()
             self.steps.clear()
             self.tuned.clear()
+            self.written.clear()
             self.frequencies_hz.clear()
         self._times.append((iteration.iteration, iteration.time_ns))
         for step in iteration.tree:
@@ -145,6 +148,17 @@ class WatchedRobot:
         for recording, adapt in self._recordings.values():
             recording.make_room()
             recording.add(adapt(iteration), {})
+
+    def remember_written(self, key: tuple[str, str], before: str, after: str) -> None:
+        """Remember that the robot has a value that was written into its file, which had another one."""
+        known = self.written.get(key)
+        first = known[0] if known is not None and known[1] == before else before
+        self.written[key] = (first, after)
+
+    def release_all(self) -> None:
+        """Forget the held values: they ended with the connection. Constants of the robot stay as they are."""
+        self.written = {key: texts for key, texts in self.written.items() if key not in self.held}
+        self.held.clear()
 
     def frequency_hz(self, component: str) -> float | None:
         """The frequency of a component; None if it works in each iteration."""
@@ -301,7 +315,7 @@ class RobotLink:
     async def _follow_server(self, transport: SocketTransport, hello: Hello) -> None:
         self._greet(hello)
         for robot in self.robots.values():
-            robot.held.clear()
+            robot.release_all()
         self._set_status(LinkStatus.CONNECTED)
         restoring = asyncio.create_task(self._restore_breakpoints())
         try:

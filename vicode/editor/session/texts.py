@@ -163,6 +163,7 @@ NAME_UNCHANGED = "the name is unchanged"
 
 INVALID_REQUEST = "the editor cannot read this request: reload the page"
 STATE_NOT_ADDED = "the state was not added"
+ITEM_MISSING = "this item no longer exists"
 TRANSITION_GONE = "this transition no longer exists"
 TREE_SOURCE = "the source of a transition in a decision tree cannot be changed"
 TREE_ORDER = "a transition in a decision tree can only be reordered within its branch"

@@ -1,19 +1,39 @@
 """C++ generator: a header and a source per component, on the header-only runtime bica.hpp."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 
 from vicode.generators.cpp.component import CppComponentWriter
 from vicode.generators.cpp.functions import action_code, guard_code
 from vicode.generators.cpp.names import RESERVED_MODULES, GlobalNames
 from vicode.generators.cpp.origins import find_origins
 from vicode.generators.cpp.project import build_components, build_declarations, build_interfaces, list_interfaces
+from vicode.generators.cpp.symbols import CppSymbols, list_symbols
 from vicode.generators.origins import ComponentCode
-from vicode.generators.plan import CodePlan, ComponentPlan, PackagePlan, ProjectPlan
+from vicode.generators.plan import (
+    CodePlan,
+    ComponentPlan,
+    PackagePlan,
+    ProjectPlan,
+    plan_component,
+    plan_project,
+)
+from vicode.model.design import Design
+from vicode.model.project import Project
 from vicode.output import OutputFile
 from vicode.regions import add_header
 from vicode.templating import read_asset, render
 
-__all__ = ["RESERVED_MODULES", "component_writer", "find_origins", "generate_cpp", "list_paths", "list_regions"]
+__all__ = [
+    "RESERVED_MODULES",
+    "CppCode",
+    "component_writer",
+    "cpp_generator",
+    "find_origins",
+    "generate_cpp",
+    "list_paths",
+    "list_regions",
+]
 
 LANGUAGE = "cpp"
 
@@ -46,7 +66,33 @@ def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCo
 
     def write(component: ComponentPlan) -> ComponentCode:
         _header, source = _component_files(plan, component, names)
-        return ComponentCode(file=source, origins=find_origins(component, source.text))
+        return ComponentCode(file=source, find_origins=lambda: find_origins(component, source.text))
+
+    return write
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CppCode:
+    """The header and the source of one component, and the names in them."""
+
+    header: str
+    source: str
+    symbols: CppSymbols
+
+
+def cpp_generator(project: Project, sources: Mapping[str, str]) -> Callable[[Design], CppCode]:
+    """Return a function that writes the files of one design.
+
+    The function raises `UnsoundDesignError` if C++ cannot express the design.
+    """
+    plan = plan_project(project, (), sources, RESERVED_MODULES)
+    names = GlobalNames.of_project(plan)
+
+    def write(design: Design) -> CppCode:
+        component = plan_component(project, design, plan.package.modules, sources.get(design.component, ""))
+        header, source = _component_files(plan, component, names)
+        symbols = list_symbols(plan, component, names.class_name(design.component))
+        return CppCode(header=header.text, source=source.text, symbols=symbols)
 
     return write
 

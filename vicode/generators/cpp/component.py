@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from vicode.generators.cpp.expressions import ExpressionPrinter, format_number
-from vicode.generators.cpp.functions import FunctionWriter, region, requirements_differ
-from vicode.generators.cpp.names import GlobalNames, argument_name, member_name, state_names
+from vicode.generators.cpp.functions import FunctionWriter, is_large, region, requirements_differ
+from vicode.generators.cpp.names import GlobalNames, argument_name, integer_type, member_name, state_names
 from vicode.generators.cpp.text import LINE_WIDTH, describe, doc_comment, quoted
 from vicode.generators.cpp.views import ComponentView, FunctionView
 from vicode.generators.plan import (
@@ -58,7 +58,7 @@ class CppComponentWriter:
             header=f"{self.project.package.name}/{plan.module}.hpp",
             includes=tuple(self._list_includes()),
             module_code=_region_lines(plan.module_code, 0),
-            state_type="std::uint8_t" if len(plan.states) <= 256 else "std::uint16_t",
+            state_type=integer_type(len(plan.states)),
             states=tuple(_listed(list(state_names(plan).values()))),
             parameters=tuple(
                 line for value in plan.parameters for line in declare_value(value, self.printer, self.names, 8)
@@ -116,7 +116,7 @@ class CppComponentWriter:
 
     def _cooperative_states(self) -> Iterator[str]:
         for state in self.component.states:
-            if state.capacity is None and state.synchronized is None:
+            if not state.is_cooperative:
                 continue
             number = state.synchronized if state.capacity is None else state.capacity
             key = f"{{{quoted(self.component.component)}, {quoted(state.name)}}}"
@@ -138,9 +138,8 @@ class CppComponentWriter:
         most = max(_count_calls(state.actions) for state in plan.states) + _count_calls(plan.common_actions)
         most += max(_count_calls(state.enter) for state in plan.states)
         most += max(_count_calls(state.leave) for state in plan.states)
-        components = dict.fromkeys(
-            next(use.component for use in plan.uses if use.alias == call.alias) for call in calls
-        )
+        used = {use.alias: use.component for use in plan.uses}
+        components = dict.fromkeys(used[call.alias] for call in calls)
         return f"bica::CallsOf<{most}, {', '.join(map(self.names.class_name, components))}>"
 
     def _public_functions(self) -> Iterator[FunctionView]:
@@ -148,10 +147,10 @@ class CppComponentWriter:
         resume = str(plan.resume).lower()
         is_xabsl = plan.arithmetic == "xabsl"
         again = ["    restart_again();"] if is_xabsl else []
-        yield self._define("void", "step", "", [*again, f"    step_machine(*this, {resume});"], "override")
+        step = "step_large_machine" if is_large(plan) else "step_machine"
+        yield self._define("void", "step", "", [*again, f"    {step}(*this, {resume});"], "override")
         if plan.parameters:
-            names = [member_name(value.name) for value in plan.parameters]
-            body = [f"    {name} = parameters.{name};" for name in names]
+            body = [f"    {member_name(value.name)} = {_given(value)};" for value in plan.parameters]
             yield self._define("void", "modulate", "const Parameters& parameters", body, "")
         cases = [
             f"        case State::{name}:\n            return {quoted(state)};"
@@ -163,11 +162,11 @@ class CppComponentWriter:
             "    }",
             '    return "";',
         ]
-        yield self._define("const char*", "state_name", "", body, "const override")
+        yield self._define("const char*", "state_name", "", body, "const BICA_NAMED")
         for name, values in (("visit_parameters", plan.parameters), ("visit_values", self._values)):
             if values:
                 body = [f"    {line}" for line in visits(values)]
-                yield self._define("void", name, "bica::ValueVisitor& visitor", body, "const override")
+                yield self._define("void", name, "bica::ValueVisitor& visitor", body, "const BICA_NAMED")
 
     @property
     def _values(self) -> tuple[ValuePlan, ...]:
@@ -249,12 +248,11 @@ class CppComponentWriter:
 
     def _team_functions(self) -> Iterator[FunctionView]:
         plan, names = self.component, state_names(self.component)
-        cooperative = [state for state in plan.states if state.capacity is not None or state.synchronized is not None]
-        if cooperative:
+        if any(state.is_cooperative for state in plan.states):
             cases = _grouped_switch(
                 plan.states,
                 names,
-                lambda state: [f"            return in_{state.stem}_.may_enter();"] if state in cooperative else [],
+                lambda state: [f"            return in_{state.stem}_.may_enter();"] if state.is_cooperative else [],
                 "next",
             )
             yield self._define("bool", "may_enter", "State next", _with_return(cases, "true"), "")
@@ -262,7 +260,7 @@ class CppComponentWriter:
             cases = _grouped_switch(
                 plan.states,
                 names,
-                lambda state: [f"            return in_{state.stem}_.is_full();"] if state in cooperative else [],
+                lambda state: [f"            return in_{state.stem}_.is_full();"] if state.is_cooperative else [],
                 "state_",
             )
             yield self._define("bool", "conflict", "", _with_return(cases, "false"), "const")
@@ -281,11 +279,17 @@ class CppComponentWriter:
 def declare_value(value: ValuePlan, printer: ExpressionPrinter, names: GlobalNames, indent: int) -> list[str]:
     """The declaration of a data member with its initial value."""
     margin = " " * indent
-    initial = printer.print(value.initial).text
+    initial = printer.stored(value.initial).text
     return [
         *doc_comment(describe(value), indent),
         f"{margin}{names.type_name(value.type)} {member_name(value.name)} = {initial};",
     ]
+
+
+def _given(value: ValuePlan) -> str:
+    """What a parameter is set to: the robot program may call `modulate` too."""
+    given = f"parameters.{member_name(value.name)}"
+    return f"bica::limit({given})" if value.type == INT else given
 
 
 def break_list(
@@ -300,10 +304,10 @@ def break_list(
     return [f"{margin}{explicit}{before}", *(f"{item}," for item in first), f"{last}{after}"]
 
 
-def visits(values: Iterable[ValuePlan], owner: str = "") -> Iterator[str]:
-    """The statements that pass values to a visitor."""
+def visits(values: Iterable[ValuePlan], owner: str = "", *, call: str = "") -> Iterator[str]:
+    """The statements that pass values to a visitor; `call` is "()" for those that functions return."""
     for value in values:
-        name = f"{owner}{member_name(value.name)}"
+        name = f"{owner}{member_name(value.name)}{call}"
         if value.type in (BOOL, INT, FLOAT):
             yield f"visitor.visit({quoted(value.name)}, {name});"
         else:

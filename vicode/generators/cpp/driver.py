@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from vicode.generators.cpp.names import GlobalNames, member_name, world_name
+from vicode.generators.cpp.names import GlobalNames, escape, member_name, world_name
 from vicode.generators.cpp.project import component_members, list_interfaces, world_behavior_name
 from vicode.generators.plan import FunctionPlan, InterfacePlan, ProjectPlan, ValuePlan, plan_interface, plan_project
+from vicode.generators.plan.names import package_name
 from vicode.model.expressions import BOOL, FLOAT, INT
 from vicode.model.project import INTERNAL, WORLD, Project
 from vicode.templating import read_asset, render
@@ -15,7 +16,7 @@ __all__ = ["driver_support", "write_driver", "write_main"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StubView:
-    """A class in place of a hand-written component: `functions` are its outputs with arguments."""
+    """A class in place of a hand-written component: `functions` are the lines of its outputs with arguments."""
 
     name: str
     base: str
@@ -55,9 +56,10 @@ def write_driver(project: Project, root: str, inputs: Sequence[tuple[str, str]],
     return render("conformance/driver.cpp.jinja", view=_DriverWriter(plan, root).build_view(inputs))
 
 
-def write_main(drivers: Iterable[tuple[str, str]]) -> str:
-    """The main file for drivers, given as pairs of file and C++ namespace."""
-    return render("conformance/main.cpp.jinja", drivers=tuple(drivers))
+def write_main(drivers: Iterable[tuple[str, str, Project]]) -> str:
+    """The main file for drivers, given by their file, the name of the run and the project."""
+    named = tuple((file, name, package_name(project.name)) for file, name, project in drivers)
+    return render("conformance/main.cpp.jinja", drivers=named)
 
 
 def driver_support() -> str:
@@ -70,9 +72,10 @@ class _DriverWriter:
         self._plan, self._root = plan, root
         self._names, self._members = GlobalNames.of_project(plan), component_members(plan)
         self._interfaces = {item.component: plan_interface(plan.project, item) for item in list_interfaces(plan)}
+        self._methods = frozenset(name for item in self._interfaces.values() for name in _method_names(item))
+        self._fields: dict[tuple[str, str], str] = {}
 
     def build_view(self, inputs: Sequence[tuple[str, str]]) -> DriverView:
-        self._numbers = {key: number for number, key in enumerate(inputs)}
         stubs = tuple(self._stub(item) for item in self._interfaces.values() if self._is_stub(item))
         has_world = any(item.implementation == WORLD for item in self._interfaces.values())
         used = {use.component for component in self._plan.components for use in component.uses}
@@ -98,8 +101,9 @@ class _DriverWriter:
 
     def _stub(self, item: InterfacePlan) -> StubView:
         functions = (
-            self._function(item.component, each, f"{self._type(each.result)} {member_name(each.result.name)}")
+            line
             for each in item.functions
+            for line in self._function(item, each, f"{self._type(each.result)} {member_name(each.result.name)}")
         )
         return StubView(
             name=f"Stub{item.component}",
@@ -109,31 +113,33 @@ class _DriverWriter:
         )
 
     def _world_methods(self) -> Iterator[str]:
-        written: set[str] = set()
-        for item in self._interfaces.values():
-            if item.implementation != WORLD:
-                continue
-            for value in (*item.outputs, *item.variables):
-                name = world_name(value)
-                if name not in written:
-                    written.add(name)
-                    yield f"{self._type(value)} value_{name}{{}};"
-                    yield f"{self._type(value)} {name}() override {{ return value_{name}; }}"
-            for value in item.variables:
-                name = world_name(value)
-                if f"set_{name}" not in written:
-                    written.add(f"set_{name}")
-                    yield f"void set_{name}({self._type(value)} value) override {{ value_{name} = value; }}"
-            for function in item.functions:
-                name = world_name(function.result)
-                if name not in written:
-                    written.add(name)
-                    yield self._function(item.component, function, f"{self._type(function.result)} {name}")
-            if item.is_behavior and (name := world_behavior_name(item)) not in written:
-                written.add(name)
-                yield f"void {name}({', '.join(self._type(value) for value in item.parameters)}) override {{}}"
+        """The members of the world; components may share them."""
+        lines = (
+            line for item in self._interfaces.values() if item.implementation == WORLD for line in self._world_of(item)
+        )
+        yield from dict.fromkeys(lines)
 
-    def _function(self, component: str, function: FunctionPlan, head: str) -> str:
+    def _world_of(self, item: InterfacePlan) -> Iterator[str]:
+        for value in (*item.outputs, *item.variables):
+            field, type_ = self._field(item, value), self._type(value)
+            yield f"{type_} {field}{{}};"
+            yield f"{type_} {world_name(value)}() override {{ return {field}; }}"
+        for value in item.variables:
+            setter = f"set_{world_name(value)}({self._type(value)} value)"
+            yield f"void {setter} override {{ {self._field(item, value)} = value; }}"
+        for function in item.functions:
+            yield from self._function(item, function, f"{self._type(function.result)} {world_name(function.result)}")
+        if item.is_behavior:
+            yield f"void {world_behavior_name(item)}({', '.join(map(self._type, item.parameters))}) override {{}}"
+
+    def _field(self, item: InterfacePlan, value: ValuePlan) -> str:
+        """The data member behind a method of the world or of a stub; no method has its name."""
+        owner, name = ("", world_name(value)) if item.implementation == WORLD else (item.component, value.name)
+        if (owner, name) not in self._fields:
+            self._fields[owner, name] = escape(f"given_{name}", {*self._methods, *self._fields.values()})
+        return self._fields[owner, name]
+
+    def _function(self, item: InterfacePlan, function: FunctionPlan, head: str) -> Iterator[str]:
         arguments = ", ".join(f"{self._type(value)} a{index}" for index, value in enumerate(function.arguments))
         order = sorted(range(len(function.arguments)), key=lambda index: _group(function.arguments[index]))
         counts: dict[float, int] = {}
@@ -143,29 +149,34 @@ class _DriverWriter:
             counts[weight] = counts.get(weight, 0) + 1
             terms.append(f"{weight * counts[weight]} * static_cast<double>(a{index})")
         result = function.result
-        base = f"base_{self._numbers.get((component, result.name), 0)}"
+        base = self._field(item, result)
         elements = next((len(each.elements) for each in self._plan.enumerations if each.name == result.type), 0)
-        value = f"conformance::derive<{self._type(result)}>({base}, {' + '.join(terms)}, {elements})"
-        return f"{head}({arguments}) override {{ return {value}; }}\n    double {base} = 0.0;"
+        value = f"bica::conformance::derive<{self._type(result)}>({base}, {' + '.join(terms)}, {elements})"
+        yield f"{head}({arguments}) override {{ return {value}; }}"
+        yield f"double {base} = 0.0;"
 
     def _setter(self, component: str, name: str) -> str:
         if not component:
             plan = next(each for each in self._plan.components if each.component == self._root)
             value = next(each for each in plan.parameters if each.name == name)
-            return f"components.{self._members[self._root]}.{member_name(name)} = {self._read(value)}"
+            given = "bica::to_int(value)" if value.type == INT else self._read(value)
+            return f"components.{self._members[self._root]}.{member_name(name)} = {given}"
         item = self._interfaces[component]
         owner = "world" if item.implementation == WORLD else f"stub_{self._members[component]}"
-        if any(function.result.name == name for function in item.functions):
-            return f"{owner}.base_{self._numbers[component, name]} = value"
+        function = next((each.result for each in item.functions if each.result.name == name), None)
+        if function is not None:
+            return f"{owner}.{self._field(item, function)} = value"
         value = next(each for each in (*item.outputs, *item.variables) if each.name == name)
         if item.implementation == WORLD:
-            return f"world.value_{world_name(value)} = {self._read(value)}"
+            return f"world.{self._field(item, value)} = {self._read(value)}"
         owner = owner if self._is_stub(item) else f"components.{self._members[component]}"
         return f"{owner}.{member_name(name)} = {self._read(value)}"
 
     def _read(self, value: ValuePlan) -> str:
         if value.type == BOOL:
             return "value != 0.0"
+        if value.type == INT:
+            return "bica::saturate(value)"
         return "value" if value.type == FLOAT else f"static_cast<{self._type(value)}>(value)"
 
     def _type(self, value: ValuePlan) -> str:
@@ -174,6 +185,12 @@ class _DriverWriter:
 
     def _class(self, component: str) -> str:
         return f"::{self._names.namespace}::{self._names.class_name(component)}"
+
+
+def _method_names(item: InterfacePlan) -> Iterator[str]:
+    for value in (*item.outputs, *item.variables, *(function.result for function in item.functions)):
+        yield from (world_name(value), f"set_{world_name(value)}", member_name(value.name))
+    yield world_behavior_name(item)
 
 
 def _group(value: ValuePlan) -> int:

@@ -10,6 +10,7 @@ from vicode.generators.plan import (
     Condition,
     ExpressionCondition,
     FunctionPlan,
+    IntRanges,
     TimerCondition,
     literal_value,
 )
@@ -17,6 +18,7 @@ from vicode.model.expressions import (
     BOOL,
     FLOAT,
     INT,
+    TEAM_SIZE,
     Binary,
     Boolean,
     Comparison,
@@ -41,6 +43,7 @@ from vicode.model.project import WORLD
 TERNARY, OR, AND, COMPARISON, SUM, PRODUCT, UNARY, ATOM = range(8)
 _FUNCTIONS = {"/": "divide", "//": "floor_divide", "%": "modulo"}
 _XABSL_FUNCTIONS = {"/": "xabsl_divide", "//": "floor_divide", "%": "xabsl_remainder"}
+_SATURATING = {"+": "add", "-": "subtract", "*": "multiply"}
 _TEMPLATES = frozenset({"abs", "min", "max", "clamp", "sign"})
 
 
@@ -92,6 +95,7 @@ class ExpressionPrinter:
 
     Attributes:
         names: Global names as seen in the class.
+        ranges: The ranges of ints, which tell where results need no function that limits them.
         nonzero_constants: Constants that are safe divisors.
         time_unit: "s" or "ms".
         functions: Outputs with arguments by alias and name.
@@ -100,6 +104,7 @@ class ExpressionPrinter:
     """
 
     names: GlobalNames
+    ranges: IntRanges
     nonzero_constants: frozenset[str] = frozenset()
     time_unit: str = "s"
     uses_xabsl_arithmetic: bool = False
@@ -116,6 +121,7 @@ class ExpressionPrinter:
         inputs = {(use.alias, value.name) for use in provided for value in interfaces[use.component].readable}
         return cls(
             names=names,
+            ranges=component.ranges,
             nonzero_constants=nonzero_constants,
             time_unit=component.time_unit,
             uses_xabsl_arithmetic=component.arithmetic == "xabsl",
@@ -137,12 +143,21 @@ class ExpressionPrinter:
             case ElapsedTime(kind=of):
                 is_in_ms = self.time_unit == "ms"
                 return Text(f"bica::to_float({of}_time_ns()) / 1e6", PRODUCT) if is_in_ms else Text(f"{of}_time()")
-            case StatusFlag(name=of) | Done(alias=of):
-                return Text(f"{of}()" if isinstance(node, StatusFlag) else f"{member_name(of)}.is_done()")
+            case StatusFlag() | Done():
+                return Text(_status(node))
             case OutputRef():
-                return self._output(node)
+                return self._limited(self._output(node)) if self.ranges.is_external(node) else self._output(node)
             case _:
                 return self._operation(node)
+
+    def stored(self, node: Expr) -> Text:
+        """A value that is stored or passed: ints are limited to ±2^53."""
+        text = self.print(node)
+        return text if self.ranges.is_storable(node) else self._limited(text)
+
+    @staticmethod
+    def _limited(text: Text) -> Text:
+        return Text(f"bica::limit({text.text})")
 
     def _operation(self, node: Expr) -> Text:
         match node:
@@ -150,6 +165,8 @@ class ExpressionPrinter:
                 return Text(f"!{self.print(operand).at(UNARY)}", UNARY)
             case Minus(operand=operand):
                 inner = self.print(operand)
+                if self.ranges.may_overflow(node):
+                    return Text(f"bica::negate({inner.text})")
                 # Two signs in a row are the operator `--`.
                 return Text(f"-({inner.text})" if inner.text.startswith("-") else f"-{inner.at(UNARY)}", UNARY)
             case Binary():
@@ -173,7 +190,9 @@ class ExpressionPrinter:
                 return Text(f"state_time_ns() >= {_digit_groups(ns)}", COMPARISON)
             case TimerCondition(time=time):
                 factor = "1e6" if self.time_unit == "ms" else "1e9"
-                return Text(f"state_time_ns() >= bica::round({self._float(time).at(PRODUCT)} * {factor})", COMPARISON)
+                return Text(
+                    f"state_time_ns() >= bica::nanoseconds({self._float(time).at(PRODUCT)} * {factor})", COMPARISON
+                )
             case _:
                 return Text(f"when_{condition.code.stem}()")
 
@@ -207,6 +226,8 @@ class ExpressionPrinter:
         functions = _XABSL_FUNCTIONS if self.uses_xabsl_arithmetic else _FUNCTIONS
         if operator in functions and not (operator == "/" and self._is_nonzero(right)):
             return Text(f"bica::{functions[operator]}({self._float(left).text}, {self._float(right).text})")
+        if self.ranges.may_overflow(node):
+            return Text(f"bica::{_SATURATING[operator]}({self.print(left).text}, {self.print(right).text})")
         level = SUM if operator in "+-" else PRODUCT
         type_ = FLOAT if operator == "/" else node.type
         first = self._operand(left, type_)
@@ -242,8 +263,28 @@ class ExpressionPrinter:
 
     def _compare(self, left: Expr, operator: str, right: Expr) -> Text:
         type_ = FLOAT if FLOAT in (left.type, right.type) else left.type
-        sides = [self._operand(side, type_).at(SUM) for side in (left, right)]
+        pairs = ((left, right), (right, left))
+        sides = [self._compared(side, other, type_).at(SUM) for side, other in pairs]
+        if sides[0] == sides[1] and type_ != FLOAT and self._is_stored(left):
+            # Compilers warn that a comparison of a variable with itself is constant.
+            return Text("true" if operator in ("==", "<=", ">=") else "false")
         return Text(f"{sides[0]} {operator} {sides[1]}", COMPARISON)
+
+    def _compared(self, node: Expr, other: Expr, type_: str) -> Text:
+        """An operand of a comparison; an int need not be limited next to one that lies inside the limits."""
+        is_free = self.ranges.is_inside(other) and not self.ranges.is_external(other)
+        if isinstance(node, OutputRef) and self.ranges.is_external(node) and is_free:
+            return self._output(node)
+        return self._operand(node, type_)
+
+    def _is_stored(self, node: Expr) -> bool:
+        match node:
+            case Variable():
+                return True
+            case OutputRef(alias=alias, output=output, arguments=None):
+                return (alias, output) not in self.inputs
+            case _:
+                return False
 
     def _logic(self, operator: str, operands: tuple[Expr, ...]) -> Text:
         return chain("&&" if operator == "and" else "||", [self.print(operand) for operand in operands])
@@ -260,8 +301,8 @@ class ExpressionPrinter:
         return ", ".join(self._argument(argument, type_) for argument in arguments)
 
     def _argument(self, node: Expr, type_: str) -> str:
-        # The literal 3 is an int: templates need the type of the other arguments.
-        if type_ == INT and literal_value(node) is not None:
+        # 3 is an int, as is a choice between literals: templates need the type of the other arguments.
+        if type_ == INT and _is_c_int(node):
             return f"std::int64_t{{{self.print(node).text}}}"
         return self._operand(node, type_).text
 
@@ -274,7 +315,7 @@ class ExpressionPrinter:
             return self._nested_call(reference)
         given = dict(reference.arguments)
         values = (given.get(argument.name, argument.initial) for argument in self.functions[key].arguments)
-        return Text(f"{target}({', '.join(self.print(value).text for value in values)})")
+        return Text(f"{target}({', '.join(self.stored(value).text for value in values)})")
 
     def _nested_call(self, reference: OutputRef) -> Text:
         """XABSL stores the arguments of a function in one place, which a call in an argument overwrites."""
@@ -285,7 +326,7 @@ class ExpressionPrinter:
         # XABSL stores decimals first, then bools, then elements.
         ordered = sorted(declared, key=lambda each: (each.type == BOOL) + 2 * (each.type not in (BOOL, INT, FLOAT)))
         statements = [
-            f"{cells[each.name]} = {inside.print(given.get(each.name, each.initial)).text};" for each in ordered
+            f"{cells[each.name]} = {inside.stored(given.get(each.name, each.initial)).text};" for each in ordered
         ]
         if key not in self.enclosing_calls:
             statements = [
@@ -303,6 +344,12 @@ def _calls_itself(reference: OutputRef) -> bool:
         for _name, value in reference.arguments or ()
         for node in walk(value)
     )
+
+
+def _status(node: StatusFlag | Done) -> str:
+    if isinstance(node, Done):
+        return f"{member_name(node.alias)}.is_done()"
+    return "root.team.size" if node.name == TEAM_SIZE else f"{node.name}()"
 
 
 def format_number(value: float) -> str:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 
 from vicode.generators.cpp.expressions import ExpressionPrinter
 from vicode.generators.cpp.names import member_name, state_names
@@ -59,6 +59,27 @@ class FunctionWriter:
     class_name: str
     printer: ExpressionPrinter
 
+    @cached_property
+    def state_names(self) -> dict[str, str]:
+        return state_names(self.component)
+
+    @property
+    def _inline_change(self) -> str:
+        """Each outcome of a decision would contain a copy: compilers need seconds for hundreds of them."""
+        return "" if is_large(self.component) else "BICA_INLINE "
+
+    @cached_property
+    def uses(self) -> dict[str, UsedComponent]:
+        return {use.alias: use for use in self.component.uses}
+
+    @cached_property
+    def scope(self) -> Scope:
+        return build_scope(self.component.project, self.component.design)
+
+    @cached_property
+    def is_cooperative(self) -> bool:
+        return any(state.is_cooperative for state in self.component.states)
+
     def write(self) -> Iterator[FunctionView]:
         plan = self.component
         if plan.common_decisions:
@@ -78,7 +99,9 @@ class FunctionWriter:
         ):
             if any(getattr(state, phase) for state in plan.states):
                 body = self._switch(partial(self._phase_steps, phase))
-                yield self._function("void", phase, "", body, doc, inline="BICA_INLINE " if phase == "leave" else "")
+                yield self._function(
+                    "void", phase, "", body, doc, inline=self._inline_change if phase == "leave" else ""
+                )
         yield self._change_to()
         yield from self._code_functions()
 
@@ -100,8 +123,7 @@ class FunctionWriter:
 
     def _change_to(self) -> FunctionView:
         plan = self.component
-        is_cooperative = any(state.capacity is not None or state.synchronized is not None for state in plan.states)
-        body = ["    if (!may_enter(next)) {", "        return;", "    }"] if is_cooperative else []
+        body = ["    if (!may_enter(next)) {", "        return;", "    }"] if self.is_cooperative else []
         body += ["    if (next == state_) {", "        return;", "    }"]
         if any(state.leave for state in plan.states):
             body.append("    leave();")
@@ -113,13 +135,12 @@ class FunctionWriter:
             body.append("    enter();")
         if requires:
             body.append("    require(required);")
-        return self._function(
-            "void", "change_to", "State next, const char* transition", body, "", inline="BICA_INLINE "
-        )
+        parameters = "State next, const char* transition"
+        return self._function("void", "change_to", parameters, body, "", inline=self._inline_change)
 
     def _switch(self, write: Callable[[StatePlan], list[str]]) -> list[str]:
         """A switch over the active state; states with the same lines share them, those without are the default."""
-        names = state_names(self.component)
+        names = self.state_names
         blocks: dict[tuple[str, ...], list[StatePlan]] = {}
         for state in self.component.states:
             blocks.setdefault(tuple(write(state)), []).append(state)
@@ -175,13 +196,10 @@ class FunctionWriter:
         end = f"{margin}return{ended and ' '}{ended};"
         match decision.outcome:
             case StateChange(state=state, transition=transition):
-                arguments = f"State::{state_names(self.component)[state]}" + (
-                    f", {quoted(transition)}" if transition else ""
-                )
+                arguments = f"State::{self.state_names[state]}" + (f", {quoted(transition)}" if transition else "")
                 return [f"{margin}change_to({arguments});", end]
             case NoChange():
-                is_cooperative = any(each.capacity or each.synchronized for each in self.component.states)
-                return [*([f"{margin}stay();"] if is_cooperative else []), end]
+                return [*([f"{margin}stay();"] if self.is_cooperative else []), end]
             case Branch(then=then):
                 return self._decisions(then, indent, ended)
 
@@ -202,14 +220,14 @@ class FunctionWriter:
 
     def _call(self, step: CallStep, indent: int) -> list[str]:
         margin, target = " " * indent, member_name(step.alias)
-        use = next(use for use in self.component.uses if use.alias == step.alias)
+        use = self.uses[step.alias]
         stored = ", calls_" if self.component.frequency_hz else ""
         given = dict((*step.arguments, *step.defaults))
         if not _is_in_order(step, use):
             return self._call_in_written_order(step, use, stored, indent)
         count = max((index + 1 for index, value in enumerate(use.parameters) if value.name in given), default=0)
         values = [
-            f"/*{value.name}=*/{self.printer.print(given.get(value.name, value.initial)).text}"
+            f"/*{value.name}=*/{self.printer.stored(given.get(value.name, value.initial)).text}"
             for value in use.parameters[:count]
         ]
         line = f"{margin}call({target}, {{{', '.join(values)}}}{stored});"
@@ -226,7 +244,7 @@ class FunctionWriter:
         body = [
             f"{type_} parameters;",
             *(
-                f"parameters.{member_name(name)} = {self.printer.print(value).text};"
+                f"parameters.{member_name(name)} = {self.printer.stored(value).text};"
                 for name, value in (*step.arguments, *step.defaults)
             ),
             "return parameters;",
@@ -245,16 +263,16 @@ class FunctionWriter:
         if step.alias:
             owner = member_name(step.alias)
             if (step.alias, step.name) in self.printer.inputs:
-                return self.printer.print(value).lines(f"{margin}{owner}.set_{target}(", ");", indent)
+                return self.printer.stored(value).lines(f"{margin}{owner}.set_{target}(", ");", indent)
             target = f"{owner}.{target}"
         match value:
-            case Binary(operator="+" | "-" | "*" as operator, left=left, right=right) if left.type == value.type and (
-                _is_target(left, step)
+            case Binary(operator="+" | "-" | "*" as operator, left=left, right=right) if (
+                left.type == value.type and _is_target(left, step) and self.printer.ranges.is_storable(value)
             ):
                 operand = self.printer.print(right) if right.type == value.type else self.printer._float(right)
                 return [f"{margin}{target} {operator}= {operand.text};"]
             case _:
-                return self.printer.print(value).lines(f"{margin}{target} = ", ";", indent)
+                return self.printer.stored(value).lines(f"{margin}{target} = ", ";", indent)
 
     # Hand-written code
 
@@ -272,12 +290,11 @@ class FunctionWriter:
         if written is not None:
             return written
         python = code.code.in_language("python")
-        scope = build_scope(self.component.project, self.component.design)
-        statements = parse_portable(python, role, scope) if python is not None else None
+        statements = parse_portable(python, role, self.scope) if python is not None else None
         if not isinstance(statements, tuple):
             reason = f": {statements.reason}" if statements else ""
             raise UnsoundDesignError(f"the code of '{code.region_id}' is not written in C++{reason}")
-        lines = self._statements(statements, 0, scope)
+        lines = self._statements(statements, 0, self.scope)
         if role == "predicate" and not always_returns(statements):
             lines.append("return false;")
         return "\n".join(lines)
@@ -326,6 +343,11 @@ class FunctionWriter:
             body=tuple(body),
             doc=tuple(doc_comment(doc)),
         )
+
+
+def is_large(component: ComponentPlan) -> bool:
+    """Whether the code of a state change and of an observed step exists only once (see `python -m benchmarks.cpp`)."""
+    return len(component.states) > 32
 
 
 def requirements_differ(component: ComponentPlan) -> bool:

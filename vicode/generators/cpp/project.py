@@ -4,18 +4,35 @@ from collections.abc import Iterable, Iterator
 
 from vicode.generators.cpp.component import break_list, declare_value, visits
 from vicode.generators.cpp.expressions import ExpressionPrinter, format_number
-from vicode.generators.cpp.names import GlobalNames, element_name, escape, member_name, world_name
+from vicode.generators.cpp.names import (
+    GlobalNames,
+    element_name,
+    escape,
+    integer_type,
+    library,
+    member_name,
+    world_name,
+)
 from vicode.generators.cpp.text import describe, doc_comment, quoted
 from vicode.generators.cpp.views import CppEnumerationView, CppInterfaceView, ProjectView
-from vicode.generators.plan import FunctionPlan, InterfacePlan, ProjectPlan, ValuePlan, plan_interface
-from vicode.generators.plan.names import NameAllocator
-from vicode.model.expressions import FunctionCall, walk
+from vicode.generators.plan import (
+    INTERFACES_MODULE,
+    FunctionPlan,
+    InterfacePlan,
+    ProjectPlan,
+    ValuePlan,
+    plan_interface,
+)
+from vicode.model.expressions import INT, FunctionCall, walk
 from vicode.model.names import python_attribute_name, snake_case
 from vicode.model.project import WORLD, Enumeration, Interface
 
+_STRUCT_MEMBERS = frozenset({"add_inputs_to", "root", "world"})
+"""Names in the struct of all components that no component has."""
+
 
 def build_declarations(plan: ProjectPlan, names: GlobalNames) -> ProjectView:
-    printer = ExpressionPrinter(names=names, nonzero_constants=plan.nonzero_constants)
+    printer = ExpressionPrinter(names=names, ranges=plan.ranges, nonzero_constants=plan.nonzero_constants)
     return ProjectView(
         package=plan.package.name,
         namespace=names.namespace,
@@ -37,7 +54,7 @@ def build_interfaces(plan: ProjectPlan, names: GlobalNames) -> ProjectView:
         doc=(),
         has_declarations=plan.package.has_declarations,
         world=tuple(_world(interfaces, names)) if uses_world else (),
-        interfaces=tuple(_interface(item, _frequency(plan, item.component), names) for item in interfaces),
+        interfaces=tuple(_interface(plan, item, names) for item in interfaces),
     )
 
 
@@ -48,10 +65,11 @@ def build_components(plan: ProjectPlan, names: GlobalNames) -> ProjectView:
     needs_world = any(item.implementation == WORLD for item in interfaces.values())
     own = [item.component for item in interfaces.values() if item.is_generated]
     members = component_members(plan)
+    inner = names.inside({*members.values(), *(f"{members[each]}_" for each in abstract), *_STRUCT_MEMBERS})
     uses = {item.component: [use.component for use in item.uses] for item in plan.components}
     ordered = [*own, *_in_order_of_use(uses)]
     parameters = ["bica::Root& root", *(["World& world"] if needs_world else [])]
-    parameters += [f"{names.class_name(component)}& {members[component]}_" for component in abstract]
+    parameters += [f"{inner.class_name(component)}& {members[component]}_" for component in abstract]
     initializers = []
     for component in ordered:
         arguments = ["root"]
@@ -65,21 +83,39 @@ def build_components(plan: ProjectPlan, names: GlobalNames) -> ProjectView:
         namespace=names.namespace,
         title=f"The components of the project {plan.name}.",
         doc=tuple(doc_comment(plan.doc)),
-        includes=tuple(f"{plan.package.name}/{item.module}.hpp" for item in plan.components),
-        components=tuple(f"    {_qualified(names, each, members[each])} {members[each]};" for each in ordered),
+        includes=tuple(_component_headers(plan)),
+        components=tuple(f"    {inner.class_name(each)} {members[each]};" for each in ordered),
         constructor=tuple(break_list("    ", "Components(", parameters, ")")),
         initializers=tuple(initializers),
         sources=tuple(f"{item.module}.cpp" for item in plan.components),
+        library=library(plan.package),
+        inputs=tuple(members[component] for component in own if interfaces[component].readable),
     )
 
 
+def _component_headers(plan: ProjectPlan) -> Iterator[str]:
+    # No design may use a hand-written component.
+    if list_interfaces(plan):
+        yield f"{plan.package.name}/{INTERFACES_MODULE}.hpp"
+    yield from (f"{plan.package.name}/{item.module}.hpp" for item in plan.components)
+
+
 def component_members(plan: ProjectPlan) -> dict[str, str]:
-    """The members of the struct of all components."""
+    """The members of the struct of all components; `_` behind one is its argument, which no other member hides."""
     interfaces = list_interfaces(plan)
     abstract = [item.component for item in interfaces if not item.is_generated]
     own = [item.component for item in interfaces if item.is_generated]
-    allocator = NameAllocator(frozenset({"root", "world"}))
-    return {name: escape(allocator.allocate(snake_case(name))) for name in (*abstract, *own, *plan.package.modules)}
+    taken = set(_STRUCT_MEMBERS)
+    members = {}
+    for component in (*abstract, *own, *plan.package.modules):
+        base = member = escape(snake_case(component))
+        number = 1
+        while taken & {member.casefold(), f"{member}_".casefold()}:
+            number += 1
+            member = f"{base.rstrip('_')}_{number}"
+        taken |= {member.casefold(), f"{member}_".casefold()}
+        members[component] = member
+    return members
 
 
 def list_interfaces(plan: ProjectPlan) -> list[Interface]:
@@ -90,11 +126,6 @@ def list_interfaces(plan: ProjectPlan) -> list[Interface]:
 def _frequency(plan: ProjectPlan, component: str) -> float | None:
     interface = plan.project.interface(component)
     return interface.frequency_hz if interface else None
-
-
-def _qualified(names: GlobalNames, component: str, member: str) -> str:
-    name = names.class_name(component)
-    return f"::{names.namespace}::{name}" if name == member else name
 
 
 def _in_order_of_use(uses: dict[str, list[str]]) -> list[str]:
@@ -123,12 +154,18 @@ def _enumeration(item: Enumeration, names: GlobalNames) -> CppEnumerationView:
         for element in item.element_names
         for line in (f"        case {name}::{element_name(element)}:", f"            return {quoted(element)};")
     ]
-    return CppEnumerationView(name=name, doc=tuple(doc_comment(item.doc)), elements=tuple(elements), cases=tuple(cases))
+    return CppEnumerationView(
+        name=name,
+        type=integer_type(len(item.elements)),
+        doc=tuple(doc_comment(item.doc)),
+        elements=tuple(elements),
+        cases=tuple(cases),
+    )
 
 
 def _constant(constant: ValuePlan, printer: ExpressionPrinter) -> Iterator[str]:
     is_constexpr = not any(isinstance(node, FunctionCall) for node in walk(constant.initial))
-    value = printer.print(constant.initial).text
+    value = printer.stored(constant.initial).text
     is_constexpr = is_constexpr and "bica::" not in value
     yield from doc_comment(describe(constant))
     type_ = printer.names.type_name(constant.type)
@@ -136,14 +173,16 @@ def _constant(constant: ValuePlan, printer: ExpressionPrinter) -> Iterator[str]:
     yield f"inline {specifier} {type_} {printer.names.declared(constant.name)} = {value};"
 
 
-def _interface(item: InterfacePlan, frequency: float | None, names: GlobalNames) -> CppInterfaceView:
+def _interface(plan: ProjectPlan, item: InterfacePlan, names: GlobalNames) -> CppInterfaceView:
+    frequency = _frequency(plan, item.component)
     is_world = item.implementation == WORLD
     is_abstract = item.implementation not in ("", "internal", WORLD)
     values = list(item.stored_values)
     declared = (*values, *item.outputs, *item.variables, *_results(item))
     inner = names.inside(member_name(value.name) for value in declared)
-    printer = ExpressionPrinter(names=inner)
-    stored = [] if is_world else [*item.outputs, *item.variables]
+    printer = ExpressionPrinter(names=inner, ranges=plan.ranges)
+    readable = [*item.outputs, *item.variables]
+    stored, inputs = ([], readable) if is_world else (readable, [])
     hidden = {value.name for value in stored}
     shown = [value for value in item.parameters if value.name not in hidden]
     return CppInterfaceView(
@@ -158,6 +197,7 @@ def _interface(item: InterfacePlan, frequency: float | None, names: GlobalNames)
         functions=tuple(_world_functions(item, inner) if is_world else _functions(item, inner, printer, is_abstract)),
         visits=tuple(f"        {line}" for line in (*visits(shown, "parameters."), *visits(stored))),
         parameter_visits=tuple(f"        {line}" for line in visits(item.parameters, "parameters.")),
+        input_visits=tuple(f"        {line}" for line in visits(inputs, call="()")),
     )
 
 
@@ -169,7 +209,7 @@ def _functions(item: InterfacePlan, names: GlobalNames, printer: ExpressionPrint
             yield f"    virtual {head}({_arguments(function, names)}) = 0;"
         else:
             unnamed = ", ".join(names.type_name(argument.type) for argument in function.arguments)
-            initial = printer.print(function.result.initial).text
+            initial = printer.stored(function.result.initial).text
             yield f"    virtual {head}({unnamed}) {{ return {initial}; }}"
     if is_abstract:
         yield "    void work() override = 0;"
@@ -179,7 +219,8 @@ def _world_functions(item: InterfacePlan, names: GlobalNames) -> Iterator[str]:
     for value in (*item.outputs, *item.variables):
         yield from doc_comment(describe(value), 4)
         type_ = names.type_name(value.type)
-        yield f"    {type_} {member_name(value.name)}() const {{ return world_.{world_name(value)}(); }}"
+        read = _limited(value, f"world_.{world_name(value)}()")
+        yield f"    {type_} {member_name(value.name)}() const {{ return {read}; }}"
     for value in item.variables:
         type_ = names.type_name(value.type)
         yield f"    void set_{member_name(value.name)}({type_} value) {{ world_.set_{world_name(value)}(value); }}"
@@ -187,11 +228,15 @@ def _world_functions(item: InterfacePlan, names: GlobalNames) -> Iterator[str]:
         yield from doc_comment(describe(function.result), 4)
         passed = ", ".join(member_name(argument.name) for argument in function.arguments)
         type_, name = names.type_name(function.result.type), member_name(function.result.name)
-        call = f"world_.{world_name(function.result)}({passed})"
+        call = _limited(function.result, f"world_.{world_name(function.result)}({passed})")
         yield f"    {type_} {name}({_arguments(function, names)}) const {{ return {call}; }}"
     if item.is_behavior:
         passed = ", ".join(f"parameters.{member_name(value.name)}" for value in item.parameters)
         yield f"    void work() override {{ world_.{world_behavior_name(item)}({passed}); }}"
+
+
+def _limited(value: ValuePlan, read: str) -> str:
+    return f"bica::limit({read})" if value.type == INT else read
 
 
 def _arguments(function: FunctionPlan, names: GlobalNames) -> str:

@@ -56,6 +56,7 @@ class CppInterfaceView:
     functions: Lines
     visits: Lines
     parameter_visits: Lines
+    input_visits: Lines
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +64,7 @@ class CppEnumerationView:
     """An enumeration; `cases` convert its elements to their names."""
 
     name: str
+    type: str
     doc: Lines
     elements: Lines
     cases: Lines
@@ -86,3 +88,5 @@ class ProjectView:
     constructor: Lines = ()
     initializers: Lines = ()
     sources: Lines = ()
+    library: str = ""
+    inputs: Lines = ()

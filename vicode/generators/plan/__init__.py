@@ -2,6 +2,7 @@
 
 from vicode.generators.plan.component import INTERFACES_MODULE, plan_component
 from vicode.generators.plan.expressions import UnsoundDesignError, literal_value, typed_tree
+from vicode.generators.plan.int_ranges import IntRanges
 from vicode.generators.plan.interfaces import plan_interface
 from vicode.generators.plan.plan_types import (
     ActionStep,
@@ -42,6 +43,7 @@ __all__ = [
     "DecisionPlan",
     "ExpressionCondition",
     "FunctionPlan",
+    "IntRanges",
     "InterfacePlan",
     "NoChange",
     "PackagePlan",

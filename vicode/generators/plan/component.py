@@ -11,7 +11,8 @@ from vicode.generators.plan.expressions import (
     literal_nanoseconds,
     typed_tree,
 )
-from vicode.generators.plan.names import NameAllocator, identifier_stem
+from vicode.generators.plan.int_growth import plan_int_ranges
+from vicode.generators.plan.names import NameAllocator
 from vicode.generators.plan.plan_types import (
     ActionStep,
     AssignStep,
@@ -47,6 +48,7 @@ from vicode.model.design import (
 )
 from vicode.model.disabled import strip_disabled
 from vicode.model.expressions import BOOL, FLOAT, Expr, Scope, build_scope
+from vicode.model.names import identifier_stem
 from vicode.model.project import WORLD, Project
 from vicode.model.traversal import is_exhaustive, iter_expressions
 
@@ -70,7 +72,7 @@ def plan_component(project: Project, design: Design, modules: Mapping[str, str],
     planner = _ComponentPlanner(project, design)
     stems = NameAllocator()
     states = [initial, *(state for state in design.states if state is not initial)]
-    return ComponentPlan(
+    plan = ComponentPlan(
         project=project,
         design=design,
         component=design.component,
@@ -92,6 +94,7 @@ def plan_component(project: Project, design: Design, modules: Mapping[str, str],
         common_actions=planner.plan_steps(design.common.actions, COMMON, "actions"),
         states=tuple(planner.plan_state(state, stems.allocate(identifier_stem(state.name))) for state in states),
     )
+    return replace(plan, ranges=plan_int_ranges(plan, planner.scope))
 
 
 def plan_values(declarations: tuple[Declaration, ...], scope: Scope) -> tuple[ValuePlan, ...]:
@@ -155,8 +158,9 @@ class _ComponentPlanner:
 
     def __init__(self, project: Project, design: Design) -> None:
         self.project, self.design = project, design
-        self.scope = build_scope(project, design)
+        self.scope, self.project_scope = build_scope(project, design), build_scope(project, None)
         self.code = CodePlanner(design)
+        self.design_aliases = {use.alias for use in design.uses if _has_design(project, use.component)}
 
     def plan_state(self, state: State, stem: str) -> StatePlan:
         return StatePlan(
@@ -189,10 +193,7 @@ class _ComponentPlanner:
     def _called_designs(self, state: State) -> tuple[str, ...]:
         actions = (*self.design.common.actions, *state.all_actions)
         called = (action.alias for action in actions if isinstance(action, Call))
-        components = {use.alias: use.component for use in self.design.uses}
-        designs = {design.component for design in self.project.designs}
-        designs |= {interface.component for interface in self.project.components if interface.remote is not None}
-        return tuple(dict.fromkeys(alias for alias in called if components.get(alias) in designs))
+        return tuple(dict.fromkeys(alias for alias in called if alias in self.design_aliases))
 
     def plan_steps(self, actions: tuple[Action, ...], source: str, phase: str) -> tuple[ActionStep, ...]:
         owner: DesignPath = ("common",) if source == COMMON else ("states", source)
@@ -231,9 +232,8 @@ class _ComponentPlanner:
         interface = self.scope.uses.get(alias)
         if interface is None or not interface.implementation:
             return ()
-        scope = build_scope(self.project, None)
         omitted = (parameter for parameter in interface.parameters if parameter.name not in given)
-        return tuple((parameter.name, initial_value(parameter, scope)) for parameter in omitted)
+        return tuple((parameter.name, initial_value(parameter, self.project_scope)) for parameter in omitted)
 
     def plan_decisions(
         self, decisions: tuple[Decision, ...], source: str, path: DesignPath
@@ -278,6 +278,12 @@ class _ComponentPlanner:
             body = self.code.plan_guard(path, source, outcome, guard.code, given_id=decision.id, doc=decision.doc)
             conditions.append(CodeCondition(code=body))
         return tuple(conditions)
+
+
+def _has_design(project: Project, component: str) -> bool:
+    """Whether a component has a design, here or in another process."""
+    interface = project.interface(component)
+    return project.design(component) is not None or (interface is not None and interface.remote is not None)
 
 
 def _outcome_name(decision: Decision) -> str:

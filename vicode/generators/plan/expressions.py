@@ -79,12 +79,22 @@ def _with_conversions(node: Expr, scope: Scope) -> Expr:
             return replace(node, test=_with_conversions(test, scope), then=sides[0], otherwise=sides[1])
         case FunctionCall(function=function, arguments=arguments, type=type_):
             is_mixed = FUNCTIONS[function].return_type == NUMBER and type_ == FLOAT
-            converted = (_with_conversions(argument, scope) for argument in arguments)
-            return replace(node, arguments=tuple(as_type(value, FLOAT) if is_mixed else value for value in converted))
+            converted = [_with_conversions(argument, scope) for argument in arguments]
+            is_float = FLOAT in FUNCTIONS[function].parameter_types
+            to_float = [is_mixed or (is_float and _is_negative_zero(value)) for value in converted]
+            values = (
+                as_type(value, FLOAT) if is_to else value for value, is_to in zip(converted, to_float, strict=True)
+            )
+            return replace(node, arguments=tuple(values))
         case OutputRef(arguments=pairs) if pairs:
             return replace(node, arguments=_converted_arguments(node, scope))
         case _:
             return node
+
+
+def _is_negative_zero(node: Expr) -> bool:
+    """Whether a node is the literal -0, which is -0.0 where a float is expected."""
+    return isinstance(node, Minus) and literal_value(node) == 0
 
 
 def _converted_arguments(reference: OutputRef, scope: Scope) -> tuple[tuple[str, Expr], ...]:

@@ -1,8 +1,6 @@
 """Unique snake-case identifiers that are valid in every language."""
 
-import re
-
-from vicode.model.names import snake_case
+from vicode.model.names import identifier_stem
 
 
 class NameAllocator:
@@ -10,20 +8,19 @@ class NameAllocator:
 
     def __init__(self, taken: frozenset[str] = frozenset()) -> None:
         self._taken = {name.casefold() for name in taken}
+        self._numbers: dict[tuple[str, str], int] = {}
 
     def allocate(self, base: str, separator: str = "_") -> str:
         """Return the base name, or the first free one of base_2, base_3, …"""
-        name, number = base, 1
+        # Names stay taken, so the search continues after the last number.
+        key, name = (base.casefold(), separator), base
+        number = self._numbers.get(key, 1)
         while name.casefold() in self._taken:
             number += 1
             name = f"{base}{separator}{number}"
+        self._numbers[key] = number
         self._taken.add(name.casefold())
         return name
-
-
-def identifier_stem(text: str) -> str:
-    """Convert any text to a part of an identifier."""
-    return re.sub(r"[^a-z0-9]+", "_", snake_case(text), flags=re.ASCII).strip("_") or "x"
 
 
 def package_name(name: str) -> str:

@@ -1,9 +1,10 @@
 """The types of the plan, which every generator reads."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from vicode.findings import DesignPath
+from vicode.generators.plan.int_ranges import IntRanges
 from vicode.model.design import Code, Design
 from vicode.model.expressions import Expr
 from vicode.model.project import WORLD, Enumeration, Project, RemoteReference
@@ -200,6 +201,10 @@ class StatePlan:
     capacity: int | None = None
     synchronized: int | None = None
 
+    @property
+    def is_cooperative(self) -> bool:
+        return self.capacity is not None or self.synchronized is not None
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentPlan:
@@ -213,6 +218,7 @@ class ComponentPlan:
         arithmetic: "" or "xabsl".
         uses_action_done: Whether an expression contains `action_done`.
         states: The initial state first.
+        ranges: The ranges of its ints.
     """
 
     project: Project
@@ -235,6 +241,7 @@ class ComponentPlan:
     common_decisions: tuple[DecisionPlan, ...]
     common_actions: tuple[ActionStep, ...]
     states: tuple[StatePlan, ...]
+    ranges: IntRanges = field(default_factory=IntRanges)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -255,7 +262,8 @@ class PackagePlan:
 class ProjectPlan:
     """The plan of a project; `components` holds the requested components.
 
-    `nonzero_constants` are constants with a nonzero literal value, which are safe divisors.
+    `nonzero_constants` are constants with a nonzero literal value, which are safe divisors; `ranges` are those of int
+    constants.
     """
 
     project: Project
@@ -265,5 +273,6 @@ class ProjectPlan:
     enumerations: tuple[Enumeration, ...]
     constants: tuple[ValuePlan, ...]
     nonzero_constants: frozenset[str]
+    ranges: IntRanges
     components: tuple[ComponentPlan, ...]
     interfaces: tuple[InterfacePlan, ...] = ()

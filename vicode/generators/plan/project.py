@@ -4,10 +4,13 @@ from collections.abc import Collection, Mapping
 
 from vicode.generators.plan.component import plan_component, plan_values
 from vicode.generators.plan.expressions import UnsoundDesignError, literal_value
+from vicode.generators.plan.int_growth import constant_ranges
+from vicode.generators.plan.int_ranges import IntRanges
 from vicode.generators.plan.interfaces import plan_interface
-from vicode.generators.plan.names import NameAllocator, identifier_stem, package_name
+from vicode.generators.plan.names import NameAllocator, package_name
 from vicode.generators.plan.plan_types import PackagePlan, ProjectPlan
 from vicode.model.expressions import build_scope
+from vicode.model.names import identifier_stem
 from vicode.model.project import Project
 
 
@@ -32,6 +35,7 @@ def plan_project(
         enumerations=project.enumerations,
         constants=constants,
         nonzero_constants=frozenset(constant.name for constant in constants if literal_value(constant.initial)),
+        ranges=IntRanges(constant_ranges(project)),
         components=tuple(
             plan_component(project, design, package.modules, sources.get(design.component, ""))
             for design in project.designs

@@ -64,7 +64,7 @@ def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCo
 
     def write(component: ComponentPlan) -> ComponentCode:
         file = _module(ComponentWriter(project=plan, component=component, names=names))
-        return ComponentCode(file=file, origins=find_origins(component, file.text))
+        return ComponentCode(file=file, find_origins=lambda: find_origins(component, file.text))
 
     return write
 

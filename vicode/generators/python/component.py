@@ -56,7 +56,7 @@ class ComponentWriter:
         plan = self.component
         methods = (
             self._write_constructor(),
-            *modulate_method(plan.parameters, self.expression_printer),
+            *modulate_method(plan.parameters, self.expression_printer, limits_ints=True),
             *MethodWriter(component=plan, expression_printer=self.expression_printer).write_states(),
         )
         return ComponentModuleView(
@@ -104,7 +104,7 @@ class ComponentWriter:
         lines += [f"{margin}self.{use.alias} = root.component({self._class_of(use)})" for use in plan.uses]
         for value in (*plan.parameters, *plan.outputs, *plan.variables):
             lines += format_statement(
-                f"self.{value.name} = ", self.expression_printer.to_doc(value.initial), indent=BODY_INDENT
+                f"self.{value.name} = ", self.expression_printer.stored_doc(value.initial), indent=BODY_INDENT
             )
         states: list[Doc] = [_state(state, uses_action_done=plan.uses_action_done) for state in plan.states]
         lines += render_doc(call_doc("self._set_states", states, must_break=True), BODY_INDENT)

@@ -13,7 +13,7 @@ def build_declarations_view(plan: ProjectPlan, names: dict[str, str]) -> Declara
     """Return the view of the declarations module; None if the project declares nothing."""
     if not plan.enumerations and not plan.constants:
         return None
-    printer = PythonExpressionPrinter(names=names, nonzero_constants=plan.nonzero_constants)
+    printer = PythonExpressionPrinter(names=names, ranges=plan.ranges, nonzero_constants=plan.nonzero_constants)
     constants = tuple(line for constant in plan.constants for line in _constant(constant, printer))
     enumerations = tuple(_enumeration(item, names[item.name]) for item in plan.enumerations)
     standard = [Import(module="enum", name="Enum")] if enumerations else []
@@ -37,6 +37,7 @@ def _enumeration(enumeration: Enumeration, name: str) -> EnumerationClassView:
     return EnumerationClassView(
         name=name,
         docstring=docstring(enumeration.doc or f"The enumeration {enumeration.name}.", 4, sections),
+        renaming="" if name == enumeration.name else f'{name}.__name__ = "{enumeration.name}"',
         members=tuple(f"{element} = {quoted(values.get(element, element))}" for element in enumeration.element_names),
     )
 
@@ -45,4 +46,4 @@ def _constant(constant: ValuePlan, printer: PythonExpressionPrinter) -> list[str
     text = declaration_description(constant.doc, constant.unit, constant.range)
     comments = comment(text, 0) if text else []
     before = f"{printer.names[constant.name]}: Final = "
-    return [*comments, *format_statement(before, printer.to_doc(constant.initial), indent=0)]
+    return [*comments, *format_statement(before, printer.stored_doc(constant.initial), indent=0)]

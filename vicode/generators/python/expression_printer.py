@@ -4,11 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Self
 
+from vicode.bica.arithmetic import MAX_INT
 from vicode.generators.plan import (
     ComponentPlan,
     Condition,
     ExpressionCondition,
     FunctionPlan,
+    IntRanges,
     ProjectPlan,
     TimerCondition,
     ValuePlan,
@@ -34,6 +36,7 @@ from vicode.model.expressions import (
     BOOL,
     FLOAT,
     INT,
+    TEAM_SIZE,
     Binary,
     Boolean,
     Comparison,
@@ -55,7 +58,7 @@ from vicode.model.expressions import (
 )
 from vicode.model.names import python_attribute_name
 
-_BUILTIN_FUNCTIONS = {"abs": "abs", "min": "min", "max": "max", "float": "float"}
+_BUILTIN_FUNCTIONS = frozenset({"abs", "min", "max", "float"})
 _ARITHMETIC_NAMES = {"int": "to_int", "round": "round_half_even"}
 _SAFE_OPERATORS = {"/": "divide", "//": "floor_divide", "%": "modulo"}
 _XABSL_OPERATORS = {"/": "xabsl_divide", "//": "floor_divide", "%": "xabsl_remainder"}
@@ -67,6 +70,7 @@ class PythonExpressionPrinter:
 
     Attributes:
         names: Names of constants and enumerations in the module.
+        ranges: The ranges of ints, which tell where results need no function that limits them.
         used_names: Collects the printed names of `names`, from which the imports are derived.
         time_unit: "s" or "ms".
         functions: Outputs with arguments by alias and name.
@@ -75,6 +79,7 @@ class PythonExpressionPrinter:
     """
 
     names: Mapping[str, str]
+    ranges: IntRanges
     used_names: set[str] = field(default_factory=set)
     nonzero_constants: frozenset[str] = frozenset()
     time_unit: str = "s"
@@ -88,6 +93,7 @@ class PythonExpressionPrinter:
         """Return the printer for the expressions of a component in a module that uses these names."""
         return cls(
             names=names,
+            ranges=component.ranges,
             nonzero_constants=project.nonzero_constants,
             time_unit=component.time_unit,
             uses_xabsl_arithmetic=component.arithmetic == "xabsl",
@@ -97,6 +103,32 @@ class PythonExpressionPrinter:
 
     def to_doc(self, node: Expr) -> ExpressionDoc:
         """Return the document of a typed tree."""
+        doc = self._unlimited_doc(node)
+        if self._is_external(node):
+            return self._arithmetic("limit", doc)
+        return self._arithmetic("saturate", doc) if self.ranges.may_overflow(node) else doc
+
+    def stored_doc(self, node: Expr) -> ExpressionDoc:
+        """Return the document of a value that is stored or passed: ints are limited to ±2**53."""
+        doc = self._unlimited_doc(node)
+        is_storable = self.ranges.is_storable(node) and not self._is_external(node)
+        return doc if is_storable else self._arithmetic("limit", doc)
+
+    def _is_external(self, node: Expr) -> bool:
+        is_input = isinstance(node, OutputRef) and (node.alias, node.output) in self.inputs
+        return self.ranges.is_external(node) or (is_input and node.type == INT)
+
+    def _arithmetic(self, function: str, *operands: ExpressionDoc) -> ExpressionDoc:
+        name = f"{self.global_name('arithmetic')}.{function}"
+        return call_expression(name, [operand.breakable for operand in operands])
+
+    def _float_doc(self, node: Expr) -> ExpressionDoc:
+        """Print an operand that Python converts to float, but not exactly as a double if it is a large int."""
+        doc = self.to_doc(node)
+        return doc if self.ranges.is_storable(node) else call_expression("float", [doc.breakable])
+
+    def _unlimited_doc(self, node: Expr) -> ExpressionDoc:
+        """Print a tree; the result of the outermost operation on ints is not limited."""
         match node:
             case Number(value=value):
                 return atom(format_number(value))
@@ -108,8 +140,8 @@ class PythonExpressionPrinter:
                 return atom(self.global_name(name) if kind == ScopeSymbolKind.CONSTANT else f"self.{name}")
             case ElapsedTime(kind=of):
                 return self._time_doc(of)
-            case StatusFlag(name=of) | Done(alias=of):
-                return atom(f"self.{of}" if isinstance(node, StatusFlag) else f"self.{of}.is_done")
+            case StatusFlag() | Done():
+                return atom(_status(node))
             case OutputRef():
                 return self._output_doc(node)
             case _:
@@ -160,7 +192,7 @@ class PythonExpressionPrinter:
             self.uses_xabsl_arithmetic and _calls_itself(reference)
         ):
             return self._nested_call_doc(reference)
-        return call_expression(target, [_keyword(name, self.to_doc(value)) for name, value in arguments])
+        return call_expression(target, [_keyword(name, self.stored_doc(value)) for name, value in arguments])
 
     def input_doc(self, value: ValuePlan) -> ExpressionDoc:
         """Read an attribute of the world as a value of the declared type."""
@@ -176,7 +208,7 @@ class PythonExpressionPrinter:
         ordered = sorted(declared, key=lambda item: (item.type == BOOL) + 2 * (item.type not in (BOOL, INT, FLOAT)))
         arguments: list[Doc] = [f"self.{reference.alias}.{reference.output}"]
         for argument in ordered:
-            value = inside.to_doc(values.get(argument.name, argument.initial)).breakable
+            value = inside.stored_doc(values.get(argument.name, argument.initial)).breakable
             arguments.append(concat(f"{argument.name}=lambda: ", value))
         return call_expression("self._ask", arguments)
 
@@ -189,7 +221,7 @@ class PythonExpressionPrinter:
             case Binary():
                 return self._binary_doc(node)
             case Comparison(operators=operators, operands=operands):
-                pieces = [self.to_doc(operand) for operand in operands]
+                pieces = self._compared_docs(operands)
                 return operator_chain([(None, pieces[0]), *zip(operators, pieces[1:], strict=True)], COMPARISON)
             case Logic(operator=operator, operands=operands):
                 pieces = [self.to_doc(operand) for operand in operands]
@@ -198,23 +230,41 @@ class PythonExpressionPrinter:
             case Ternary(test=test, then=then, otherwise=otherwise):
                 return conditional_expression(self.to_doc(then), self.to_doc(test), self.to_doc(otherwise))
             case FunctionCall(function=function, arguments=arguments):
-                name = (
-                    _BUILTIN_FUNCTIONS.get(function)
-                    or f"{self.global_name('arithmetic')}.{_ARITHMETIC_NAMES.get(function, function)}"
-                )
-                return call_expression(name, [self.to_doc(argument).breakable for argument in arguments])
+                pieces = [self.to_doc(argument) for argument in arguments]
+                if function in _BUILTIN_FUNCTIONS:
+                    return call_expression(function, [piece.breakable for piece in pieces])
+                return self._arithmetic(_ARITHMETIC_NAMES.get(function, function), *pieces)
             case _:
                 raise AssertionError(f"unexpected expression node: {node}")
 
     def _binary_doc(self, node: Binary) -> ExpressionDoc:
         operator, left, right = node.operator, node.left, node.right
         guarded = _XABSL_OPERATORS if self.uses_xabsl_arithmetic else _SAFE_OPERATORS
+        print_operand = self._float_doc if operator == "/" else self.to_doc
         if operator in guarded and not self._is_nonzero(right, operator):
-            name = f"{self.global_name('arithmetic')}.{guarded[operator]}"
-            return call_expression(name, [self.to_doc(left).breakable, self.to_doc(right).breakable])
-        right_piece = self.to_doc(_as_float(right)) if operator in ("//", "%") else self.to_doc(right)
+            return self._arithmetic(guarded[operator], print_operand(left), print_operand(right))
+        right_piece = self.to_doc(_as_float(right)) if operator in ("//", "%") else print_operand(right)
         level = ADDITION if operator in "+-" else MULTIPLICATION
-        return operator_chain([(None, self.to_doc(left)), (operator, right_piece)], level)
+        return operator_chain([(None, print_operand(left)), (operator, right_piece)], level)
+
+    def _compared_docs(self, operands: tuple[Expr, ...]) -> list[ExpressionDoc]:
+        """Print the operands of a comparison; an int need not be limited next to numbers that lie inside the limits."""
+        docs = []
+        for index, operand in enumerate(operands):
+            others = (*operands[max(0, index - 1) : index], *operands[index + 1 : index + 2])
+            if operand.type == INT and all(self._is_inside(other) for other in others):
+                docs.append(self._unlimited_doc(operand))
+            elif operand.type == INT and any(other.type == FLOAT for other in others):
+                docs.append(self._float_doc(operand))
+            else:
+                docs.append(self.to_doc(operand))
+        return docs
+
+    def _is_inside(self, node: Expr) -> bool:
+        value = literal_value(node)
+        if value is not None:
+            return abs(value) < MAX_INT
+        return self.ranges.is_inside(node) and not self._is_external(node)
 
     def _is_nonzero(self, node: Expr, operator: str) -> bool:
         """Whether the operator of Python gives the same result for this divisor; it raises only for zero."""
@@ -257,3 +307,9 @@ def _calls_itself(reference: OutputRef) -> bool:
 
 def _keyword(name: str, value: ExpressionDoc) -> Doc:
     return concat(f"{name}=", value.breakable)
+
+
+def _status(node: StatusFlag | Done) -> str:
+    if isinstance(node, Done):
+        return f"self.{node.alias}.is_done"
+    return "self.root.team.size" if node.name == TEAM_SIZE else f"self.{node.name}"

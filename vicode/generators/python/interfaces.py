@@ -27,10 +27,11 @@ def build_interfaces_view(plan: ProjectPlan, names: dict[str, str]) -> Interface
     # A property may have the same name as its type and would hide the type inside the class.
     shared = [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]
     names = names | {name: f"declarations.{names[name]}" for name in shared}
-    printer = PythonExpressionPrinter(names=names, nonzero_constants=plan.nonzero_constants)
+    printer = PythonExpressionPrinter(names=names, ranges=plan.ranges, nonzero_constants=plan.nonzero_constants)
     classes = tuple(_InterfaceWriter(item, printer).build_view() for item in plan.interfaces)
     bases = {_base_class(item) for item in plan.interfaces}
-    imports = [Import(module=module, name=name) for module, name in sorted(bases)]
+    used = {(RUNTIME, "arithmetic")} if "arithmetic" in printer.used_names else set()
+    imports = [Import(module=module, name=name) for module, name in sorted(bases | used)]
     uses_declarations = any(name.startswith("declarations.") for name in printer.used_names)
     own = [Import(module=".", name="declarations")] if uses_declarations else []
     return InterfacesModuleView(
@@ -85,7 +86,7 @@ class _InterfaceWriter:
         lines = [f"{_MARGIN}super().__init__({', '.join(['root', *_remote_arguments(remote)])})"]
         for value in values:
             lines += format_statement(
-                f"self.{value.name} = ", self.expression_printer.to_doc(value.initial), indent=BODY_INDENT
+                f"self.{value.name} = ", self.expression_printer.stored_doc(value.initial), indent=BODY_INDENT
             )
         yield MethodView(signature="    def __init__(self, root: Root) -> None:", body="\n".join(lines))
 
@@ -109,7 +110,7 @@ class _InterfaceWriter:
         result = function.result
         doc = declaration_description(result.doc, result.unit, result.range)
         lines = [docstring(doc, BODY_INDENT)] if doc else []
-        lines += format_statement("return ", self.expression_printer.to_doc(result.initial), indent=BODY_INDENT)
+        lines += format_statement("return ", self.expression_printer.stored_doc(result.initial), indent=BODY_INDENT)
         return MethodView(signature=self._function_signature(function), body="\n".join(lines))
 
     def _function(self, function: FunctionPlan) -> MethodView:
@@ -125,7 +126,10 @@ class _InterfaceWriter:
     def _return_body(self, value: ValuePlan, source: str) -> str:
         doc = declaration_description(value.doc, value.unit, value.range)
         lines = [docstring(doc, BODY_INDENT)] if doc else []
-        return "\n".join([*lines, f"{_MARGIN}return {type_name(value.type, self.expression_printer)}({source})"])
+        converted = f"{type_name(value.type, self.expression_printer)}({source})"
+        if value.type == INT:
+            converted = f"{self.expression_printer.global_name('arithmetic')}.limit({converted})"
+        return "\n".join([*lines, f"{_MARGIN}return {converted}"])
 
     def _work_method(self) -> Iterator[MethodView]:
         if not self.plan.is_behavior:

@@ -22,4 +22,5 @@ def build_main_view(plan: ProjectPlan) -> MainModuleView | None:
             for name, component in dict(named).items()
         ),
         world=quoted(plan.project.world),
+        clock=quoted(plan.project.clock) if plan.project.clock else "",
     )

@@ -116,36 +116,23 @@ class MethodWriter:
             case CallStep(alias=alias, arguments=arguments, defaults=defaults):
                 values: list[Doc] = [f"self.{alias}"]
                 pairs = (*arguments, *defaults)
-                values += [concat(f"{name}=", self.expression_printer.to_doc(value).breakable) for name, value in pairs]
+                values += [
+                    concat(f"{name}=", self.expression_printer.stored_doc(value).breakable) for name, value in pairs
+                ]
                 return render_doc(call_doc("self._call", values), BODY_INDENT)
-            case AssignStep(name=name, value=value, alias=alias) if alias:
-                return self._set_in_component(alias, name, value)
-            case AssignStep(name=name, value=value):
-                return self._set(name, value)
+            case AssignStep():
+                return self._assign(step)
 
-    def _set_in_component(self, alias: str, name: str, value: Expr) -> list[str]:
-        match value:
-            case Binary(
-                operator="+" | "-" | "*" as operator, left=OutputRef(alias=left_alias, output=left), right=right
-            ) if left_alias == alias and left == name:
-                return format_statement(
-                    f"self.{alias}.{name} {operator}= ", self.expression_printer.to_doc(right), indent=BODY_INDENT
-                )
-            case _:
-                return format_statement(
-                    f"self.{alias}.{name} = ", self.expression_printer.to_doc(value), indent=BODY_INDENT
-                )
-
-    def _set(self, name: str, value: Expr) -> list[str]:
-        match value:
-            case Binary(operator="+" | "-" | "*" as operator, left=Variable(name=left, kind=kind), right=right) if (
-                left == name and kind != ScopeSymbolKind.CONSTANT
-            ):
-                return format_statement(
-                    f"self.{name} {operator}= ", self.expression_printer.to_doc(right), indent=BODY_INDENT
-                )
-            case _:
-                return format_statement(f"self.{name} = ", self.expression_printer.to_doc(value), indent=BODY_INDENT)
+    def _assign(self, step: AssignStep) -> list[str]:
+        printer = self.expression_printer
+        target = f"self.{step.alias}.{step.name}" if step.alias else f"self.{step.name}"
+        match step.value:
+            case Binary(operator="+" | "-" | "*" as operator, left=left, right=right) as value if _is_target(
+                left, step
+            ) and printer.ranges.is_storable(value):
+                return format_statement(f"{target} {operator}= ", printer.to_doc(right), indent=BODY_INDENT)
+            case value:
+                return format_statement(f"{target} = ", printer.stored_doc(value), indent=BODY_INDENT)
 
     def _decide(self, alternatives: tuple[DecisionPlan, ...], indent: int, ended: str = "") -> list[str]:
         lines: list[str] = []
@@ -206,6 +193,16 @@ def _method(signature: str, doc: str, lines: list[str]) -> MethodView:
     return MethodView(
         signature=" " * METHOD_INDENT + f"def {signature}:", body="\n".join(body or [" " * BODY_INDENT + "pass"])
     )
+
+
+def _is_target(node: Expr, step: AssignStep) -> bool:
+    match node:
+        case Variable(name=name, kind=kind):
+            return not step.alias and name == step.name and kind != ScopeSymbolKind.CONSTANT
+        case OutputRef(alias=alias, output=name):
+            return (alias, name) == (step.alias, step.name)
+        case _:
+            return False
 
 
 def _region(body: CodePlan, indent: int) -> str:

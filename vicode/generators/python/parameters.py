@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from vicode.bica.arithmetic import MAX_INT
 from vicode.generators.plan import ValuePlan
 from vicode.generators.python.expression_printer import PythonExpressionPrinter
 from vicode.generators.python.methods import BODY_INDENT, METHOD_INDENT
@@ -11,13 +12,24 @@ from vicode.generators.python.views import MethodView
 from vicode.model.expressions import BOOL, FLOAT, INT
 
 
-def modulate_method(parameters: tuple[ValuePlan, ...], expression_printer: PythonExpressionPrinter) -> list[MethodView]:
+def modulate_method(
+    parameters: tuple[ValuePlan, ...], expression_printer: PythonExpressionPrinter, *, limits_ints: bool = False
+) -> list[MethodView]:
     """Write the method that sets the parameters of a component; empty without parameters."""
     if not parameters:
         return []
     margin = " " * BODY_INDENT
     lines = [docstring("Set the parameters.", BODY_INDENT)]
-    lines += [f"{margin}self.{value.name} = {value.name}" for value in parameters]
+    names = {value.name for value in parameters}
+    for value in parameters:
+        name = value.name
+        if not limits_ints or value.type != INT:
+            given = name
+        elif "arithmetic" in names:  # a parameter hides the module
+            given = f"{name} if -{MAX_INT} <= {name} <= {MAX_INT} else {MAX_INT} if {name} > 0 else -{MAX_INT}"
+        else:
+            given = f"{expression_printer.global_name('arithmetic')}.limit({name})"
+        lines.append(f"{margin}self.{name} = {given}")
     signature = keyword_signature("modulate", parameters, "None", expression_printer)
     return [MethodView(signature=signature, body="\n".join(lines))]
 
@@ -43,4 +55,4 @@ def type_name(type_: str, expression_printer: PythonExpressionPrinter) -> str:
 
 
 def _parameter(value: ValuePlan, printer: PythonExpressionPrinter) -> Doc:
-    return concat(f"{value.name}: {type_name(value.type, printer)} = ", printer.to_doc(value.initial).breakable)
+    return concat(f"{value.name}: {type_name(value.type, printer)} = ", printer.stored_doc(value.initial).breakable)

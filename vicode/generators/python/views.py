@@ -38,15 +38,17 @@ class MainModuleView:
     docstring: str
     components: tuple[tuple[str, str], ...]
     world: str
+    clock: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnumerationClassView:
-    """An enumeration; `members` are lines."""
+    """An enumeration; `members` are lines, `renaming` gives the class the name of the enumeration."""
 
     name: str
     docstring: str
     members: tuple[str, ...]
+    renaming: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

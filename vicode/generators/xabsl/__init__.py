@@ -67,7 +67,7 @@ def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCo
     def write(component: ComponentPlan) -> ComponentCode:
         option = build_option(component, name_map)
         file = _option_file(component, option, paths)
-        return ComponentCode(file=file, origins=option_origins(file.text, option))
+        return ComponentCode(file=file, find_origins=lambda: option_origins(file.text, option))
 
     return write
 

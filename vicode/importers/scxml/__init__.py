@@ -1,26 +1,51 @@
 """Imports SCXML: states inside states become states of one design."""
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from vicode.importers.names import DesignNames
 from vicode.importers.scxml.actions import ActionWriter
+from vicode.importers.scxml.events import DONE, KEYWORDS, EventInputs, matches, plain
 from vicode.importers.scxml.expressions import check_expression, translate
+from vicode.importers.scxml.queue import EVENTS_ALIAS, EventComponent
 from vicode.importers.scxml.reader import Element, ScxmlError, read_scxml
+from vicode.importers.scxml.report import START, Exactness, Reached, ReportWriter, TransitionReport
 from vicode.importers.scxml.states import ScxmlState, read_states
-from vicode.model.design import Action, Decision, Declaration, Design, Guard, State, Stay, Transition, Use
+from vicode.model.design import Action, Decision, Design, Guard, State, Stay, Transition
 from vicode.model.expressions import build_scope
-from vicode.model.project import Interface, Project
+from vicode.model.project import Project
 from vicode.model.traversal import iter_expressions
 
-__all__ = ["ScxmlError", "import_scxml"]
+__all__ = ["EventComponent", "Exactness", "ScxmlError", "ScxmlImport", "TransitionReport", "import_scxml"]
 
-EVENTS = "Events"
-_ALIAS = "events"
-_DONE = "done.state."
+_EVENT = re.compile(r'[^\s"\\\x00-\x1f]+')
+_AFTER = "after "
+_TAKEN = frozenset({"is_done"})
+# Names in the classes of the queue.
+_TAKEN_BY_QUEUE = _TAKEN | {
+    *("hold", "post", "restart", "work", "collect", "send", "delay", "cancel", "find", "output", "eventqueue"),
+    *("events", "sentevent"),
+}
 
 
-def import_scxml(data: bytes, component: str, name: str) -> Project:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScxmlImport:
+    """A project with one design.
+
+    Attributes:
+        transitions: How exact the transitions of the document are, in document order.
+        notes: What else differs.
+        events: The component that provides the events.
+    """
+
+    project: Project
+    transitions: tuple[TransitionReport, ...]
+    notes: tuple[tuple[int, str], ...]
+    events: EventComponent
+
+
+def import_scxml(data: bytes, component: str, name: str, *, has_queue: bool = False) -> ScxmlImport:
     """Convert a document to a project with one design.
 
     A state of the design stands for a state of the document without children; the transitions of the states around it
@@ -31,50 +56,63 @@ def import_scxml(data: bytes, component: str, name: str) -> Project:
         data: The content of the file.
         component: The name of the component.
         name: The name of the project.
+        has_queue: Whether events arrive through a queue, so that none is lost.
 
     Raises:
         ScxmlError: The document cannot be expressed as a design.
     """
-    document, by_name = read_states(read_scxml(data))
-    return _Importer(document=document, by_name=by_name).convert(component, name)
+    document, by_name = read_states(read_scxml(data), has_queue=has_queue)
+    return _Importer(document=document, by_name=by_name, has_queue=has_queue).convert(component, name)
 
 
 @dataclass(slots=True, kw_only=True)
 class _Importer:
     document: ScxmlState
     by_name: dict[str, ScxmlState]
-    names: DesignNames = field(default_factory=DesignNames)
+    has_queue: bool
+    names: DesignNames = field(default_factory=lambda: DesignNames(keywords=KEYWORDS))
     actions: ActionWriter = field(init=False)
+    events: EventComponent = field(init=False)
+    report: ReportWriter = field(default_factory=ReportWriter)
     _states: dict[str, str] = field(default_factory=dict)
-    _events: dict[str, str] = field(default_factory=dict)
     _between: dict[tuple[tuple[Action, ...], str], State] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.actions = ActionWriter.of_document(self.document, tuple(self.by_name.values()))
+        states = tuple(self.by_name.values())
+        self.actions = ActionWriter.of_document(self.document, states, has_queue=self.has_queue)
 
-    def convert(self, component: str, name: str) -> Project:
+    def convert(self, component: str, name: str) -> ScxmlImport:
         leaves = [state for state in self.by_name.values() if state.is_atomic]
         for leaf in leaves:
             self._states[leaf.name] = self.names.allocate(leaf.name)
-        event_names = DesignNames(frozenset({"is_done"}))
-        for descriptor in self._descriptors():
-            if descriptor not in self._events:
-                self._events[descriptor] = event_names.allocate(descriptor)
+        inputs = EventInputs.of_descriptors(self._descriptors(), _TAKEN_BY_QUEUE if self.has_queue else _TAKEN)
+        self.events = EventComponent.of_inputs(inputs, component, has_queue=self.has_queue)
+        self.actions.events = self.events if self.has_queue else None
+        self.has_queue = self.events.has_queue
         states = [self._leaf(leaf) for leaf in leaves]
         leaf, entered = self._enter(self.document)
-        initial = self._go_to(entered, leaf, "Start").to
-        events = tuple(Declaration(name=each, type="bool") for each in self._events.values())
+        first = next(state for state in states if state.name == self._states[leaf.name])
+        initial = self._go_to(entered, leaf, START, is_forced=self.has_queue and bool(first.actions)).to
         design = Design(
             component=component,
-            uses=(Use(alias=_ALIAS, component=EVENTS),) if events else (),
+            uses=self.events.uses(),
             variables=self.actions.declarations(),
             initial=initial,
-            states=(*states, *self._between.values()),
+            states=tuple(self.events.number_sent([*states, *self._between.values()])),
         )
-        interfaces = (Interface(component=EVENTS, outputs=events),) if events else ()
-        project = Project(name=name, languages=("python", "cpp"), components=interfaces, designs=(design,))
+        project = Project(
+            name=name,
+            languages=("python", "cpp"),
+            enumerations=self.events.enumerations(),
+            components=self.events.interfaces(),
+            designs=(design,),
+        )
         self._check(project, design)
-        return project
+        if initial != self._states[leaf.name]:
+            self.report.add_start(leaf, self.document.line)
+        timers = tuple(self.actions.timers.values())
+        transitions, notes = self.report.write(timers, has_queue=self.has_queue, has_events=bool(inputs.names))
+        return ScxmlImport(project=project, transitions=transitions, notes=notes, events=self.events)
 
     def _check(self, project: Project, design: Design) -> None:
         scope = build_scope(project, design)
@@ -84,49 +122,86 @@ class _Importer:
             check_expression(each.text, scope, expected, self.document.line)
 
     def _descriptors(self) -> Iterator[str]:
-        """The events of all transitions, except those that the document itself causes."""
+        """The descriptors of all transitions; without a queue, except the events that the document itself causes."""
+        own = (
+            set() if self.has_queue else {*self.actions.timers, *filter(None, map(_done_event, self.by_name.values()))}
+        )
         for state in (self.document, *self.by_name.values()):
             for transition in state.transitions():
                 for written in transition.attributes.get("event", "").split():
-                    event = _plain(written)
-                    if event not in self.actions.timers and not event.startswith((_DONE, "error", "*")):
-                        yield event
+                    if not _EVENT.fullmatch(written):
+                        raise ScxmlError("S803", f"'{written}' is not the name of an event", transition.line)
+                    if plain(written) not in own:
+                        yield written
 
     def _leaf(self, leaf: ScxmlState) -> State:
         is_end = leaf.is_final and leaf.parent is self.document
-        decisions = () if is_end else tuple(self._decisions(leaf))
+        decided = [] if is_end else list(self._decisions(leaf))
+        enter, actions = self.actions.write(leaf.content("onentry"), leaf), list[Action]()
+        if self.has_queue:
+            enter += tuple(self.events.sending(_done_event(leaf), internal=True))
+            first = [decision.guard.when or "true" for decision, is_eventless in decided if is_eventless]
+            actions += [self.events.holding(_any_of(first))] if first else []
         return State(
             name=self._states[leaf.name],
             doc=f"In {leaf.parent.name}." if leaf.parent is not None and leaf.parent is not self.document else "",
             final=is_end,
-            enter=self.actions.write(leaf.content("onentry"), leaf),
+            requires=(EVENTS_ALIAS,) if self.has_queue and not is_end else (),
+            enter=enter,
+            actions=tuple(actions),
             leave=self.actions.write(leaf.content("onexit"), leaf),
-            transitions=decisions,
+            transitions=tuple(decision for decision, _is_eventless in decided),
         )
 
-    def _decisions(self, leaf: ScxmlState) -> Iterator[Decision]:
-        """First transitions without event, then those of inner states, then those of the states around them."""
+    def _decisions(self, leaf: ScxmlState) -> Iterator[tuple[Decision, bool]]:
+        """The decisions in the order of SCXML, each with whether it needs no event.
+
+        First transitions without event, then those for events of the document itself, then others; among these, those
+        of inner states before those of the states around them.
+        """
         found = [(owner, each) for owner in leaf.ancestors() for each in owner.transitions()]
-        found.sort(key=lambda pair: bool(pair[1].attributes.get("event")))
+        found.sort(key=lambda pair: self._rank(leaf, pair[1]))
+        used: set[str] = set()
         for owner, transition in found:
-            guard = self._guard(leaf, transition)
+            guard = self._guard(leaf, transition, used)
             if guard is None:
                 continue
-            yield self._decision(leaf, owner, transition, guard)
+            is_eventless = not transition.attributes.get("event")
+            yield self._decision(leaf, owner, transition, guard), is_eventless
             if guard.is_empty:
                 return
 
-    def _guard(self, leaf: ScxmlState, transition: Element) -> Guard | None:
-        """The guard; None if the transition can never be taken in this state."""
+    def _is_own(self, leaf: ScxmlState, transition: Element) -> bool:
+        """Whether SCXML takes a transition before the next event from outside."""
+        descriptors = transition.attributes.get("event", "").split()
+        own = [*self.actions.sent_at_once, *filter(None, [_done_event(leaf)])]
+        return not descriptors or any(matches(each, event) for each in descriptors for event in own)
+
+    def _rank(self, leaf: ScxmlState, transition: Element) -> int:
+        descriptors = transition.attributes.get("event", "").split()
+        if not descriptors:
+            return 0
+        done = "" if self.has_queue else _done_event(leaf)
+        return 1 if done and any(matches(each, done) for each in descriptors) else 2
+
+    def _guard(self, leaf: ScxmlState, transition: Element, used: set[str]) -> Guard | None:
+        """The guard; None if the transition can never be taken in this state.
+
+        `used` are events of the document itself that a transition without target has taken.
+        """
         inside = {state.name for state in leaf.ancestors()}
         events, after, terms = transition.attributes.get("event", "").split(), "", list[str]()
         if events:
-            parts = [part for event in events for part in self._event_terms(event, leaf)]
+            own = {} if self.has_queue else self._own_events(events, leaf, used)
+            if own and not transition.attributes.get("target"):
+                used.update(_check_unconditional(transition, own))
+                own = {}
+            parts = list(dict.fromkeys(name for event in events for name in self.events.inputs.matched_by(event)))
+            parts = [*own.values(), *(f"{EVENTS_ALIAS}.{name}" for name in parts)]
             if not parts:
                 return None
-            timers = [self.actions.timers[event] for event in events if event in self.actions.timers]
-            if timers and timers[0].state is leaf and len(events) == 1:
-                after, parts = timers[0].seconds, []
+            if len(parts) == 1 and parts[0].startswith(_AFTER):
+                after, parts = parts[0].removeprefix(_AFTER), []
             if "true" not in parts and parts:
                 terms.append(" or ".join(parts))
         condition = transition.attributes.get("cond", "")
@@ -139,19 +214,20 @@ class _Importer:
             when=" and ".join(f"({each})" if len(terms) > 1 and " or " in each else each for each in terms), after=after
         )
 
-    def _event_terms(self, event: str, leaf: ScxmlState) -> Iterator[str]:
-        plain = _plain(event)
-        if event.startswith(_DONE):
-            is_done = leaf.is_final and leaf.parent is not None and event == f"{_DONE}{leaf.parent.name}"
-            yield from ["true"] if is_done else []
-        elif plain in self.actions.timers:
-            timer = self.actions.timers[plain]
-            yield f"component_time - {timer.variable} >= {timer.seconds}"
-        else:
-            # A descriptor matches all events that begin with it.
-            for known, name in self._events.items():
-                if plain in ("*", known) or known.startswith(f"{plain}."):
-                    yield f"{_ALIAS}.{name}"
+    def _own_events(self, descriptors: list[str], leaf: ScxmlState, used: set[str]) -> dict[str, str]:
+        """The events of the document itself that may occur in a state, with their conditions."""
+        inside = list(leaf.ancestors())
+        conditions = {_done_event(leaf): "true"} if _done_event(leaf) else {}
+        for event, timer in self.actions.timers.items():
+            if timer.state is leaf:
+                conditions[event] = f"{_AFTER}{timer.seconds}"
+            elif timer.state in inside:
+                conditions[event] = f"component_time - {timer.variable} >= {timer.seconds}"
+        return {
+            event: condition
+            for event, condition in conditions.items()
+            if event not in used and any(matches(each, event) for each in descriptors)
+        }
 
     def _decision(self, leaf: ScxmlState, owner: ScxmlState, transition: Element, guard: Guard) -> Decision:
         target = transition.attributes.get("target", "").strip()
@@ -160,6 +236,7 @@ class _Importer:
                 fix = "give it a target, or assign on entry of a state"
                 reason = "a transition without a target that assigns: actions belong to states"
                 raise ScxmlError("S802", reason, transition.line, fix)
+            self.report.add(leaf, owner, transition)
             return Stay(guard=guard)
         if " " in target or target not in self.by_name:
             known = "a design is in one state at a time" if " " in target else f"unknown state '{target}'"
@@ -171,8 +248,11 @@ class _Importer:
         actions = [action for state in passed for action in self.actions.write(state.content("onexit"), state)]
         actions += self.actions.write(transition.children, owner)
         end, entered = self._enter(to, below=domain)
-        is_restart = end is leaf
-        step = self._go_to((*actions, *entered), end, f"{self._states[leaf.name]}_to", is_forced=is_restart)
+        step = self._go_to((*actions, *entered), end, f"{self._states[leaf.name]}_to", is_forced=end is leaf)
+        reached = Reached(
+            end=end, is_later=step.to != self._states[end.name], is_own=self._is_own(leaf, transition), domain=domain
+        )
+        self.report.add(leaf, owner, transition, reached)
         return Transition(to=step.to, guard=guard)
 
     def _enter(self, target: ScxmlState, below: ScxmlState | None = None) -> tuple[ScxmlState, tuple[Action, ...]]:
@@ -200,18 +280,42 @@ class _Importer:
         target = self._states[leaf.name]
         if not actions and not is_forced:
             return Transition(to=target)
-        key = (actions, f"{stem}:{target}" if is_forced else target)
+        # The initial state has no iteration before it, so its actions are others than those of a state in between.
+        key = (actions, f"{stem}:{target}" if is_forced or stem == START else target)
         if key not in self._between:
-            name = self.names.allocate(stem if stem == "Start" else f"{stem}_{target}")
+            name = self.names.allocate(stem if stem == START else f"{stem}_{target}")
+            # The next event is not handed out before the state is left.
+            held = (self.events.holding(),) if self.has_queue else ()
             # The initial state decides before it acts.
-            entered, acted = (actions, ()) if stem == "Start" else ((), actions)
-            self._between[key] = State(name=name, enter=entered, actions=acted, transitions=(Transition(to=target),))
+            is_entered = stem == START or self.has_queue
+            entered, acted = ((*actions, *held), ()) if is_entered else ((), actions)
+            self._between[key] = State(
+                name=name,
+                requires=(EVENTS_ALIAS,) if self.has_queue else (),
+                enter=entered,
+                actions=acted,
+                transitions=(Transition(to=target),),
+            )
         return Transition(to=self._between[key].name)
 
 
-def _plain(event: str) -> str:
-    """A descriptor without the ending that says that it is one."""
-    return event.removesuffix(".*").removesuffix(".")
+def _done_event(state: ScxmlState) -> str:
+    """The event that is raised when a state is entered; "" for none."""
+    parent = state.parent
+    return f"{DONE}{parent.name}" if state.is_final and parent is not None and parent.parent is not None else ""
+
+
+def _any_of(conditions: list[str]) -> str:
+    if "true" in conditions:
+        return "true"
+    return " or ".join(f"({each})" if len(conditions) > 1 else each for each in conditions)
+
+
+def _check_unconditional(transition: Element, events: Iterable[str]) -> Iterable[str]:
+    if transition.attributes.get("cond"):
+        reason = "a transition without a target that takes a timer or done event on a condition"
+        raise ScxmlError("S802", reason, transition.line, "use --event-queue")
+    return events
 
 
 def _domain(owner: ScxmlState, target: ScxmlState, *, is_internal: bool) -> ScxmlState:

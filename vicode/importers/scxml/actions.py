@@ -5,11 +5,15 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from vicode.importers.names import DesignNames
+from vicode.importers.scxml.events import KEYWORDS, matches
 from vicode.importers.scxml.expressions import translate
+from vicode.importers.scxml.queue import EVENTS_ALIAS, EventComponent
 from vicode.importers.scxml.reader import Element, ScxmlError
 from vicode.importers.scxml.states import ScxmlState
 from vicode.model.design import Action, Assign, Declaration
 
+_INTERNAL = "#_internal"
+_PROCESSOR = "http://www.w3.org/TR/scxml/#SCXMLEventProcessor"
 _DELAY = re.compile(r"(\d+\.?\d*|\.\d+)(ms|s)")
 
 
@@ -18,26 +22,44 @@ class Timer:
     """A delayed event, sent on entry of a state; `variable` stores the time."""
 
     state: ScxmlState
+    event: str
     seconds: str
     variable: str
+    send_id: str
+
+    @property
+    def is_cancelled_on_exit(self) -> bool:
+        cancels = (each for each in self.state.content("onexit") if each.tag == "cancel")
+        return any(each.attributes.get("sendid") == self.send_id != "" for each in cancels)
 
 
 @dataclass(slots=True, kw_only=True)
 class ActionWriter:
-    """Writes actions; `names` are the data of the document."""
+    """Writes actions.
+
+    Attributes:
+        names: The data of the document.
+        timers: The delayed events, without a queue.
+        events: The queue; None if there is none.
+        sent_at_once: The events that the document sends to itself without delay.
+    """
 
     names: Mapping[str, str]
     timers: Mapping[str, Timer]
+    events: EventComponent | None = None
+    sent_at_once: frozenset[str] = frozenset()
     _declarations: list[Declaration] = field(default_factory=list)
+    _send_ids: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
-    def of_document(cls, document: ScxmlState, states: Sequence[ScxmlState]) -> "ActionWriter":
-        """Declare the data and timers of a document.
+    def of_document(cls, document: ScxmlState, states: Sequence[ScxmlState], *, has_queue: bool) -> "ActionWriter":
+        """Declare the data of a document, and its timers unless delayed events are sent to a queue.
 
         Raises:
             ScxmlError: A value or event cannot be expressed.
         """
-        allocator, names, declarations = DesignNames(frozenset({"events"})), dict[str, str](), list[Declaration]()
+        allocator = DesignNames(frozenset({EVENTS_ALIAS}), KEYWORDS)
+        names, declarations = dict[str, str](), list[Declaration]()
         for state in (document, *states):
             for item in (data for model in state.element.find("datamodel") for data in model.find("data")):
                 name = item.attributes.get("id", "")
@@ -46,16 +68,14 @@ class ActionWriter:
                 names[name] = allocator.allocate(name)
                 initial = "" if text in ("0", "false") else text
                 declarations.append(Declaration(name=names[name], type=type_, initial=initial))
-        timers = {}
-        for state in states:
-            for item in state.content("onentry"):
-                if item.tag == "send":
-                    event, seconds = _read_timer(item)
-                    _check_scope(event, state, states, item)
-                    variable = allocator.allocate(f"sent_{event}")
-                    timers[event] = Timer(state=state, seconds=seconds, variable=variable)
-                    if not state.is_atomic:
-                        declarations.append(Declaration(name=variable, type="float"))
+        if has_queue:
+            sent = [each for state in (document, *states) for each in _iter_sends(state.element)]
+            at_once = frozenset(_event_name(each) for each in sent if "delay" not in each.attributes)
+            ids = _read_send_ids(each for each in sent if each.tag == "send")
+            return cls(names=names, timers={}, sent_at_once=at_once, _declarations=declarations, _send_ids=ids)
+        timers = _read_timers(states, allocator)
+        variables = [each.variable for each in timers.values() if not each.state.is_atomic]
+        declarations += (Declaration(name=variable, type="float") for variable in variables)
         return cls(names=names, timers=timers, _declarations=declarations)
 
     def declarations(self) -> tuple[Declaration, ...]:
@@ -75,18 +95,36 @@ class ActionWriter:
                 yield Assign(values=(self._assignment(element, owner),))
             case "if":
                 yield from self._choice(element, owner)
-            case "send":
-                event, _seconds = _read_timer(element)
-                timer = self.timers.get(event)
-                if timer is None or element not in timer.state.content("onentry"):
-                    raise _refuse_send(element)
-                if not timer.state.is_atomic:
-                    yield Assign(values=((timer.variable, "component_time"),))
-            case "log" | "cancel":
-                # Neither changes anything: a timer ends with its state.
+            case "raise" | "send" | "cancel":
+                events = self.events
+                yield from self._write_timer(element) if events is None else self._write_event(events, element)
+            case "log":
                 return
             case _:
                 raise ScxmlError("S802", f"<{element.tag}> is not expected here", element.line)
+
+    def _write_event(self, events: EventComponent, element: Element) -> Iterator[Action]:
+        match element.tag:
+            case "raise":
+                return events.sending(_event_name(element), internal=True)
+            case "cancel":
+                return events.sending(_cancelled(element, self._send_ids), cancel=True)
+            case _:
+                return _write_send(events, element)
+
+    def _write_timer(self, element: Element) -> Iterator[Action]:
+        if element.tag == "cancel":
+            # A timer ends with its state.
+            ids = [timer.send_id for timer in self.timers.values() if element in timer.state.content("onexit")]
+            if element.attributes.get("sendid") not in ids:
+                reason = "<cancel>: only a delayed event of a state is cancelled, on exit of this state"
+                raise ScxmlError("S802", reason, element.line, "use --event-queue")
+            return
+        timer = self.timers.get(element.attributes.get("event", ""))
+        if timer is None or element not in timer.state.content("onentry"):
+            raise _refuse_send(element)
+        if not timer.state.is_atomic:
+            yield Assign(values=((timer.variable, "component_time"),))
 
     def _assignment(self, element: Element, owner: ScxmlState) -> tuple[str, str]:
         location, value = element.attributes.get("location", ""), element.attributes.get("expr")
@@ -123,23 +161,98 @@ class ActionWriter:
             yield Assign(values=((name, f"({value}) if {test} else {name}"),))
 
 
+def _read_timers(states: Sequence[ScxmlState], allocator: DesignNames) -> dict[str, Timer]:
+    timers: dict[str, Timer] = {}
+    for state in states:
+        for item in state.content("onentry"):
+            if item.tag == "send":
+                event, seconds = _read_timer(item)
+                _check_scope(event, state, states, item)
+                if event in timers:
+                    raise _refuse_send(item)
+                variable = allocator.allocate(f"sent_{event}")
+                send_id = item.attributes.get("id", "")
+                timers[event] = Timer(state=state, event=event, seconds=seconds, variable=variable, send_id=send_id)
+    return timers
+
+
+def _read_delay(text: str) -> str | None:
+    """Seconds as text; None if it is not a time."""
+    delay = _DELAY.fullmatch(text)
+    if delay is None:
+        return None
+    return f"{float(delay[1]) / (1000 if delay[2] == 'ms' else 1):.9f}".rstrip("0").removesuffix(".")
+
+
 def _read_timer(element: Element) -> tuple[str, str]:
-    delay = _DELAY.fullmatch(element.attributes.get("delay", "").strip())
+    seconds = _read_delay(element.attributes.get("delay", "").strip())
     event = element.attributes.get("event", "")
-    if delay is None or not event or "target" in element.attributes or float(delay[1]) == 0:
+    if seconds in (None, "0") or not event or element.attributes.keys() - {"event", "delay", "id"}:
         raise _refuse_send(element)
-    seconds = float(delay[1]) / (1000 if delay[2] == "ms" else 1)
-    return event, f"{seconds:g}"
+    assert seconds is not None
+    return event, seconds
+
+
+def _write_send(events: EventComponent, element: Element) -> Iterator[Action]:
+    delay = _read_delay(element.attributes.get("delay", "0s").strip())
+    target = element.attributes.get("target", "")
+    others = sorted(element.attributes.keys() - {"event", "delay", "id", "target", "type"})
+    if delay is None or others or target not in ("", _INTERNAL) or not _is_own_type(element):
+        reason = f"<send> with {others[0]}" if others else "<send>: only events to the document itself are sent"
+        raise ScxmlError("S802", reason, element.line, "send an event with a name to the document itself")
+    return events.sending(
+        _event_name(element), internal=target == _INTERNAL, delay="" if delay == "0" or target else delay
+    )
+
+
+def _event_name(element: Element) -> str:
+    event = element.attributes.get("event", "")
+    if not event:
+        raise ScxmlError("S802", f"<{element.tag}> without event: names of events are fixed", element.line)
+    return event
+
+
+def _is_own_type(element: Element) -> bool:
+    return element.attributes.get("type", "scxml") in ("scxml", _PROCESSOR, f"{_PROCESSOR}/")
+
+
+def _read_send_ids(sends: Iterable[Element]) -> dict[str, str]:
+    """The event of each id of <send>; "" if an event has several ids or none, or an id several events."""
+    ids, events = dict[str, set[str]](), dict[str, set[str]]()
+    for send in sends:
+        event, send_id = _event_name(send), send.attributes.get("id", "")
+        ids.setdefault(send_id, set()).add(event)
+        events.setdefault(event, set()).add(send_id)
+    pairs = {send_id: next(iter(found)) if len(found) == 1 else "" for send_id, found in ids.items() if send_id}
+    return {send_id: event if len(events.get(event, ())) == 1 else "" for send_id, event in pairs.items()}
+
+
+def _iter_sends(element: Element) -> Iterator[Element]:
+    """The <send> and <raise> elements in the content of a state, but not in the states inside it."""
+    for child in element.children:
+        if child.tag in ("send", "raise"):
+            yield child
+        elif child.tag not in ("state", "final"):
+            yield from _iter_sends(child)
+
+
+def _cancelled(element: Element, sent: Mapping[str, str]) -> str:
+    event = sent.get(element.attributes.get("sendid", ""), "")
+    if not event:
+        reason = "<cancel>: its sendid is not that of all <send> of one event"
+        raise ScxmlError("S802", reason, element.line, "give all of them this id, and no other event")
+    return event
 
 
 def _refuse_send(element: Element) -> ScxmlError:
     reason = "<send>: only a delayed event on entry of a state, for transitions of that state, is a timer of a design"
-    return ScxmlError("S802", reason, element.line, "set a variable, and test it in guards")
+    return ScxmlError("S802", reason, element.line, "use --event-queue")
 
 
 def _check_scope(event: str, state: ScxmlState, states: Sequence[ScxmlState], element: Element) -> None:
     for other in states:
         for transition in other.transitions():
-            if event in transition.attributes.get("event", "").split() and state not in other.ancestors():
+            descriptors = transition.attributes.get("event", "").split()
+            if any(matches(each, event) for each in descriptors) and state not in other.ancestors():
                 reason = f"<send>: '{event}' is used outside of '{state.name}', and timers end with their state"
-                raise ScxmlError("S802", reason, element.line, "use another name there")
+                raise ScxmlError("S802", reason, element.line, "use another name there, or --event-queue")

@@ -1,6 +1,6 @@
 """The states of an SCXML document, and the elements that designs cannot express."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from vicode.importers.scxml.reader import Element, ScxmlError
@@ -10,7 +10,6 @@ _REASONS = {
     "parallel": ("a design is in one state at a time", "make a component of each region, and call them from a state"),
     "history": ("a design does not store the state that was left", "use a component with resume: true"),
     "invoke": ("designs start no other services", "use a separate component, and call it in the state"),
-    "raise": ("designs have no queue of events", "set a variable, and test it in guards"),
     "script": ("scripts are not translated", "use <assign>"),
     "foreach": ("designs have no collections", "use <assign> for each value"),
     "finalize": ("designs start no other services", "remove it"),
@@ -18,7 +17,8 @@ _REASONS = {
     "param": ("events have no data", "use an input of the design"),
     "content": ("events have no data", "use an input of the design"),
 }
-_EXECUTABLE = ("assign", "if", "elseif", "else", "log", "send", "cancel")
+_RAISE = ("a design reads inputs and has no queue of events", "use --event-queue")
+_EXECUTABLE = ("assign", "if", "elseif", "else", "log", "send", "cancel", "raise")
 _KNOWN = {
     *("scxml", "state", "final", "initial", "transition", "onentry", "onexit", "datamodel", "data"),
     *_EXECUTABLE,
@@ -63,13 +63,13 @@ class ScxmlState:
         return list(self.element.find("transition"))
 
 
-def read_states(root: Element) -> tuple[ScxmlState, dict[str, ScxmlState]]:
+def read_states(root: Element, *, has_queue: bool) -> tuple[ScxmlState, dict[str, ScxmlState]]:
     """The tree of states, and all states by id.
 
     Raises:
         ScxmlError: An element cannot be expressed, or a name is unknown or used twice.
     """
-    _refuse_elements(root)
+    _refuse_elements(root, _REASONS if has_queue else {**_REASONS, "raise": _RAISE})
     by_name: dict[str, ScxmlState] = {}
     document = _read(root, None, by_name)
     if not document.children:
@@ -82,14 +82,14 @@ def read_states(root: Element) -> tuple[ScxmlState, dict[str, ScxmlState]]:
     return document, by_name
 
 
-def _refuse_elements(element: Element) -> None:
-    if element.tag in _REASONS:
-        reason, fix = _REASONS[element.tag]
+def _refuse_elements(element: Element, reasons: Mapping[str, tuple[str, str]]) -> None:
+    if element.tag in reasons:
+        reason, fix = reasons[element.tag]
         raise ScxmlError("S802", f"<{element.tag}>: {reason}", element.line, fix)
     if element.tag not in _KNOWN:
         raise ScxmlError("S802", f"<{element.tag}> has no meaning in designs", element.line, "remove it")
     for child in element.children:
-        _refuse_elements(child)
+        _refuse_elements(child, reasons)
 
 
 def _read(element: Element, parent: ScxmlState | None, by_name: dict[str, ScxmlState]) -> ScxmlState:

@@ -1,13 +1,17 @@
 """A change of one item of a design, and its description in words."""
 
+import json
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from enum import StrEnum
+from typing import Any
 
 from vicode.findings import DesignPath
 from vicode.model.design import Action, Assign, Call, Code, Decision, Declaration, Guard, RunCode, Stay, Transition
 
 _MAX_LENGTH = 100
+_CONTEXT_LENGTH = 30
 
 
 class ChangeKind(StrEnum):
@@ -62,9 +66,33 @@ def describe_change(change: Change) -> str:
             return f"{sign} renamed {kind}{change.old} → {change.new}"
         case ChangeKind.MOVED:
             return f"{sign} moved {change.subject}: {change.old or '(automatic)'} → {change.new or '(automatic)'}"
-    if change.old.count("\n") + change.new.count("\n"):
-        return f"{sign} {_attribute_of(change)}: {_describe_lines(change.old, change.new)}"
-    return f"{sign} {_attribute_of(change)}: {_shorten(change.old) or '(none)'} → {_shorten(change.new) or '(none)'}"
+    blocks = _changed_blocks(change)
+    if _is_shown_in_lines(blocks):
+        removed, added = (sum(len(block[side]) for block in blocks) for side in (0, 1))
+        counts = f"{_count_lines(change.old)} → {_count_lines(change.new)} (+{added} -{removed})"
+        return f"{sign} {_attribute_of(change)}: {counts}"
+    if blocks:
+        ((removed_lines, added_lines),) = blocks
+        return f"{sign} {_attribute_of(change)}: {_describe_pair(*removed_lines, *added_lines)}"
+    return f"{sign} {_attribute_of(change)}: {_describe_pair(change.old, change.new)}"
+
+
+def changed_lines(change: Change) -> tuple[str, ...]:
+    """The lines that a change of several lines removes and adds, with their signs; empty for other changes."""
+    blocks = _changed_blocks(change)
+    if not _is_shown_in_lines(blocks):
+        return ()
+    signed = (lines for removed, added in blocks for lines in (("-", removed), ("+", added)))
+    return tuple(f"{sign} {line}" for sign, lines in signed for line in lines)
+
+
+def describe_changes(changes: Iterable[Change]) -> tuple[str, ...]:
+    """The lines of all changes; the lines that differ are indented below their change."""
+    return tuple(
+        line
+        for change in changes
+        for line in (describe_change(change), *(f"    {each}" for each in changed_lines(change)))
+    )
 
 
 def describe_decision(source: str, decision: Decision) -> str:
@@ -106,7 +134,7 @@ def describe_declaration(declaration: Declaration) -> str:
     """Type, value, unit and range of a declaration."""
     arguments = declaration.arguments
     listed = "" if arguments is None else f"({', '.join(_describe_argument(each) for each in arguments)})"
-    low_high = f"{declaration.range[0]:g} to {declaration.range[1]:g}" if declaration.range else ""
+    low_high = " to ".join(map(describe_number, declaration.range or ()))
     return " ".join(
         part for part in (listed, declaration.type, declaration.initial, declaration.unit, low_high) if part
     )
@@ -120,7 +148,7 @@ def describe_value(value: object) -> str:
         case True:
             return "yes"
         case float():
-            return f"{value:g}"
+            return describe_number(value)
         case Code():
             return describe_code(value)
         case tuple():
@@ -131,6 +159,17 @@ def describe_value(value: object) -> str:
             return f"{value.name} {describe_declaration(value)}".rstrip()
         case _:
             return str(value)
+
+
+def describe_number(value: float) -> str:
+    """The shortest text that is read as this number."""
+    return repr(float(value)).removesuffix(".0")
+
+
+def describe_values(old: object, new: object, describe: Callable[[Any], str]) -> tuple[str, str]:
+    """Both values as texts that differ, also where the values have the same description."""
+    before, after = describe(old), describe(new)
+    return (before, after) if before != after else (repr(old), repr(new))
 
 
 def _is_pair(value: object) -> bool:
@@ -154,16 +193,32 @@ def _attribute_of(change: Change) -> str:
     return f"{change.attribute} of {change.subject}"
 
 
-def _describe_lines(old: str, new: str) -> str:
-    """The only line that differs, or how many do."""
-    before, after = old.splitlines(), new.splitlines()
+_Block = tuple[list[str], list[str]]
+
+
+def _changed_blocks(change: Change) -> list[_Block]:
+    """The removed and added lines of each place where a changed text of several lines differs."""
+    if change.kind is not ChangeKind.CHANGED or "\n" not in change.old + change.new:
+        return []
+    before, after = change.old.splitlines(), change.new.splitlines()
     opcodes = SequenceMatcher(None, before, after, autojunk=False).get_opcodes()
-    changes = [(before[a:b], after[c:d]) for kind, a, b, c, d in opcodes if kind != "equal"]
-    if [(len(removed), len(added)) for removed, added in changes] == [(1, 1)]:
-        ((removed,), (added,)) = changes[0]
-        return f"{_shorten(removed)} → {_shorten(added)}"
-    counts = f"+{sum(len(added) for _, added in changes)} -{sum(len(removed) for removed, _ in changes)}"
-    return f"{_count_lines(old)} → {_count_lines(new)} ({counts})"
+    return [(before[a:b], after[c:d]) for kind, a, b, c, d in opcodes if kind != "equal"]
+
+
+def _is_shown_in_lines(blocks: list[_Block]) -> bool:
+    """A single line that changed stands in the line of its change."""
+    return bool(blocks) and [tuple(map(len, block)) for block in blocks] != [(1, 1)]
+
+
+def _describe_pair(old: str, new: str) -> str:
+    """Both texts in one line; where they look the same, the part that differs, in quotation marks."""
+    before, after = _shorten(old) or "(none)", _shorten(new) or "(none)"
+    if before == after:
+        same = next((at for at, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), min(len(old), len(new)))
+        start = max(0, same - _CONTEXT_LENGTH)
+        parts = (json.dumps(text[start : start + _MAX_LENGTH], ensure_ascii=False) for text in (old, new))
+        before, after = (f"{'…' * bool(start)}{part}" for part in parts)
+    return f"{before} → {after}"
 
 
 def _count_lines(text: str) -> str:

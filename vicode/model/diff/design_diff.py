@@ -1,22 +1,17 @@
 """Compares two versions of a design by state and transition."""
 
 from collections.abc import Iterator
-from typing import Any
 
 from vicode.findings import DesignPath
 from vicode.model.design import (
     Action,
     Call,
     CommonSection,
-    Decision,
-    DecisionGroup,
     Design,
     DiagramFrame,
     DiagramNote,
-    Guard,
+    RunCode,
     State,
-    Stay,
-    Transition,
     Use,
 )
 from vicode.model.diff.changes import (
@@ -24,10 +19,16 @@ from vicode.model.diff.changes import (
     ChangeKind,
     describe_action,
     describe_code,
-    describe_decision,
-    describe_guard,
 )
-from vicode.model.diff.item_diff import diff_attributes, diff_declarations, diff_keyed, diff_ordered, diff_positions
+from vicode.model.diff.decision_diff import diff_decisions
+from vicode.model.diff.item_diff import (
+    diff_attributes,
+    diff_declarations,
+    diff_keyed,
+    diff_ordered,
+    diff_positions,
+    diff_values,
+)
 from vicode.model.edits import rename_state, rename_use
 from vicode.model.merge.matching import find_renamed_states, find_renamed_uses
 
@@ -142,7 +143,7 @@ def _diff_use(path: DesignPath, old: Use, new: Use) -> Iterator[Change]:
 def _diff_frame(path: DesignPath, old: DiagramFrame, new: DiagramFrame) -> Iterator[Change]:
     subject = f"frame {new.name}"
     yield from diff_attributes(path, subject, old, new, {"color": "color"})
-    yield from _diff_text((*path, "states"), subject, ", ".join(old.states), ", ".join(new.states))
+    yield from diff_values((*path, "states"), subject, old.states, new.states, ", ".join)
 
 
 def _diff_note(path: DesignPath, old: DiagramNote, new: DiagramNote) -> Iterator[Change]:
@@ -154,7 +155,7 @@ def _diff_common(old: CommonSection, new: CommonSection) -> Iterator[Change]:
     yield from diff_attributes(("common",), "common section", old, new, {"doc": "description"})
     yield from diff_positions(("common",), "common section", old.at, new.at)
     yield from _diff_actions(("common", "actions"), "action", "common section", old.actions, new.actions)
-    yield from _diff_decisions(("common", "transitions"), "common", old.transitions, new.transitions)
+    yield from diff_decisions(("common", "transitions"), "common", old.transitions, new.transitions)
 
 
 def _describe_state(state: State) -> str:
@@ -181,13 +182,13 @@ def _diff_state(path: DesignPath, old: State, new: State) -> Iterator[Change]:
         new.modulates,
         subject=lambda call: f"modulation of {call.alias} in {owner}",
         content=_arguments,
-        compare=lambda here, before, after: _diff_text(
-            here, f"modulation of {after.alias} in {owner}", _arguments(before), _arguments(after)
+        compare=lambda here, before, after: diff_values(
+            here, f"modulation of {after.alias} in {owner}", before, after, _arguments
         ),
     )
     for phase, kind in _PHASES.items():
         yield from _diff_actions((*path, phase), kind, owner, getattr(old, phase), getattr(new, phase))
-    yield from _diff_decisions((*path, "transitions"), new.name, old.transitions, new.transitions)
+    yield from diff_decisions((*path, "transitions"), new.name, old.transitions, new.transitions)
 
 
 def _diff_actions(
@@ -200,58 +201,17 @@ def _diff_actions(
         new,
         subject=lambda _action: subject,
         content=describe_action,
-        compare=lambda here, before, after: _diff_text(here, subject, describe_action(before), describe_action(after)),
+        compare=lambda _there, here, before, after: _diff_action(here, subject, before, after),
     )
 
 
-def _diff_decisions(
-    path: DesignPath, source: str, old: tuple[Decision, ...], new: tuple[Decision, ...]
-) -> Iterator[Change]:
-    def subject(decision: Decision) -> str:
-        return describe_decision(source, decision)
-
-    def compare(here: DesignPath, before: Any, after: Any) -> Iterator[Change]:
-        name = subject(after)
-        if isinstance(after, Transition):
-            yield from diff_attributes(here, name, before, after, {"to": "target"})
-            yield from diff_positions((*here, "label_at"), f"label of {name}", before.label_at, after.label_at)
-        yield from _diff_guard(here, name, before.guard, after.guard)
-        yield from diff_attributes(here, name, before, after, _DECISION_ATTRIBUTES)
-        if isinstance(after, DecisionGroup):
-            yield from _diff_decisions((*here, "then"), source, before.then, after.then)
-            yield from _diff_decisions((*here, "else"), source, before.otherwise, after.otherwise)
-
-    return diff_ordered(path, old, new, subject=subject, content=_describe_decision_content, compare=compare)
-
-
-def _describe_decision_content(decision: Decision) -> str:
-    guard = describe_guard(decision.guard)
-    if not isinstance(decision, DecisionGroup):
-        return guard
-    inner = (*decision.then, *decision.otherwise)
-    targets = [
-        f"→ {each.to}" if isinstance(each, Transition) else "stay" if isinstance(each, Stay) else "…" for each in inner
-    ]
-    return f"{guard}{': ' if guard else ''}{', '.join(targets)}"
-
-
-def _diff_guard(path: DesignPath, subject: str, old: Guard, new: Guard) -> Iterator[Change]:
-    yield from diff_attributes(path, subject, old, new, {"when": "guard", "after": "time"})
-    if old.code != new.code:
-        yield Change(
-            kind=ChangeKind.CHANGED,
-            subject=subject,
-            path=(*path, "code"),
-            attribute="guard code",
-            old=describe_code(old.code),
-            new=describe_code(new.code),
-        )
+def _diff_action(path: DesignPath, subject: str, old: Action, new: Action) -> Iterator[Change]:
+    if isinstance(old, RunCode) and isinstance(new, RunCode):
+        yield from diff_attributes(path, subject, old, new, {"id": "id"})
+        yield from diff_values(path, subject, old.code, new.code, describe_code)
+    else:
+        yield from diff_values(path, subject, old, new, describe_action)
 
 
 def _arguments(call: Call) -> str:
     return ", ".join(f"{name}: {text}" for name, text in call.arguments)
-
-
-def _diff_text(path: DesignPath, subject: str, old: str, new: str) -> Iterator[Change]:
-    if old != new:
-        yield Change(kind=ChangeKind.CHANGED, subject=subject, path=path, old=old, new=new)

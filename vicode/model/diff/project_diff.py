@@ -12,7 +12,9 @@ _PROJECT_ATTRIBUTES = {
     "doc": "description",
     "languages": "languages",
     "world": "world",
+    "clock": "clock",
     "generated": "output folder",
+    "xabsl_encoding": "encoding of XABSL files",
 }
 _ENUMERATION_ATTRIBUTES = {
     "doc": "description",
@@ -122,7 +124,7 @@ def _diff_agent(path: DesignPath, old: Agent, new: Agent) -> Iterator[Change]:
 
 
 def _diff_profile(path: DesignPath, old: Profile, new: Profile) -> Iterator[Change]:
-    yield from diff_attributes(path, f"profile {new.name}", old, new, {"world": "world"})
+    yield from diff_attributes(path, f"profile {new.name}", old, new, {"world": "world", "clock": "clock"})
     yield from diff_keyed(
         (*path, "components"),
         old.components,

@@ -12,6 +12,7 @@ from vicode.model.expressions.tree import (
     BOOL,
     FLOAT,
     INT,
+    TEAM_SIZE,
     UNKNOWN,
     Binary,
     Boolean,
@@ -33,7 +34,7 @@ _BINARY_OPERATORS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", as
 _COMPARISON_OPERATORS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 _BOOLEANS = {"True": True, "true": True, "False": False, "false": False}
 _TIMES = {"state_time": "state", "component_time": "component"}
-_STATUSES = frozenset({"action_done", "conflict"})
+_STATUSES = {"action_done": BOOL, "conflict": BOOL, TEAM_SIZE: INT}
 _EXACT_INT = 2**53
 
 
@@ -118,7 +119,7 @@ class ExpressionBinder:
         if name in _TIMES:
             return ElapsedTime(kind=_TIMES[name], span=span)
         if name in _STATUSES:
-            return StatusFlag(name=name, span=span)
+            return StatusFlag(name=name, type=_STATUSES[name], span=span)
         if name in self.scope.uses:
             self.report("E303", f"'{name}' is a component", f"use one of its outputs: {name}.…", syntax)
             return None

@@ -4,6 +4,8 @@ from collections.abc import Callable, Mapping
 
 from vicode.bica import arithmetic
 from vicode.model.expressions.tree import (
+    FLOAT,
+    INT,
     Binary,
     Boolean,
     Comparison,
@@ -38,15 +40,22 @@ _FUNCTIONS: Mapping[str, Callable[..., float]] = {
     "int": arithmetic.to_int,
     "round": arithmetic.round_half_even,
 }
+
+
+def _of_floats(function: Callable[[float, float], float]) -> Callable[[float, float], float]:
+    """Return a function that converts its arguments to floats: the quotient of large ints differs from that."""
+    return lambda a, b: function(float(a), float(b))
+
+
 _ARITHMETIC: Mapping[str, Callable[[float, float], float]] = {
     "+": lambda a, b: a + b,
     "-": lambda a, b: a - b,
     "*": lambda a, b: a * b,
-    "/": arithmetic.divide,
+    "/": _of_floats(arithmetic.divide),
     "//": arithmetic.floor_divide,
     "%": arithmetic.modulo,
 }
-_XABSL_ARITHMETIC = {**_ARITHMETIC, "/": arithmetic.xabsl_divide, "%": arithmetic.xabsl_remainder}
+_XABSL_ARITHMETIC = {**_ARITHMETIC, "/": _of_floats(arithmetic.xabsl_divide), "%": arithmetic.xabsl_remainder}
 _COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
     "<": lambda a, b: a < b,
     "<=": lambda a, b: a <= b,
@@ -103,9 +112,9 @@ class _Evaluator:
             case Ternary():
                 return self._evaluate_ternary(node)
             case ElapsedTime() | StatusFlag() | Done() | OutputRef():
-                return self._values.get(read_name(node))
+                return _as_int(node, self._values.get(read_name(node)), arithmetic.limit)
             case _:
-                return self._evaluate_operation(node)
+                return _as_int(node, self._evaluate_operation(node), arithmetic.saturate)
 
     def _evaluate_operation(self, node: Expr) -> Value | None:
         match node:
@@ -121,7 +130,7 @@ class _Evaluator:
                 return self._apply(_FUNCTIONS[function], arguments)
             case Comparison(operators=operators, operands=operands):
                 pairs = zip(operators, operands, operands[1:], strict=False)
-                return _all([self._apply(_COMPARISONS[operator], (a, b)) for operator, a, b in pairs])
+                return _all([self._compare(_COMPARISONS[operator], a, b) for operator, a, b in pairs])
             case Logic(operator=operator, operands=operands):
                 held = [self.evaluate(operand) for operand in operands]
                 return _all(held) if operator == "and" else _any(held)
@@ -132,15 +141,23 @@ class _Evaluator:
         chosen = self.evaluate(node.test)
         return None if chosen is None else self.evaluate(node.then if chosen else node.otherwise)
 
+    def _compare(self, compare: Callable[..., float], *sides: Expr) -> Value | None:
+        are_floats = FLOAT in {side.type for side in sides}
+        return self._apply(lambda a, b: compare(float(a), float(b)) if are_floats else compare(a, b), sides)
+
     def _apply(self, function: Callable[..., float], operands: tuple[Expr, ...]) -> Value | None:
         given = [self.evaluate(operand) for operand in operands]
         if None in given:
             return None
         try:
             return function(*given)
-        except (OverflowError, TypeError):
+        except (OverflowError, TypeError, ValueError):
             # Integers beyond the range of floats, and values of another type than the design declares.
             return None
+
+
+def _as_int(node: Expr, value: Value | None, limit: Callable[[int], int]) -> Value | None:
+    return limit(value) if node.type == INT and isinstance(value, int) else value
 
 
 def _all(held: list[Value | None]) -> bool | None:

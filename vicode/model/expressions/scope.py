@@ -1,8 +1,8 @@
 """The names available in expressions of a design, with their types."""
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import lru_cache
 
@@ -64,6 +64,15 @@ def build_scope(project: Project, design: Design | None) -> Scope:
     )
 
 
+def constant_scopes(project: Project) -> Iterator[Scope]:
+    """Yield the scope of each constant: enumerations and the constants before it."""
+    empty = _build_scope(project.enumerations, ())
+    symbols: dict[str, ScopeSymbol] = {}
+    for constant in project.constants:
+        yield replace(empty, symbols=dict(symbols))
+        symbols[constant.name] = _symbol(ScopeSymbolKind.CONSTANT, constant, empty.enumerations)
+
+
 # The names of a design rarely change, and one scope lets check and generators share parsed expressions.
 @lru_cache(maxsize=512)
 def _build_scope(
@@ -75,13 +84,17 @@ def _build_scope(
     elements = {enumeration.name: enumeration.element_names for enumeration in enumerations}
     kinds = (ScopeSymbolKind.CONSTANT, ScopeSymbolKind.VARIABLE, ScopeSymbolKind.OUTPUT, ScopeSymbolKind.PARAMETER)
     symbols = {
-        declaration.name: ScopeSymbol(
-            kind=kind, type=infer_declaration_type(declaration, elements), declaration=declaration
-        )
+        declaration.name: _symbol(kind, declaration, elements)
         for kind, declarations in zip(kinds, (constants, *own), strict=False)
         for declaration in declarations
     }
     return Scope(symbols=symbols, uses=dict(uses), enumerations=elements)
+
+
+def _symbol(
+    kind: ScopeSymbolKind, declaration: Declaration, enumerations: Mapping[str, tuple[str, ...]]
+) -> ScopeSymbol:
+    return ScopeSymbol(kind=kind, type=infer_declaration_type(declaration, enumerations), declaration=declaration)
 
 
 def is_type_only(declaration: Declaration, scope: Scope) -> bool:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from vicode.findings import Span
 
 BOOL, INT, FLOAT, UNKNOWN = "bool", "int", "float", "?"
+TEAM_SIZE = "team_size"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,7 +60,9 @@ class ElapsedTime:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StatusFlag:
-    """`action_done` (a component called by the active state is done) or `conflict` (its capacity is exceeded)."""
+    """`action_done` (a component called by the active state is done), `conflict` (its capacity is exceeded), or
+    `team_size` (the number of robots that are alive, an int).
+    """
 
     name: str
     span: Span

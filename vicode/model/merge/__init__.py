@@ -8,10 +8,18 @@ from vicode.model.merge.design_merge import (
     merge_projects,
 )
 from vicode.model.merge.matching import find_renamed_states, find_renamed_uses, item_key, match_items
-from vicode.model.merge.text_merge import contains_edits, merge_characters, merge_lines, merge_texts
+from vicode.model.merge.text_merge import (
+    MergeChunk,
+    contains_edits,
+    merge_characters,
+    merge_lines,
+    merge_texts,
+    split_chunks,
+)
 
 __all__ = [
     "Conflict",
+    "MergeChunk",
     "MergeResult",
     "ProjectMergeResult",
     "contains_edits",
@@ -24,4 +32,5 @@ __all__ = [
     "merge_lines",
     "merge_projects",
     "merge_texts",
+    "split_chunks",
 ]

@@ -3,11 +3,11 @@
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from difflib import SequenceMatcher
+from difflib import Match, SequenceMatcher
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Chunk:
+class MergeChunk:
     """Corresponding parts of the three texts."""
 
     base: Sequence[str]
@@ -28,8 +28,10 @@ class _Chunk:
 
 def merge_lines(base: str, ours: str, theirs: str) -> str | None:
     """Merge by lines. Return None if both sides changed the same or adjacent lines."""
+    if base in (ours, theirs):
+        return theirs if base == ours else ours
     merged: list[str] = []
-    for chunk in _diff3_chunks(base.split("\n"), ours.split("\n"), theirs.split("\n")):
+    for chunk in split_chunks(base.split("\n"), ours.split("\n"), theirs.split("\n")):
         lines = chunk.resolve()
         if lines is None:
             return None
@@ -37,9 +39,25 @@ def merge_lines(base: str, ours: str, theirs: str) -> str | None:
     return "\n".join(merged)
 
 
+def split_chunks(base: Sequence[str], ours: Sequence[str], theirs: Sequence[str]) -> Iterator[MergeChunk]:
+    """Split the texts at common runs, as in Khanna, Kunal, Pierce: A Formal Investigation of Diff3."""
+    at = (0, 0, 0)
+    for begin, length in _common_runs(base, ours, theirs):
+        yield MergeChunk(
+            base=base[at[0] : begin[0]],
+            ours=ours[at[1] : begin[1]],
+            theirs=theirs[at[2] : begin[2]],
+        )
+        at = (begin[0] + length, begin[1] + length, begin[2] + length)
+        kept = base[begin[0] : at[0]]
+        yield MergeChunk(base=kept, ours=kept, theirs=kept)
+
+
 def contains_edits(base: str, ours: str, theirs: str) -> bool:
     """Whether `theirs` contains all edits of `ours`, and perhaps more."""
-    return all(chunk.contains_ours for chunk in _diff3_chunks(base.split("\n"), ours.split("\n"), theirs.split("\n")))
+    if base in (ours, theirs):
+        return base == ours
+    return all(chunk.contains_ours for chunk in split_chunks(base.split("\n"), ours.split("\n"), theirs.split("\n")))
 
 
 def merge_texts(base: str, ours: str, theirs: str, *, keeps_theirs: bool) -> str:
@@ -63,38 +81,23 @@ def merge_texts(base: str, ours: str, theirs: str, *, keeps_theirs: bool) -> str
 def merge_characters(base: str, ours: str, theirs: str) -> str:
     """Merge by characters. Where both sides changed the same text, both versions are kept, ours first."""
     merged: list[str] = []
-    for chunk in _diff3_chunks(*(text.splitlines(keepends=True) for text in (base, ours, theirs))):
+    for chunk in split_chunks(*(text.splitlines(keepends=True) for text in (base, ours, theirs))):
         resolved = chunk.resolve()
         merged += _merge_chunk_characters(chunk) if resolved is None else resolved
     return "".join(merged)
 
 
-def _merge_chunk_characters(lines: _Chunk) -> Iterator[str]:
-    for chunk in _diff3_chunks(*("".join(side) for side in (lines.base, lines.ours, lines.theirs))):
+def _merge_chunk_characters(lines: MergeChunk) -> Iterator[str]:
+    for chunk in split_chunks(*("".join(side) for side in (lines.base, lines.ours, lines.theirs))):
         resolved = chunk.resolve()
         yield from (*chunk.ours, *chunk.theirs) if resolved is None else resolved
-
-
-def _diff3_chunks(base: Sequence[str], ours: Sequence[str], theirs: Sequence[str]) -> Iterator[_Chunk]:
-    """Split the texts at common runs, as in Khanna, Kunal, Pierce: A Formal Investigation of Diff3."""
-    at = (0, 0, 0)
-    for begin, length in _common_runs(base, ours, theirs):
-        yield _Chunk(
-            base=base[at[0] : begin[0]],
-            ours=ours[at[1] : begin[1]],
-            theirs=theirs[at[2] : begin[2]],
-        )
-        at = (begin[0] + length, begin[1] + length, begin[2] + length)
-        kept = base[begin[0] : at[0]]
-        yield _Chunk(base=kept, ours=kept, theirs=kept)
 
 
 def _common_runs(
     base: Sequence[str], ours: Sequence[str], theirs: Sequence[str]
 ) -> Iterator[tuple[tuple[int, int, int], int]]:
     """Yield the start of each common run in the three texts and its length. The last run is empty, at the ends."""
-    in_ours = SequenceMatcher(None, base, ours, autojunk=False).get_matching_blocks()
-    in_theirs = SequenceMatcher(None, base, theirs, autojunk=False).get_matching_blocks()
+    in_ours, in_theirs = _matching_blocks(base, ours), _matching_blocks(base, theirs)
     mine = yours = 0
     while mine < len(in_ours) and yours < len(in_theirs):
         one, other = in_ours[mine], in_theirs[yours]
@@ -106,6 +109,17 @@ def _common_runs(
         else:
             yours += 1
     yield (len(base), len(ours), len(theirs)), 0
+
+
+def _matching_blocks(a: Sequence[str], b: Sequence[str]) -> list[Match]:
+    """Return the common blocks; equal starts and ends need no search."""
+    shorter = min(len(a), len(b))
+    start = next((at for at in range(shorter) if a[at] != b[at]), shorter)
+    end = next((at for at in range(shorter - start) if a[-1 - at] != b[-1 - at]), shorter - start)
+    matcher = SequenceMatcher(None, a[start : len(a) - end], b[start : len(b) - end], autojunk=False)
+    inner = (Match(one + start, other + start, size) for one, other, size in matcher.get_matching_blocks() if size)
+    ends = (Match(0, 0, start), *inner, Match(len(a) - end, len(b) - end, end))
+    return [*(block for block in ends if block.size), Match(len(a), len(b), 0)]
 
 
 _Edit = tuple[int, int, list[str]]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from vicode.model.constant_folding import ConstantValue
 from vicode.model.expressions import (
     BOOL,
+    TEAM_SIZE,
     Binary,
     Comparison,
     Done,
@@ -15,6 +16,7 @@ from vicode.model.expressions import (
     Minus,
     Number,
     OutputRef,
+    StatusFlag,
     Ternary,
     Variable,
     children,
@@ -84,6 +86,10 @@ class ExpressibilityChecker:
                     message = f"nested calls of '{output}' share their arguments in XABSL"
                     fix = "store the inner value in a variable"
                     yield UnsupportedExpression(node=node, code=DIFFERENT_RESULT, message=message, fix=fix)
+            case StatusFlag(name=name) if name == TEAM_SIZE:
+                message = "XABSL does not know how many robots of the team are alive"
+                fix = "read it from an output of a component of the world, which the robot sets"
+                yield UnsupportedExpression(node=node, code=UNSUPPORTED, message=message, fix=fix)
             case Done(alias=alias) if not self.is_done_expressible(alias):
                 message = f"XABSL supports 'done({alias})' only in states that call no other component"
                 fix = "use it in states that call only this component, or use action_done"

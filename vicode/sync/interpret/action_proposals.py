@@ -4,14 +4,17 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
+from vicode.generators import list_regions
 from vicode.model.design import COMMON, Action, Assign, Call, Code, Design, RunCode
 from vicode.model.edits import replace_action, unique_name, update_actions, update_state
 from vicode.model.names import snake_case
 from vicode.model.traversal import LocatedAction, iter_actions
+from vicode.sync.apply_regions import set_code
 from vicode.sync.code_items import COMMENT, REGION, CodeItem
-from vicode.sync.interpret.edit_context import CodeChange, EditContext, Place
+from vicode.sync.interpret.edit_context import CodeChange, EditContext, Place, is_generated_name
 
 _Pairs = tuple[tuple[str, str], ...]
+_LEAVING = (ast.Return, ast.Yield, ast.YieldFrom, ast.Await, ast.Nonlocal, ast.Global, ast.Break, ast.Continue)
 
 
 def propose_actions(context: EditContext, change: CodeChange) -> Iterator[Design]:
@@ -151,23 +154,48 @@ def propose_action_code(context: EditContext, change: CodeChange) -> Iterator[De
     yield from _insert(context, place, RunCode(code=code, id=id_))
 
 
+def propose_region_code(context: EditContext, change: CodeChange) -> Iterator[Design]:
+    """Propose statements before or behind a region as a part of its code."""
+    added = change.added
+    if change.removed or not added or any(item.kind == REGION for item in added):
+        return
+    unit = context.edited.items.get(".".join(change.item.scope.split(".")[:2]), ())
+    regions = [item.code for item in unit if item.kind == REGION and item.depth == added[0].depth]
+    project = replace(
+        context.project,
+        designs=tuple(
+            context.design if each.component == context.design.component else each for each in context.project.designs
+        ),
+    )
+    paths = list_regions(project, context.design.component, "python") if regions else {}
+    text = context.source_of(added)
+    for region in regions:
+        body = context.bodies.get(region, "")
+        if region in paths:
+            for code in (f"{body}\n{text}", f"{text}\n{body}"):
+                yield set_code(context.design, paths[region], "python", code)
+
+
 def _is_movable(context: EditContext, added: tuple[CodeItem, ...]) -> bool:
     """Whether statements may stand in a method of their own: they share no local name with the rest of the method."""
     method = context.definition_of(added[0].scope)
     if method is None:
         return False
-    inside = [item.node for item in added if item.node is not None and item.depth == added[0].depth]
     lines = {line for item in added for line in range(item.first, item.last + 1)}
-    leaving = (ast.Return, ast.Yield, ast.YieldFrom, ast.Await, ast.Nonlocal, ast.Global, ast.Break, ast.Continue)
-    nodes = [node for statement in inside for node in ast.walk(statement)]
-    steps = {"_call", "_change_to", "_stay"} & {node.attr for node in nodes if isinstance(node, ast.Attribute)}
-    if steps or any(isinstance(node, leaving) for node in nodes) or any(item.depth < added[0].depth for item in added):
+    if any(item.depth < added[0].depth for item in added):
         return False
-    outside = [node for node in ast.walk(method) if getattr(node, "lineno", 0) not in lines]
+    inside: list[ast.AST] = []
+    outside: list[ast.AST] = []
+    for node in ast.walk(method):
+        (inside if getattr(node, "lineno", 0) in lines else outside).append(node)
+    attributes = {node.attr for node in inside if isinstance(node, ast.Attribute)}
+    has_steps = {"_call", "_change_to", "_stay"} & attributes or any(map(is_generated_name, attributes))
+    if has_steps or any(isinstance(node, _LEAVING) for node in inside):
+        return False
     parameters = {argument.arg for argument in method.args.args} - {"self"}
     return not (
-        (_names(nodes, ast.Load) & (_names(outside, ast.Store) | parameters))
-        or (_names(nodes, ast.Store) & (_names(outside, ast.Load) | parameters))
+        (_names(inside, ast.Load) & (_names(outside, ast.Store) | parameters))
+        or (_names(inside, ast.Store) & (_names(outside, ast.Load) | parameters))
     )
 
 

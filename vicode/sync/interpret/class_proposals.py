@@ -5,10 +5,13 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 
-from vicode.model.design import Code, Declaration, Design, State
-from vicode.model.edits import set_declarations, update_state
+from vicode.generators.python.names import component_class_name
+from vicode.model.design import Code, Declaration, Design, State, Use
+from vicode.model.edits import remove_states, set_declarations, update_state
+from vicode.model.names import is_valid_state_name
 from vicode.sync.code_items import CODE, COMMENT, DOCSTRING, REGION, CodeItem, docstring_text
-from vicode.sync.interpret.edit_context import CodeChange, EditContext, method_name
+from vicode.sync.interpret.edit_context import CodeChange, EditContext, is_generated_name, method_name
+from vicode.sync.interpret.renames import list_states
 
 _ENTRY = re.compile(r"    (\w+): (.*)")
 _FACTS = re.compile(r" \([^()]*\)\Z")
@@ -22,6 +25,7 @@ def propose_class_edits(context: EditContext, change: CodeChange) -> Iterator[De
         yield from _docs(context, change)
     elif method == "__init__":
         yield from _initial_values(context, change)
+        yield from _added_uses(context, change.added)
         yield from _added_variables(context, change.added)
         yield from _changed_states(context, change)
     elif method == "modulate":
@@ -122,11 +126,33 @@ def _defaults(context: EditContext, change: CodeChange) -> Iterator[Design]:
                     yield from _with_initial(context, argument.arg, was, value)
 
 
+def _added_uses(context: EditContext, added: tuple[CodeItem, ...]) -> Iterator[Design]:
+    """Propose to use a component for `self.alias = root.component(Class)`."""
+    if len(added) != 1 or (read := _read_attribute(added[0])) is None:
+        return
+    match read[1]:
+        case ast.Call(func=ast.Attribute(value=ast.Name(id="root"), attr="component"), args=[ast.Name(id=class_name)]):
+            classes = {each.component: each.implementation.rpartition(":")[2] for each in context.project.components}
+            classes |= {each.component: component_class_name(each.component) for each in context.project.designs}
+            uses = context.design.uses
+            for component in (name for name, found in classes.items() if found == class_name):
+                use = Use(alias=read[0], component=component)
+                for index in range(len(uses), -1, -1):
+                    yield replace(context.design, uses=(*uses[:index], use, *uses[index:]))
+
+
 def _added_variables(context: EditContext, added: tuple[CodeItem, ...]) -> Iterator[Design]:
     if len(added) != 1 or (read := _read_attribute(added[0])) is None:
         return
     name, value = read
     text = context.reader.read(value)
+    type_name = _parameter_types(context).get(name)
+    if type_name is not None:
+        parameters = context.design.parameters
+        for type_ in dict.fromkeys((type_name, "")):
+            parameter = Declaration(name=name, initial=text, type=type_)
+            for index in range(len(parameters), -1, -1):
+                yield replace(context.design, parameters=(*parameters[:index], parameter, *parameters[index:]))
     variables = context.design.variables
     for type_ in ("", "float", "int", "bool"):
         declaration = Declaration(name=name, initial=text, type=type_)
@@ -134,6 +160,14 @@ def _added_variables(context: EditContext, added: tuple[CodeItem, ...]) -> Itera
             yield replace(context.design, variables=(*variables[:index], declaration, *variables[index:]))
     if isinstance(value, ast.Attribute):
         yield replace(context.design, variables=(*variables, Declaration(name=name, initial=text)))
+
+
+def _parameter_types(context: EditContext) -> dict[str, str]:
+    """Return the types of the parameters that `modulate` has in the edited file."""
+    scopes = (name for name in context.edited.items if method_name(name) == "modulate")
+    method = next((found for scope in scopes if (found := context.definition_of(scope))), None)
+    arguments = method.args.kwonlyargs if method is not None else []
+    return {each.arg: ast.unparse(each.annotation) if each.annotation else "" for each in arguments}
 
 
 def _read_attribute(item: CodeItem) -> tuple[str, ast.expr] | None:
@@ -192,10 +226,29 @@ def _settings(context: EditContext, change: CodeChange) -> Iterator[Design]:
         yield replace(context.design, resume=False)
 
 
+def propose_states(context: EditContext, change: CodeChange) -> Iterator[Design]:
+    """Propose to add a state where the edited file lists it, or to remove one."""
+    design = context.design
+    listed = [name for name, _stem in list_states(context.edited.states())]
+    own = [state.name for state in design.states]
+    if change.removed and not change.added:
+        yield from (remove_states(design, [name]) for name, _stem in list_states(change.removed) if name in own)
+    elif change.added and not change.removed:
+        for name, _stem in list_states(change.added):
+            if name not in own and is_valid_state_name(name):
+                before = sum(each in own for each in listed[: listed.index(name)])
+                states = (*design.states[:before], State(name=name), *design.states[before:])
+                yield replace(design, states=states)
+
+
 def propose_class_code(context: EditContext, change: CodeChange) -> Iterator[Design]:
     """Propose code of the class or the module: definitions and assignments, behind or before the code that is there."""
     added = change.added
-    if change.removed or any(item.kind == REGION for item in added) or _is_generated_name(context, change):
+    if (
+        change.removed
+        or any(item.kind == REGION for item in added)
+        or is_generated_name(method_name(change.item.scope))
+    ):
         return
     definitions = [item for item in added if item.kind == CODE]
     first = next((item for item in added if item.kind != COMMENT), None)
@@ -212,13 +265,6 @@ def propose_class_code(context: EditContext, change: CodeChange) -> Iterator[Des
     elif first.depth == 1:
         for code in _extended(context.design.members, text, separator="\n"):
             yield replace(context.design, members=code)
-
-
-def _is_generated_name(context: EditContext, change: CodeChange) -> bool:
-    """Whether a method has a name that the generator gives: it is a part of a state."""
-    scope = change.item.scope
-    is_code = method_name(scope).startswith(("_when_", "_do_", "_decide_", "_act_"))
-    return is_code or context.place_of(scope) is not None
 
 
 def _extended(code: Code, text: str, *, separator: str) -> Iterator[Code]:

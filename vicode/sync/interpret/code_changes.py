@@ -1,4 +1,4 @@
-"""Splits the difference of two normal forms into changes that are explained one by one."""
+"""Splits the difference of two versions of a unit into changes that are explained one by one."""
 
 import ast
 from collections.abc import Iterator, Sequence
@@ -8,17 +8,18 @@ from itertools import groupby
 
 from vicode.sync.code_items import COMMENT, CodeItem
 from vicode.sync.interpret.edit_context import CodeChange
-from vicode.sync.interpret.normal_form import NormalForm
+from vicode.sync.interpret.units import Items
 
 
-def find_changes(old: NormalForm, new: NormalForm) -> Iterator[CodeChange]:
+def find_changes(old: Items, new: Items) -> Iterator[CodeChange]:
     """Yield the changes of statements of one kind first, then what remains as additions and removals."""
     whole: list[CodeChange] = []
-    for tag, first, last, start, end in SequenceMatcher(None, old.keys, new.keys, autojunk=False).get_opcodes():
+    own, other = ([item.key for item in items] for items in (old, new))
+    for tag, first, last, start, end in SequenceMatcher(None, own, other, autojunk=False).get_opcodes():
         if tag == "equal":
             continue
-        line = new.items[min(start, len(new.items) - 1)].first if new.items else 1
-        change = CodeChange(removed=old.items[first:last], added=new.items[start:end], line=line)
+        line = new[min(start, len(new) - 1)].first if new else 1
+        change = CodeChange(removed=old[first:last], added=new[start:end], line=line)
         yield from (replace(pair, line=line) for pair in _pairs(change.removed, change.added))
         whole.append(change)
     for change in whole:

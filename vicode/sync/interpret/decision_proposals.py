@@ -4,6 +4,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 from difflib import SequenceMatcher
+from itertools import product
 
 from vicode.model.design import DecisionGroup, Design, Guard, Stay, Transition
 from vicode.model.edits import remove_decisions, replace_decision, update_decisions
@@ -108,19 +109,20 @@ def _added_decisions(context: EditContext, place: Place, added: tuple[CodeItem, 
         return
     test = tests[0] if tests else None
     doc = " ".join(item.code for item in added if item.kind == COMMENT)
-    guard = Guard()
+    guards = [Guard()]
     if isinstance(test, ast.If):
         read = context.reader.read_guard(test.test)
         if read.has_code:
             return
-        guard = Guard(when=context.reader.read(read.when) if read.when is not None else "", after=read.after)
-    decision = replace(outcome, guard=guard, doc=doc)
+        texts = context.reader.read_change("", None, read.when) if read.when is not None else [""]
+        guards = [Guard(when=text, after=read.after) for text in texts]
     for path, length in context.decision_lists_in(place):
-        for index in range(length, -1, -1):
+        for index, guard in product(range(length, -1, -1), guards):
+            decision = replace(outcome, guard=guard, doc=doc)
             yield update_decisions(
                 context.design,
                 path,
-                lambda items, at=index: (*items[:at], decision, *items[at:]),  # type: ignore[misc]
+                lambda items, at=index, new=decision: (*items[:at], new, *items[at:]),  # type: ignore[misc]
             )
 
 

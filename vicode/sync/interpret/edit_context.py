@@ -2,7 +2,7 @@
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,7 +13,9 @@ from vicode.model.traversal import LocatedAction, LocatedDecision, iter_actions,
 from vicode.regions import find_regions, wrap_region
 from vicode.sync.code_items import CodeItem
 from vicode.sync.interpret.expression_reader import ExpressionReader
+from vicode.sync.interpret.units import Units
 
+_GENERATED = re.compile(r"_(in|enter|leave|when|do|decide|act)_|(__init__|modulate|_set_states)\Z")
 _MARK = re.compile(r"\s*# </?vicode\b")
 
 
@@ -60,15 +62,17 @@ class EditContext:
         project: The project with the design.
         design: The design with the edits understood so far.
         stems: The states by the part of method names that stands for them.
-        edited: The items of the edited file.
+        edited: The units of the edited file.
         lines: The lines of the edited file.
+        bodies: The bodies of the regions of the generated code.
     """
 
     project: Project
     design: Design
     stems: dict[str, str]
-    edited: tuple[CodeItem, ...]
+    edited: Units
     lines: tuple[str, ...]
+    bodies: Mapping[str, str]
 
     @cached_property
     def reader(self) -> ExpressionReader:
@@ -88,16 +92,6 @@ class EditContext:
         if state is None or kind not in ("in", "enter", "leave"):
             return None
         return Place(source=state, phase="" if kind == "in" else kind)
-
-    def is_kept(self, change: CodeChange) -> bool:
-        """Whether the edited file still has what a change is a part of: its definition, or the state that it is of."""
-        scopes = {item.scope for item in self.edited}
-        scope = change.item.scope
-        if scope in scopes:
-            return True
-        place = self.place_of(scope)
-        owners = {f"_in_{stem}" for stem, name in self.stems.items() if place and place.source in (name, COMMON)}
-        return any(method_name(each) in owners for each in scopes)
 
     def decisions_in(self, place: Place) -> list[LocatedDecision]:
         if place.phase not in ("", "decisions"):
@@ -130,7 +124,7 @@ class EditContext:
 
     def definition_of(self, scope: str) -> ast.FunctionDef | None:
         """Return the method of the edited file with a scope."""
-        nodes = (item.node for item in self.edited if item.scope == scope)
+        nodes = (item.node for item in self.edited.items.get(".".join(scope.split(".")[:2]), ()))
         return next((node for node in nodes if isinstance(node, ast.FunctionDef)), None)
 
     def source_of(self, items: tuple[CodeItem, ...]) -> str:
@@ -139,6 +133,11 @@ class EditContext:
         text = "\n".join(line for line in lines if not _MARK.match(line))
         # Lines inside of strings keep their indentation, as in a region.
         return find_regions(wrap_region("code", text)).regions[0].body
+
+
+def is_generated_name(name: str) -> bool:
+    """Whether a method has a name that the generator gives."""
+    return bool(_GENERATED.match(name))
 
 
 def method_name(scope: str) -> str:

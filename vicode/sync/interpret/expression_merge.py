@@ -5,8 +5,6 @@ from collections.abc import Iterator
 
 from vicode.model.python_parser import parse_single_expression
 
-_OPERATIONS = (ast.BinOp, ast.BoolOp, ast.Compare, ast.IfExp, ast.UnaryOp)
-
 
 def merge_expression(text: str, old: ast.expr, new: ast.expr) -> str:
     """Return the text with the difference between two trees applied; empty if it does not correspond to `old`.
@@ -24,12 +22,22 @@ def merge_expression(text: str, old: ast.expr, new: ast.expr) -> str:
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return ""
     start = len(plain) - len(plain.lstrip())
-    for first, last, replacement in sorted(_replacements(tree, old, new, is_root=True), reverse=True):
-        text = text[: start + first] + replacement + text[start + last :]
-    return text.strip()
+    grouped = short = text
+    for first, last, replacement in sorted(_replacements(tree, old, new), reverse=True):
+        grouped = grouped[: start + first] + f"({replacement})" + grouped[start + last :]
+        short = short[: start + first] + replacement + short[start + last :]
+    return short.strip() if _dump(short) == _dump(grouped) else grouped.strip()
 
 
-def _replacements(own: ast.expr, old: ast.expr, new: ast.expr, *, is_root: bool) -> Iterator[tuple[int, int, str]]:
+def _dump(text: str) -> str:
+    """Return the tree as text; empty without parentheses that the syntax needs, as in `(1).x`."""
+    try:
+        return ast.dump(parse_single_expression(text.replace("\n", " ").strip()))
+    except SyntaxError:
+        return ""
+
+
+def _replacements(own: ast.expr, old: ast.expr, new: ast.expr) -> Iterator[tuple[int, int, str]]:
     """Yield the ranges of the text to replace."""
     if ast.dump(old) == ast.dump(new):
         return
@@ -37,12 +45,9 @@ def _replacements(own: ast.expr, old: ast.expr, new: ast.expr, *, is_root: bool)
     is_same_shape = _shape(own) == _shape(old) == _shape(new)
     if is_same_shape and len(parts[0]) == len(parts[1]) == len(parts[2]) > 0:
         for each in zip(*parts, strict=True):
-            yield from _replacements(*each, is_root=False)
+            yield from _replacements(*each)
         return
-    replacement = _number_like(own, new) or ast.unparse(new)
-    if not is_root and isinstance(new, _OPERATIONS):
-        replacement = f"({replacement})"
-    yield own.col_offset, own.end_col_offset or own.col_offset, replacement
+    yield own.col_offset, own.end_col_offset or own.col_offset, _number_like(own, new) or ast.unparse(new)
 
 
 def _operands(node: ast.expr) -> Iterator[ast.expr]:

@@ -7,6 +7,7 @@ from vicode.model.design import Design, Guard
 from vicode.model.names import python_attribute_name
 from vicode.model.project import WORLD, Project
 from vicode.model.python_parser import parse_single_expression
+from vicode.sync.interpret.equivalent_expressions import CONVERSIONS, compare_numbers, plain_comparison
 from vicode.sync.interpret.expression_merge import merge_expression
 
 _OPERATORS: dict[str, type[ast.operator]] = {
@@ -51,9 +52,10 @@ class ExpressionReader:
 
     def read_change(self, text: str, old: ast.expr | None, new: ast.expr) -> list[str]:
         """Return possible texts for a changed expression, the one that keeps most of the old text first."""
-        plain = self.read(new)
-        merged = merge_expression(text, self.convert(old), self.convert(new)) if old is not None else ""
-        return list(dict.fromkeys(each for each in (merged, plain) if each))
+        converted = self.convert(new)
+        merged = merge_expression(text, self.convert(old), converted) if old is not None else ""
+        compared = (ast.unparse(each) for each in compare_numbers(converted))
+        return list(dict.fromkeys(each for each in (merged, ast.unparse(converted), *compared) if each))
 
     def read_guard(self, test: ast.expr) -> "PythonGuard":
         """Split a test into the parts of a guard."""
@@ -137,6 +139,8 @@ class _Conversion(ast.NodeTransformer):
             ):
                 alias, output = self._inputs[name]
                 return ast.Attribute(value=ast.Name(id=alias), attr=output)
+            case ast.Attribute(attr="size") if ast.unparse(node) == "self.root.team.size":
+                return ast.Name(id="team_size")
             case ast.Attribute(value=ast.Name(id="self"), attr=name):
                 return ast.Name(id=name)
         return self.generic_visit(node)
@@ -150,13 +154,17 @@ class _Conversion(ast.NodeTransformer):
                     return ast.Name(id="component_time")
         return self.generic_visit(node)
 
+    def visit_Compare(self, node: ast.Compare) -> ast.AST:
+        self.generic_visit(node)
+        return plain_comparison(node)
+
     def visit_Call(self, node: ast.Call) -> ast.AST:
         is_input = len(node.args) == 1 and ast.unparse(node.args[0]).startswith("self.world.")
         self.generic_visit(node)
         match node:
             case ast.Call(func=ast.Name(), args=[only], keywords=[]) if is_input:
                 return only
-            case ast.Call(func=ast.Name(id="float"), args=[only], keywords=[]):
+            case ast.Call(func=function, args=[only], keywords=[]) if ast.unparse(function) in CONVERSIONS:
                 return only
             case ast.Call(func=ast.Attribute(value=ast.Name(id="arithmetic"), attr=name), args=[left, right]) if (
                 name in _OPERATORS

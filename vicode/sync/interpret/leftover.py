@@ -1,120 +1,151 @@
-"""Writes what was not understood as a patch of the generated text."""
+"""Writes what was not understood: the generated text with the units of the edited file that no edit explains."""
 
-import ast
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import SequenceMatcher, unified_diff
+from difflib import unified_diff
+from itertools import pairwise
 
-from vicode.regions import find_regions
-from vicode.sync.code_items import COMMENT, DOCSTRING, IMPORT, REGION, CodeItem, imported_names
-from vicode.sync.interpret.normal_form import GeneratedParts, NormalForm, build_normal_form
+from vicode.regions import find_regions, wrap_region
+from vicode.sync.code_items import COMMENT, HEADER, IMPORT, REGION, CodeItem, imported_names, split_items
+from vicode.sync.interpret.units import Imports, list_bodies, name_units
 
-_Imports = frozenset[tuple[str, str, str]]
+_IMPORTS = "imports"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LeftoverWriter:
-    """Writes the patch.
+class _Block:
+    """The lines of a unit, with the blank lines before it."""
 
-    Attributes:
+    name: str
+    lines: tuple[str, ...]
+
+
+def write_leftover(generated: str, edited: str, *, different: Collection[str], imports: Imports) -> str:
+    """Return the generated text with the units of the edited file that differ.
+
+    Args:
         generated: The text generated from the design with the understood edits.
-        generated_form: Its normal form.
-        edited: The edited text.
-        edited_form: Its normal form.
-        parts: The parts of the text that the person started with.
+        edited: The edited file.
+        different: These units.
         imports: What the result imports.
     """
+    names = {_text_unit(name) for name in different}
+    own, other = _split_blocks(generated), _split_blocks(with_bodies(edited, generated))
+    result = _with_blocks(own, other, names)
+    text = "\n".join(line for block in result for line in block.lines)
+    return _with_imports(f"{text.rstrip()}\n", imports)
 
-    generated: str
-    generated_form: NormalForm
-    edited: str
-    edited_form: NormalForm
-    parts: GeneratedParts
-    imports: _Imports
 
-    def write(self, file: str) -> str:
-        """Return the patch; empty if everything was understood."""
-        if self.generated_form.keys == self.edited_form.keys and self.imports == self.generated_form.imports:
-            return ""
-        text = self._with_changed_items()
-        if not self._is_complete(text):
-            text = _with_bodies(self.edited, self.generated)
-        return make_patch(self.generated, text, file)
+def _with_blocks(own: Sequence[_Block], other: Sequence[_Block], names: Collection[str]) -> list[_Block]:
+    """Replace, remove and insert the blocks of some units."""
+    by_name: dict[str, list[_Block]] = {}
+    for block in other:
+        by_name.setdefault(block.name, []).append(block)
+    shown = {block.name for block in own}
+    result: list[_Block] = []
+    for block in own:
+        if block.name in names:
+            result += by_name.pop(block.name, [])
+        else:
+            result.append(block)
+    for index, block in enumerate(other):
+        if block.name in names and block.name not in shown:
+            before = {each.name for each in other[:index]}
+            places = [at for at, each in enumerate(result) if each.name in before]
+            result.insert(places[-1] + 1 if places else 0, block)
+    return result
 
-    def _is_complete(self, text: str) -> bool:
-        """Whether a text is what the person wrote."""
-        try:
-            form = build_normal_form(text, self.parts, is_generated=True)
-        except SyntaxError:
-            return False
-        return form.keys == self.edited_form.keys and form.imports == self.imports
 
-    def _with_changed_items(self) -> str:
-        """Return the generated text with the statements that were not understood."""
-        removed, inserted = self._place_changes()
-        lines = self.generated.split("\n")
-        result: list[str] = []
-        end = 0
-        for index, item in enumerate(self.generated_form.raw):
-            if item.first > end:
-                if index not in removed:
-                    result += lines[end : item.last]
-                end = item.last
-            result += [line for other in inserted.get(index, ()) for line in self._edited_lines(other)]
-        return "\n".join([*result, *lines[end:]])
+def _text_unit(name: str) -> str:
+    """The unit of the text: the list of states is a part of its method."""
+    owner, _colon, _rest = name.partition(":")
+    return owner if "." in owner else name
 
-    def _place_changes(self) -> tuple[set[int], dict[int, list[CodeItem]]]:
-        """Return the indices of the generated items to remove, and items to insert behind an index."""
-        own, other = self.generated_form, self.edited_form
-        index_by_line = {item.first: index for index, item in reversed(list(enumerate(own.raw)))}
-        raw_by_line = {item.first: item for item in reversed(other.raw)}
-        removed: set[int] = set()
-        inserted: dict[int, list[CodeItem]] = {}
-        seen: set[int] = set()
-        for tag, first, last, start, end in SequenceMatcher(None, own.keys, other.keys, autojunk=False).get_opcodes():
-            if tag == "equal":
-                continue
-            removed |= {index_by_line[item.first] for item in own.items[first:last] if item.first in index_by_line}
-            anchor = index_by_line.get(own.items[first - 1].first, 0) if first else 0
-            for item in other.items[start:end]:
-                if item.first in raw_by_line and item.first not in seen:
-                    seen.add(item.first)
-                    inserted.setdefault(anchor, []).append(raw_by_line[item.first])
-        self._place_imports(removed, inserted)
-        return removed, inserted
 
-    def _place_imports(self, removed: set[int], inserted: dict[int, list[CodeItem]]) -> None:
-        own = [(index, item) for index, item in enumerate(self.generated_form.raw) if _is_top_level_import(item)]
-        for index, item in own:
-            if not self.imports.issuperset(imported_names([item])):
-                removed.add(index)
-                kept = self.imports.intersection(imported_names([item]))
-                inserted.setdefault(index, [])[:0] = _import_items(kept)
-        missing = self.imports - frozenset(imported_names(item for _index, item in own)) - self._region_imports()
-        if own:
-            inserted.setdefault(own[-1][0], []).extend(_import_items(missing))
+def _split_blocks(text: str) -> list[_Block]:
+    """Split a module into blocks that contain every line."""
+    lines = text.split("\n")
+    groups: list[tuple[str, list[CodeItem]]] = []
+    for item, unit in name_units(split_items(text)):
+        name = _IMPORTS if item.kind in (IMPORT, HEADER) and item.depth == 0 else unit
+        if not groups or groups[-1][0] != name:
+            groups.append((name, []))
+        groups[-1][1].append(item)
+    ends = [max(item.last for item in items) for _name, items in groups]
+    bounds = pairwise([0, *ends[:-1], len(lines)])
+    return [
+        _Block(name=name, lines=tuple(_with_spaces(items, lines, start, end)))
+        for (name, items), (start, end) in zip(groups, bounds, strict=True)
+    ]
 
-    def _region_imports(self) -> _Imports:
-        """Return what code of the design imports."""
-        shown = imported_names(item for item in self.generated_form.raw if _is_top_level_import(item))
-        return self.generated_form.imports - frozenset(shown)
 
-    def _edited_lines(self, item: CodeItem) -> list[str]:
-        """Return the lines of an item of the edited file, with the indentation of generated code."""
-        margin = " " * 4 * item.depth
-        blank = [""] * item.blank_lines
-        lines = self.edited.split("\n")[item.first - 1 : item.last] if item.first else []
-        indent = lines[0][: len(lines[0]) - len(lines[0].lstrip())] if lines else ""
-        if lines and indent == margin:
-            return [*blank, *lines]
-        if item.kind == REGION:
-            return [*blank, *(margin + line.removeprefix(indent) for line in lines)]
-        comments = "".join(f"  {comment}" for comment in item.comments)
-        code = f"# {item.code}" if item.kind == COMMENT else item.code
-        if item.kind == DOCSTRING and item.node is not None:
-            code = ast.unparse(item.node)
-        return [*blank, *(margin + line for line in f"{code}{comments}".split("\n"))]
+def _with_spaces(items: Sequence[CodeItem], lines: Sequence[str], start: int, end: int) -> list[str]:
+    """Return the lines of items, indented by four spaces for each level."""
+    if all(_indent(lines[item.first - 1]) == " " * 4 * item.depth for item in items):
+        return list(lines[start:end])
+    return [line for item in items for line in _indented(item, lines)]
+
+
+def _indent(line: str) -> str:
+    return line[: len(line) - len(line.lstrip())]
+
+
+def _indented(item: CodeItem, lines: Sequence[str]) -> list[str]:
+    own = lines[item.first - 1 : item.last]
+    margin, indent = " " * 4 * item.depth, _indent(own[0])
+    blank = [""] * item.blank_lines
+    if item.kind in (REGION, COMMENT) or len(own) == 1:
+        return [*blank, *(margin + line.removeprefix(indent) if line.strip() else line for line in own)]
+    comments = "".join(f"  {comment}" for comment in item.comments)
+    return [*blank, *(margin + line for line in f"{item.code}{comments}".split("\n"))]
+
+
+def _with_imports(text: str, imports: Imports) -> str:
+    """Remove the names that are not wanted from the import statements, and add the missing ones behind the last."""
+    own = [item for item in split_items(text) if item.kind == IMPORT and item.depth == 0]
+    inserted: Mapping[int, list[str]] = {
+        item.first: [import_statement(*name) for name in imported_names([item]) if name in imports]
+        for item in own
+        if not imports.issuperset(imported_names([item]))
+    }
+    last_lines = {item.first: item.last for item in own if item.first in inserted}
+    missing = sorted(imports - frozenset(imported_names(own)) - _region_imports(text))
+    result: list[str] = []
+    skipped_to = 0
+    for number, line in enumerate(text.split("\n"), start=1):
+        if number in inserted:
+            result += inserted[number]
+            skipped_to = last_lines[number]
+        if number > skipped_to:
+            result.append(line)
+        if own and number == own[-1].last:
+            result += [import_statement(*name) for name in missing]
+    return "\n".join(result)
+
+
+def _region_imports(text: str) -> Imports:
+    try:
+        bodies = [split_items(region.body) for region in find_regions(text).regions if region.id == "module"]
+    except SyntaxError:
+        return frozenset()
+    return frozenset(imported_names(item for items in bodies for item in items))
+
+
+def import_statement(module: str, name: str, alias: str) -> str:
+    """Return the statement that imports one name."""
+    suffix = f" as {alias}" if alias else ""
+    return f"from {module} import {name}{suffix}" if name else f"import {module}{suffix}"
+
+
+def with_bodies(text: str, generated: str) -> str:
+    """Return a text with the bodies of its regions as they are generated."""
+    lines, bodies = text.split("\n"), list_bodies(generated)
+    for region in reversed(find_regions(text).regions):
+        if region.id in bodies:
+            block = wrap_region(region.id, bodies[region.id], indent=region.indent)
+            lines[region.line - 1 : region.end_line] = block.removesuffix("\n").split("\n")
+    return "\n".join(lines)
 
 
 def make_patch(old: str, new: str, file: str) -> str:
@@ -126,30 +157,3 @@ def make_patch(old: str, new: str, file: str) -> str:
 def _lines(text: str) -> list[str]:
     """Split at line feeds only, as programs that apply patches do."""
     return [line for line in re.split(r"(?<=\n)", text) if line]
-
-
-def _is_top_level_import(item: CodeItem) -> bool:
-    return item.kind == IMPORT and item.depth == 0
-
-
-def _import_items(names: Iterable[tuple[str, str, str]]) -> Sequence[CodeItem]:
-    return [
-        CodeItem(kind=IMPORT, scope="", depth=0, code=import_statement(*name), first=0, last=0, node=ast.Pass())
-        for name in sorted(names)
-    ]
-
-
-def import_statement(module: str, name: str, alias: str) -> str:
-    """Return the statement that imports one name."""
-    suffix = f" as {alias}" if alias else ""
-    return f"from {module} import {name}{suffix}" if name else f"import {module}{suffix}"
-
-
-def _with_bodies(text: str, generated: str) -> str:
-    """Return a text with the bodies of its regions as they are generated."""
-    lines, source = text.split("\n"), generated.split("\n")
-    own = {region.id: source[region.line - 1 : region.end_line] for region in find_regions(generated).regions}
-    for region in reversed(find_regions(text).regions):
-        if region.id in own:
-            lines[region.line - 1 : region.end_line] = own[region.id]
-    return "\n".join(lines)

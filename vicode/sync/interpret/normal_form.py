@@ -1,158 +1,173 @@
-"""The normal form of a generated module: texts that a person may write in place of the generated one become equal.
+"""The normal form of a unit of a module: texts that a person may write in place of the generated one become equal.
 
-Hand-written actions stand where they run, guards are nested below `if decide:`, numbers are compared by value, and
-what the generator derives (imports, comments with times) is left out.
+Hand-written actions stand where they run, guards are nested below `if decide:`, branches behind a `return` are not
+nested, numbers are compared by value, and comments with times, which the generator derives, are left out.
 """
 
 import ast
 import copy
 import re
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 
 from vicode.model.python_parser import parse_module
-from vicode.regions import find_regions
-from vicode.sync.code_items import (
-    CODE,
-    COMMENT,
-    DOCSTRING,
-    HEADER,
-    IMPORT,
-    REGION,
-    CodeItem,
-    imported_names,
-    split_items,
-)
+from vicode.sync.code_items import CODE, COMMENT, DOCSTRING, GENERATED_DOCSTRINGS, IMPORT, REGION, CodeItem
+from vicode.sync.interpret.equivalent_expressions import plain_code
+from vicode.sync.interpret.units import METHOD_DEPTH, Items, Units, expand_region
 
 _TIME_COMMENT = re.compile(r"#\s*after \S+ m?s\Z")
 _NS_PER_UNIT = {"s": 1e9, "ms": 1e6}
 _ACTION_CALL = re.compile(r"self\.(_do_\w+)\(\)\Z")
+_NEEDS_PLAIN_FORM = re.compile(
+    r"float|round|\.limit\(|\.saturate\(|\bint\(|\bis\b|\bin\b|\d\.\d|\de|[!=]= 0|(self\.[\w.]+) = \1 "
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GeneratedParts:
-    """What the text generated from the design contains: bodies of regions by id, scopes, and comments with times."""
+    """What the text generated from the design contains: bodies of regions by id, and comments with times by scope."""
 
     bodies: Mapping[str, str] = field(default_factory=dict)
-    scopes: frozenset[str] = frozenset()
     time_comments: frozenset[tuple[str, str]] = frozenset()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class NormalForm:
-    """A module: its raw items, its normal items, the names it imports, and the bodies of its regions."""
-
-    raw: tuple[CodeItem, ...]
-    items: tuple[CodeItem, ...]
-    keys: tuple[object, ...]
-    imports: frozenset[tuple[str, str, str]]
-    bodies: Mapping[str, str]
-
-
-def collect_parts(text: str) -> GeneratedParts:
-    """Collect the parts of a generated text."""
-    items = split_items(text)
-    comments = {(item.scope, comment) for item in items for comment in item.comments}
+def collect_parts(units: Units) -> GeneratedParts:
+    """Collect the parts of a generated module."""
+    comments = {(item.scope, comment) for items in units.items.values() for item in items for comment in item.comments}
     return GeneratedParts(
-        bodies={region.id: region.body for region in find_regions(text).regions},
-        scopes=frozenset(item.scope for item in items),
-        time_comments=frozenset(pair for pair in comments if _TIME_COMMENT.match(pair[1])),
+        bodies=units.bodies, time_comments=frozenset(pair for pair in comments if _TIME_COMMENT.match(pair[1]))
     )
 
 
-def build_normal_form(text: str, parts: GeneratedParts, *, is_generated: bool) -> NormalForm:
-    """Build the normal form.
+def find_inlined(units: Units, others: Units) -> dict[str, CodeItem]:
+    """Return the regions of the methods `_do_…` that only one of two modules has, by unit.
+
+    Such a method is compared at the place of its only call. A method that consists of more than a region, or is used
+    in another way, stays a unit of its own.
+    """
+    found = {
+        name: items[1]
+        for name, items in units.items.items()
+        if "._do_" in name and name not in others.items and _is_action_method(name, items)
+    }
+    if not found:
+        return {}
+    uses = [word for items in units.items.values() for item in items for word in _action_names(item.code)]
+    uses += [word for body in units.bodies.values() for word in _action_names(body)]
+    calls = [name for items in units.items.values() for name in called_actions(items)]
+    # Its own definition names the method, too.
+    return {
+        name: region
+        for name, region in found.items()
+        if calls.count(_short(name)) == 1 and uses.count(_short(name)) == 2
+    }
+
+
+def _is_action_method(name: str, items: Items) -> bool:
+    match items:
+        case (head, region):
+            return region.kind == REGION and head.code == f"def {_short(name)}(self) -> None:" and not head.comments
+        case _:
+            return False
+
+
+def _short(unit: str) -> str:
+    return unit.rpartition(".")[2]
+
+
+def called_actions(items: Items) -> tuple[str, ...]:
+    """Return the names of the methods `_do_…` that items call in a statement of its own."""
+    return tuple(match[1] for item in items if (match := _call_of(item)))
+
+
+def _action_names(code: str) -> list[str]:
+    return re.findall(r"\b_do_\w+", code)
+
+
+def _call_of(item: CodeItem) -> re.Match[str] | None:
+    return _ACTION_CALL.match(item.code) if item.kind == CODE and not item.comments else None
+
+
+def normalize(
+    items: Items,
+    inlined: Mapping[str, CodeItem],
+    bodies: Mapping[str, str],
+    parts: GeneratedParts,
+    *,
+    is_generated: bool,
+) -> Items:
+    """Return the items of a unit in the normal form.
 
     Args:
-        text: The module.
+        items: The items.
+        inlined: The regions of methods by name that replace their calls.
+        bodies: The bodies of the regions of the module.
         parts: The parts of the text that the person started with.
-        is_generated: The text is generated, so that bodies of regions differ only by code that was added to the design.
-
-    Raises:
-        SyntaxError: The text is not Python.
+        is_generated: The module is generated: its regions differ only by code that was added to the design.
     """
-    raw = split_items(text)
-    bodies = {region.id: region.body for region in find_regions(text).regions}
-    items = _inline_actions(list(raw))
-    items = [
+    normal = [_with_action(item, inlined) for item in items if item.code != "pass" and not _is_generated_doc(item)]
+    normal = [
         part
-        for item in items
-        for part in (_expand_region(item, bodies, parts) if is_generated or item.code not in parts.bodies else (item,))
+        for item in normal
+        for part in (
+            expand_region(item, bodies, parts.bodies) if _may_be_expanded(item, parts, is_generated) else (item,)
+        )
     ]
-    imports = frozenset(imported_names(item for item in items if item.depth == 0))
-    items = [item for item in items if item.kind != HEADER and not (item.kind == IMPORT and item.depth == 0)]
-    items = _move_new_methods(items, parts)
-    items = _nest_decisions(items)
-    items = [_without_time_comments(part, parts) for item in items for part in _split_states(item)]
-    items = [_with_plain_text(item) for item in items]
-    keys = tuple(item.key for item in items)
-    return NormalForm(raw=raw, items=tuple(items), keys=keys, imports=imports, bodies=bodies)
+    # Imports of the module are compared as a set.
+    normal = [item for item in normal if item.kind != IMPORT or item.depth > 0]
+    normal = _nest_decisions(_flatten_branches(normal))
+    return tuple(_with_plain_text(_without_time_comments(item, parts)) for item in normal)
 
 
-def _inline_actions(items: list[CodeItem]) -> list[CodeItem]:
-    """Put the regions of the methods `_do_…` in place of their only call."""
-    by_scope: dict[str, list[CodeItem]] = {}
+def _is_generated_doc(item: CodeItem) -> bool:
+    return item.kind == DOCSTRING and item.code in GENERATED_DOCSTRINGS
+
+
+def _may_be_expanded(item: CodeItem, parts: GeneratedParts, is_generated: bool) -> bool:
+    """Whether a region of a method may contain code that was added; a person may have copied one, too."""
+    return item.depth >= METHOD_DEPTH and (is_generated or item.code not in parts.bodies)
+
+
+def _with_action(item: CodeItem, inlined: Mapping[str, CodeItem]) -> CodeItem:
+    call = _call_of(item)
+    region = inlined.get(call[1]) if call else None
+    if region is None:
+        return item
+    return replace(region, scope=item.scope, depth=item.depth, first=item.first, last=item.last)
+
+
+def _flatten_branches(items: list[CodeItem]) -> list[CodeItem]:
+    """Write an `elif` or `else` behind a branch that ends with `return` as statements of their own."""
+    result: list[CodeItem] = []
+    # The depths of `else` whose statements stand at the depth of the `if`.
+    lifted: list[int] = []
     for item in items:
-        by_scope.setdefault(item.scope, []).append(item)
-    calls = Counter(match[1] for item in items if item.kind == CODE and (match := _ACTION_CALL.match(item.code)))
-    inlined = {
-        scope.rpartition(".")[2]: content[1]
-        for scope, content in by_scope.items()
-        if len(content) == 2 and content[1].kind == REGION and calls[scope.rpartition(".")[2]] == 1
-    }
-    result = []
-    for item in items:
-        name = item.scope.rpartition(".")[2]
-        if name in inlined and (item.kind == REGION or isinstance(item.node, ast.FunctionDef)):
-            continue
-        match = _ACTION_CALL.match(item.code) if item.kind == CODE else None
-        region = inlined.get(match[1]) if match else None
-        result.append(item if region is None else replace(region, scope=item.scope, depth=item.depth))
+        while lifted and item.depth <= lifted[-1]:
+            lifted.pop()
+        depth = item.depth - len(lifted)
+        is_branch = item.code.startswith(("elif ", "else:")) and item.kind == CODE
+        if not is_branch or not _ends_with_return(result, depth):
+            result.append(replace(item, depth=depth))
+        elif item.code == "else:":
+            lifted.append(item.depth)
+        else:
+            result.append(replace(item, depth=depth, code=item.code.removeprefix("el")))
     return result
 
 
-def _expand_region(item: CodeItem, bodies: Mapping[str, str], parts: GeneratedParts) -> Iterator[CodeItem]:
-    """Replace a region that was added by its statements, and put those around a region that were added to it."""
-    if item.kind != REGION or parts.bodies.get(item.code) == bodies[item.code]:
-        yield item
-        return
-    try:
-        inside = [_moved_into(part, item) for part in split_items(bodies[item.code])]
-    except SyntaxError:
-        yield item
-        return
-    if item.code not in parts.bodies:
-        yield from inside
-        return
-    old = [_moved_into(part, item).key for part in split_items(parts.bodies[item.code])]
-    for start in range(len(inside) - len(old) + 1):
-        if [part.key for part in inside[start : start + len(old)]] == old:
-            yield from (*inside[:start], item, *inside[start + len(old) :])
-            return
-    yield from inside
-
-
-def _moved_into(item: CodeItem, region: CodeItem) -> CodeItem:
-    scope = ".".join(part for part in (region.scope, item.scope) if part)
-    return replace(item, scope=scope, depth=item.depth + region.depth, first=region.first, last=region.last)
-
-
-def _move_new_methods(items: list[CodeItem], parts: GeneratedParts) -> list[CodeItem]:
-    """Put the methods that are not generated behind the others, sorted by name; their order has no effect."""
-    moved: dict[str, list[CodeItem]] = {}
-    kept: list[CodeItem] = []
-    for item in items:
-        owner = ".".join(item.scope.split(".")[:2])
-        is_new = "." in owner and owner not in parts.scopes and owner.partition(".")[0] in parts.scopes
-        if is_new and owner not in moved and kept and kept[-1].kind == COMMENT and kept[-1].last == item.first - 1:
-            moved[owner] = [kept.pop()]
-        (moved.setdefault(owner, []) if is_new else kept).append(item)
-    return [*kept, *(item for owner in sorted(moved) for item in moved[owner])]
+def _ends_with_return(items: list[CodeItem], depth: int) -> bool:
+    """Whether the branch above is an `if` of its own and leaves the method."""
+    statements = [item for item in reversed(items) if item.kind != COMMENT]
+    head = next((item for item in statements if item.depth <= depth), None)
+    if head is None or head.depth != depth or not head.code.startswith("if "):
+        return False
+    return statements[0].depth == depth + 1 and statements[0].code.split(" ")[0] == "return"
 
 
 def _nest_decisions(items: list[CodeItem]) -> list[CodeItem]:
     """Write `if decide and …:` as a test inside `if decide:`, and join adjacent blocks of it."""
+    if any(item.code.startswith("decide") for item in items):
+        return items
     result: list[CodeItem] = []
     index = 0
     while index < len(items):
@@ -212,18 +227,6 @@ def _continues_block(result: list[CodeItem], outer: CodeItem) -> bool:
     return False
 
 
-def _split_states(item: CodeItem) -> Iterator[CodeItem]:
-    """Write the call that lists the states as one item per state."""
-    match item.node:
-        case ast.Expr(value=ast.Call(func=ast.Attribute(attr="_set_states"), args=states, keywords=[])) if states:
-            yield replace(item, code="self._set_states:", node=None)
-            for state in states:
-                node = ast.Expr(value=state)
-                yield replace(item, code=ast.unparse(state), depth=item.depth + 1, comments=(), node=node)
-        case _:
-            yield item
-
-
 def _without_time_comments(item: CodeItem, parts: GeneratedParts) -> CodeItem:
     """Leave out comments such as `# after 0.5 s` that are generated, or agree with the test."""
     if not item.comments or not isinstance(item.node, ast.If):
@@ -237,7 +240,7 @@ def _without_time_comments(item: CodeItem, parts: GeneratedParts) -> CodeItem:
     return replace(item, comments=tuple(kept))
 
 
-def _is_time_in(comment: str, numbers: Iterable[object]) -> bool:
+def _is_time_in(comment: str, numbers: Collection[object]) -> bool:
     if not _TIME_COMMENT.match(comment):
         return False
     amount, unit = comment.split()[-2:]
@@ -248,10 +251,10 @@ def _is_time_in(comment: str, numbers: Iterable[object]) -> bool:
 
 
 def _with_plain_text(item: CodeItem) -> CodeItem:
-    """Compare numbers by value and docstrings by words, without conversions to float, which the generator adds."""
+    """Compare docstrings by words, and code in the form of equivalent expressions."""
     if item.kind == DOCSTRING:
         return replace(item, code=" ".join(item.code.split()))
-    if item.kind != CODE or not re.search(r"float|\d\.\d|\de", item.code):
+    if item.kind != CODE or not _NEEDS_PLAIN_FORM.search(item.code):
         return item
     is_elif = item.code.startswith("elif ")
     code = item.code.removeprefix("el") if is_elif else item.code
@@ -259,19 +262,5 @@ def _with_plain_text(item: CodeItem) -> CodeItem:
         (statement,) = parse_module(f"{code} pass" if code.endswith(":") else code).body
     except (SyntaxError, ValueError):
         return item
-    plain = ast.unparse(_PlainNumbers().visit(statement)).removesuffix("\n    pass")
+    plain = plain_code(statement).removesuffix("\n    pass")
     return replace(item, code=f"el{plain}" if is_elif else plain)
-
-
-class _PlainNumbers(ast.NodeTransformer):
-    def visit_Constant(self, node: ast.Constant) -> ast.Constant:
-        is_whole = isinstance(node.value, float) and node.value.is_integer()
-        return ast.Constant(value=int(node.value)) if is_whole and isinstance(node.value, float) else node
-
-    def visit_Call(self, node: ast.Call) -> ast.AST:
-        self.generic_visit(node)
-        match node:
-            case ast.Call(func=ast.Name(id="float"), args=[only], keywords=[]):
-                return only
-            case _:
-                return node

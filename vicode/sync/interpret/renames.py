@@ -12,7 +12,8 @@ from vicode.model.edits import rename_state, update_state
 from vicode.model.names import is_valid_state_name
 from vicode.regions import find_regions
 from vicode.sync.code_items import CodeItem, split_items
-from vicode.sync.interpret.normal_form import GeneratedParts, NormalForm
+from vicode.sync.interpret.normal_form import GeneratedParts
+from vicode.sync.interpret.units import Items
 
 _WORD = re.compile(r"'(?:[^'\\]|\\.)*'|\"(?:[^\"\\]|\\.)*\"|\w+")
 
@@ -29,9 +30,9 @@ def list_states(items: Iterable[CodeItem]) -> Iterator[tuple[str, str]]:
                 yield name, method.removeprefix("_in_")
 
 
-def propose_renames(design: Design, old: NormalForm, new: NormalForm) -> Iterator[Design]:
-    """Propose renames of states for changed names in the list of states."""
-    before, after = list(list_states(old.items)), list(list_states(new.items))
+def propose_renames(design: Design, old: Items, new: Items) -> Iterator[Design]:
+    """Propose renames of states for changed entries of the list of states."""
+    before, after = list(list_states(old)), list(list_states(new))
     old_names, new_names = {name for name, _stem in before}, {name for name, _stem in after}
     gone = [pair for pair in before if pair[0] not in new_names]
     come = [pair for pair in after if pair[0] not in old_names and is_valid_state_name(pair[0])]
@@ -68,7 +69,7 @@ def map_parts(parts: GeneratedParts, mapping: Mapping[str, str]) -> GeneratedPar
         return ".".join(mapping.get(name, name) for name in scope.split("."))
 
     comments = frozenset((mapped(scope), comment) for scope, comment in parts.time_comments)
-    return replace(parts, scopes=frozenset(map(mapped, parts.scopes)), time_comments=comments)
+    return replace(parts, time_comments=comments)
 
 
 def map_words(text: str, mapping: Mapping[str, str]) -> str:

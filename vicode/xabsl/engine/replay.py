@@ -155,13 +155,17 @@ class ReplayRobot:
 
     def trace_line(self, cycle: int, number: int | None = None) -> str:
         """Format the last cycle as a line of a trace."""
+        return json.dumps(self.trace_record(cycle, number), separators=(",", ":"))
+
+    def trace_record(self, cycle: int, number: int | None = None) -> dict[str, Any]:
+        """The last cycle as a record of a trace."""
         engine = self.engine
         record: dict[str, Any] = {"iteration": cycle, "time_ns": self.now * _NS_PER_MS, "agent": engine.agent}
         if number is not None:
             record["robot"] = number
         record["tree"] = list(self._steps(engine.trace))
         record["errors"] = [{"message": error} for error in engine.errors]
-        return json.dumps(record, separators=(",", ":"))
+        return record
 
     def _steps(self, nodes: list[Any], by: str | None = None) -> Iterator[dict[str, Any]]:
         for node in nodes:

@@ -9,7 +9,7 @@ from vicode.xabsl.patching.decision_chains import Chain, ChainBranch, doc_tokens
 from vicode.xabsl.patching.doc_edits import edit_words
 from vicode.xabsl.patching.expression_edits import edit_expression
 from vicode.xabsl.patching.list_edits import match_items, text_similarity, unmoved
-from vicode.xabsl.patching.source_edits import SourceEdits, indented
+from vicode.xabsl.patching.source_edits import PatchError, SourceEdits, indented
 from vicode.xabsl.printer import print_node
 
 
@@ -36,8 +36,19 @@ class DecisionEdits:
         chains = [read_chain(node, doc) for node, doc in zip((old, before, after), else_docs, strict=True)]
         if before == after and else_docs[1] == else_docs[2]:
             return
-        if not self._edit_chain(*chains):
+        edits = list(self.file.edits)
+        if not self._edit_chain(*chains) or not self._is_consistent(old):
+            self.file.edits = edits
             self.replace(old, after, else_docs[2])
+
+    def _is_consistent(self, old: tree.DecisionTreeNode) -> bool:
+        """Whether the edits of a tree exclude each other nowhere."""
+        file = self.file
+        try:
+            file.read(file.start_with_comments(old.first_token), file.end_with_comment(old.last_token))
+        except PatchError:
+            return False
+        return True
 
     def replace(self, old: tree.DecisionTreeNode, after: tree.DecisionTreeNode, else_doc: str = "") -> None:
         """Replace a tree; its comments are kept above the new one.

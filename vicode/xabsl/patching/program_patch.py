@@ -27,12 +27,14 @@ class ProgramVersion:
     Attributes:
         state_orders: The order of states by option, if it differs from that of the source.
         folders: The folders of new options relative to the main file, by option.
+        moves: The new paths of the files of options, relative to the folder of the main file and without suffix.
     """
 
     source: ProgramSource
     compiled: CompileResult
     state_orders: Mapping[str, Sequence[str]] = field(default_factory=dict)
     folders: Mapping[str, str] = field(default_factory=dict)
+    moves: Mapping[str, str] = field(default_factory=dict)
 
 
 FileTexts = dict[Path, str | None]
@@ -56,7 +58,7 @@ def patch_program(original: ProgramVersion, before: ProgramVersion, after: Progr
     old, base = _with_texts(original.source, renamed), before.source
     if renames:
         base = _with_texts(base, rename(base, before.compiled, renames))
-    texts |= _ProgramPatch(old, base, after, _moved_files(old, renames)).run()
+    texts |= _ProgramPatch(old, base, after, _moved_files(old, renames, after.moves)).run()
     return {path: text for path, text in texts.items() if text is None or text != _original_text(original, path)}
 
 
@@ -67,7 +69,7 @@ def _original_text(original: ProgramVersion, path: Path) -> str | None:
 
 def _with_texts(source: ProgramSource, texts: Mapping[Path, str]) -> ProgramSource:
     files = {path: parse(texts[path], str(path)) if path in texts else old for path, old in source.files.items()}
-    return ProgramSource(source.main, files, source.findings)
+    return ProgramSource(source.main, files, source.encodings, source.findings)
 
 
 class _ProgramPatch:
@@ -137,7 +139,9 @@ class _ProgramPatch:
             path, old = olds[name]
             was, was_in = befores[name]
             order = [state.name.text for state in old.states]
-            edit_option(self.files[path], old, OptionVersion(was, was_in, _ordered(was.states, order)), version)
+            before = OptionVersion(was, was_in, _ordered(was.states, order))
+            edit_option(self.files[path], old, before, version)
+            _check_overlaps(self.files[path], name)
         self.removed += [olds[name][0] for name in olds if name not in afters]
 
     def _add_option(self, name: str, version: OptionVersion) -> None:
@@ -170,7 +174,7 @@ class _ProgramPatch:
     def _add_file(self, path: Path, text: str) -> None:
         path = Path(posixpath.normpath(path.as_posix()))
         if path in self.files or path in self.added or path.exists():
-            raise PatchError(f"{path} already exists; rename it or the design")
+            raise PatchError(f"{path} already exists; rename it or the design", path.stem)
         newline = self.files[self.old.main].newline
         self.added[path] = text.replace("\n", newline)
 
@@ -229,8 +233,8 @@ class _ProgramPatch:
         for path, parsed in self.old.files.items():
             targets = [_target(path, include) for include in parsed.file.includes]
             for include, target in zip(parsed.file.includes, targets, strict=True):
-                if target in self.moved:
-                    written = include.path.removesuffix(target.name) + self.moved[target].name
+                written = self._moved_include(path, include, target)
+                if written != include.path:
                     string = include.first_token + 1
                     self.files[path].replace(
                         self.files[path].start(string), self.files[path].end(string), f'"{written}"'
@@ -243,6 +247,13 @@ class _ProgramPatch:
                 rows.insert(beside[-1] + 1 if beside else len(rows), (None, f'include "{written}";'))
             if [index for index, _text in rows] != list(range(len(targets))):
                 self._edit_include_list(path, parsed, rows)
+
+    def _moved_include(self, path: Path, include: tree.IncludeNode, target: Path) -> str:
+        """The path in an include after files moved."""
+        host, new = self.moved.get(path, path), self.moved.get(target, target)
+        if host.parent == path.parent and new.parent == target.parent:
+            return include.path if new == target else include.path.removesuffix(target.name) + new.name
+        return posixpath.relpath(new.as_posix(), host.parent.as_posix())
 
     def _edit_include_list(self, path: Path, parsed: ParsedFile, rows: Sequence[tuple[Match, str]]) -> None:
         includes, file = parsed.file.includes, self.files[path]
@@ -264,16 +275,38 @@ class _ProgramPatch:
         return counts.most_common(1)[0][0] if counts else self.old.main
 
 
-def _moved_files(source: ProgramSource, renames: Renames) -> dict[Path, Path]:
-    """The new paths of files that are named like a renamed option."""
+def _moved_files(source: ProgramSource, renames: Renames, moves: Mapping[str, str]) -> dict[Path, Path]:
+    """The new paths of files whose design moved, and of those that are named like a renamed option."""
     old_names = {new: key[1] for key, new in renames.items() if key[0] == "option"}
-    moved = {}
+    folder = source.main.parent
+    moved: dict[Path, Path] = {}
     for path, _file, item in iter_items(source):
         name = item.name.text if isinstance(item, tree.OptionNode) else ""
-        new = path.with_name(f"{name}{path.suffix}")
-        if old_names.get(name) == path.stem and new not in source.files and not new.exists():
+        new = path
+        if name in moves:
+            if not path.is_relative_to(folder):
+                raise PatchError(f"{path} is not in the folder of {source.main.name}: move it yourself", name)
+            new = Path(posixpath.normpath((folder / f"{moves[name]}{path.suffix}").as_posix()))
+        if old_names.get(name) == path.stem and new.stem == path.stem:
+            renamed = new.with_name(f"{name}{path.suffix}")
+            new = new if renamed in source.files or renamed.exists() else renamed
+        if new != path and (new in source.files or new.exists() or new in moved.values()):
+            raise PatchError(f"{new} already exists; rename it or the design", name)
+        if new != path:
             moved[path] = new
     return moved
+
+
+def _check_overlaps(file: SourceEdits, option: str) -> None:
+    """Raise the error of edits that exclude each other while the option is known.
+
+    Raises:
+        PatchError: Two edits overlap.
+    """
+    try:
+        file.result()
+    except PatchError as error:
+        raise PatchError(str(error), option) from error
 
 
 def _is_beside(targets: Sequence[Path], index: Match, added: Path) -> bool:

@@ -11,11 +11,16 @@ from vicode.xabsl.parser import ParsedFile
 
 _COMMENT = re.compile(r"//[^\n]*|/\*(?s:.*?)\*/")
 _TRAILING = re.compile(r"(?:[ \t]*/\*(?!\*)(?:(?!\*/)[^\n])*\*/)*[ \t]*(?://[^\r\n]*)?(?=[ \t\r]*(?:\n|\Z))")
+_NEWLINE = re.compile(r"[ \t]*\r?(?:\n|\Z)")
 _BLANK_LINE = re.compile(r"\n[ \t\r]*\n")
 
 
 class PatchError(Exception):
-    """A change cannot be written into the original files."""
+    """A change cannot be written into the original files. `option` is the option that it concerns, if it is one."""
+
+    def __init__(self, message: str, option: str = "") -> None:
+        super().__init__(message)
+        self.option = option
 
 
 @dataclass(slots=True)
@@ -32,9 +37,12 @@ class SourceEdits:
     parsed: ParsedFile
     edits: list[_Edit] = field(default_factory=list)
     newline: str = field(init=False)
+    line_comment_ends: frozenset[int] = field(init=False)
 
     def __post_init__(self) -> None:
         text = self.text
+        comments = (comment for group in self.tokens.comments.values() for comment in group)
+        self.line_comment_ends = frozenset(each.span[1] for each in comments if each.text.startswith("//"))
         self.newline = "\r\n" if text.count("\r\n") * 2 > text.count("\n") else "\n"
 
     @property
@@ -108,6 +116,10 @@ class SourceEdits:
     # Edits
 
     def replace(self, start: int, end: int, text: str) -> None:
+        if end > start and start in self.line_comment_ends and not _NEWLINE.match(text or self.text[end:]):
+            # What follows must not become part of the comment.
+            text = f"\n{self.indent_at(start)}{text.lstrip()}"
+            end += 0 if text.strip() else len(self.text[end:]) - len(self.text[end:].lstrip(" \t"))
         if self.text[start:end] != text:
             self.edits.append(_Edit(start, end, text.replace("\n", self.newline)))
 

@@ -1,6 +1,6 @@
 """The behaviors of the open files, their findings as diagnostics, and positions in them."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib.metadata import version
 from pathlib import Path
 
@@ -23,8 +23,9 @@ _SEVERITIES = {
 class XabslLanguageServer(LanguageServer):
     """Serves the behaviors of the open files."""
 
-    def __init__(self) -> None:
+    def __init__(self, encoding_of: Callable[[Path], str]) -> None:
         super().__init__("vicode-xabsl", version("vicode"), lsp.TextDocumentSyncKind.Full)
+        self._encoding_of = encoding_of
         self.behaviors: dict[Path, OpenBehavior] = {}
         self._main_files: dict[Path, Path] = {}
         self._published: dict[Path, set[Path]] = {}
@@ -35,7 +36,7 @@ class XabslLanguageServer(LanguageServer):
         if main is None:
             main = self._main_files[path] = find_main_file(path)
         if main not in self.behaviors:
-            self.behaviors[main] = OpenBehavior(main, self._texts())
+            self.behaviors[main] = OpenBehavior(main, self._texts(), self._encoding_of(main))
         return self.behaviors[main]
 
     def on_change(self, path: Path) -> None:

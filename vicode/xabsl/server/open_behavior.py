@@ -9,7 +9,8 @@ from pathlib import Path
 from vicode.xabsl.compiler import CompileResult, compile_source
 from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.parser import ParsedFile, parse
-from vicode.xabsl.source_loader import ProgramSource, load_source, read_text
+from vicode.xabsl.source_loader import ProgramSource, load_source
+from vicode.xabsl.source_text import EncodedText, read_source
 from vicode.xabsl.symbol_table import Definition
 from vicode.xabsl.tokens import KEYWORDS
 
@@ -32,10 +33,14 @@ class RenameError(ValueError):
 
 @dataclass(eq=False)
 class OpenBehavior:
-    """The program with the main file `main`. `open_texts` are the texts of open files, saved or not."""
+    """The program with the main file `main`. `open_texts` are the texts of open files, saved or not.
+
+    `encoding` is that of files that are not UTF-8.
+    """
 
     main: Path
     open_texts: dict[Path, str] = field(default_factory=dict)
+    encoding: str = ""
     source: ProgramSource = field(init=False)
     compiled: CompileResult = field(init=False)
     _parse_cache: dict[str, tuple[str, ParsedFile]] = field(default_factory=dict)
@@ -171,9 +176,9 @@ class OpenBehavior:
         start = tokens.starts[token]
         return SymbolOccurrence(self.path_of(tokens), start, start + len(tokens.texts[token]), tokens.texts[token])
 
-    def _read(self, path: Path) -> str:
+    def _read(self, path: Path) -> str | EncodedText:
         text = self.open_texts.get(path)
-        return read_text(path) if text is None else text
+        return read_source(path, self.encoding) if text is None else text
 
     def _parse(self, text: str, name: str) -> ParsedFile:
         cached = self._parse_cache.get(name)

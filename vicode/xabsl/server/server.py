@@ -3,6 +3,7 @@
 import difflib
 import logging
 from collections.abc import Callable
+from pathlib import Path
 from typing import TypeVar
 
 from lsprotocol import types as lsp
@@ -41,8 +42,9 @@ _COMPLETION_KINDS = {
 }
 
 
-def create_server() -> XabslLanguageServer:
-    server = XabslLanguageServer()
+def create_server(encoding_of: Callable[[Path], str] = lambda _path: "") -> XabslLanguageServer:
+    """Create the server; `encoding_of` returns the encoding of a file that is not UTF-8, empty for the default."""
+    server = XabslLanguageServer(encoding_of)
     # An answer with an error, such as a refusal to rename, is not a failure of the server.
     logging.getLogger(json_rpc.__name__).addFilter(_is_failure)
     for register in (_register_document_sync, _register_completion, _register_queries, _register_outlines):

@@ -11,6 +11,7 @@ import { Menu } from "./menu.js";
 import { restoreView, saveView } from "./view_state.js";
 import { Minimap } from "./minimap.js";
 import { Nudge } from "./nudge.js";
+import { announce, announceOpening } from "./page_events.js";
 import { Painter } from "./painter.js";
 import { Tooltip } from "./tooltip.js";
 import { PresenceLayer } from "./presence.js";
@@ -170,9 +171,7 @@ class Canvas {
   /** Sends one gesture to Python. */
   report(kind, payload) {
     if (kind !== "move") this.nudge.reset();
-    // Python opens a field for these; keys pressed before that belong to it. A page without such fields has no hook.
-    if ((kind === "use" && !payload.address) || (kind === "open" && payload.item.of !== "components")) window.awaitField?.();
-    this.emit("gesture", { kind, ...payload, rev: this.scene.rev });
+    this.emit("gesture", { kind, ...payload, ...announceOpening(this.host, kind, payload), rev: this.scene.rev });
   }
 
   /** Moves nodes to `positions` (by key); `how` is the command, for the name of the edit. */
@@ -219,7 +218,9 @@ class Canvas {
   /** Called after each change of the selection; `quiet` if Python set it. */
   selectionChanged(quiet) {
     this.handles.refresh();
-    if (!quiet) this.report("select", { items: this.selection.items(), client_seq: ++this.clientSeq });
+    const [items, seq] = [this.selection.items(), quiet ? this.clientSeq : ++this.clientSeq];
+    if (!quiet) announce(this.host, "vicode-select", { items, seq });
+    if (!quiet) this.report("select", { items, client_seq: seq });
     this.levelOfDetail.selectionChanged();
   }
 

@@ -11,8 +11,8 @@ import { toUnits } from "./offsets.js";
 const KEY_HINT = "Control+Space lists names; Escape, then Tab leaves the editor";
 const EXPRESSION_KEY_HINT = "Control+Space lists names";
 
-export async function attachCodeAssist(id, options, emit) {
-  const view = await waitForEditor(id);
+/** The extensions of a code editor: completion, marks, line styles and keys; `attach` binds them to its view. */
+export function createCodeAssist(options, emit) {
   const completion = createCompletion(emit);
   const marks = createMarks();
   const lines = createLineStyles(options.reportsLine ? emit : null);
@@ -20,11 +20,15 @@ export async function attachCodeAssist(id, options, emit) {
   if (options.completes) extensions.push(completion.extension);
   if (options.isExpression) extensions.push(expressionLanguage());
   if (options.hint) extensions.push(CM.placeholder(options.hint));
-  view?.dispatch({ effects: CM.StateEffect.appendConfig.of(extensions) });
-  // Tab leaves an expression field; in code it indents, unless Escape is pressed before.
-  if (options.isExpression) view?.setTabFocusMode(true);
-  if (view && options.isExpression) addExpressionKeys(view, { isSingle: options.isSingle });
+  let view = null;
   return {
+    extensions,
+    attach(editor) {
+      view = editor;
+      // Tab leaves an expression field; in code it indents, unless Escape is pressed before.
+      if (options.isExpression) view.setTabFocusMode(true);
+      if (options.isExpression) addExpressionKeys(view, { isSingle: options.isSingle });
+    },
     showMarks: (text, list) => view && marks.show(view, text, list),
     highlightLines: (first, last, reveal) => view && lines.show(view, first, last, reveal),
     setLineStyles: (list) => view && lines.style(view, list),
@@ -37,6 +41,15 @@ export async function attachCodeAssist(id, options, emit) {
     answer: completion.answer,
     dispose: completion.dispose,
   };
+}
+
+/** Extends the editor of a NiceGUI element. */
+export async function attachCodeAssist(id, options, emit) {
+  const assist = createCodeAssist(options, emit);
+  const view = await waitForEditor(id);
+  view?.dispatch({ effects: CM.StateEffect.appendConfig.of(assist.extensions) });
+  if (view) assist.attach(view);
+  return assist;
 }
 
 // Returns the editor of an element, which may be mounted later than its extensions; null if the page is gone.

@@ -96,7 +96,12 @@ class _TuningRow:
 
     def _write_back(self) -> None:
         """Write the value into the file, as one undo step."""
-        name, text = self.input.name, _expression(self._value)
+        name, text, robot = self.input.name, _expression(self._value), self.view.robot
+        is_constant = self.input.component == PARAMETERS
+        declared = self.view.project.constants if is_constant else self.view.design.parameters
+        before = next((each.initial for each in declared if each.name == name), "")
+        if robot is not None:
+            robot.remember_written((self.input.component, name), before, text)
 
         def change_project(project: Project) -> Project:
             return replace(project, constants=_changed(project.constants, name, text))
@@ -104,7 +109,7 @@ class _TuningRow:
         def change_design(design: Design) -> Design:
             return replace(design, parameters=_changed(design.parameters, name, text))
 
-        if self.input.component == PARAMETERS:
+        if is_constant:
             error = write_project(self.view.context, change_project, f"set {name} to {text}")
             if error:
                 self.view.context.show_toast(error, "warning")

@@ -48,8 +48,10 @@ class RobotValues:
         rows = []
         for name in names:
             seen = robot.steps.get(name)
-            if seen is None and name in inputs:
+            if name in inputs and not robot.is_active(name):
+                # The inputs are newer than the last step.
                 rows.append(input_row(name, inputs[name]))
+                continue
             if seen is None or name not in known:
                 continue
             rows.append(

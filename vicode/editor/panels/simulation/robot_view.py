@@ -214,7 +214,7 @@ class RobotView:
         async def compare() -> None:
             try:
                 self.other_versions = await run.io_bound(
-                    find_other_versions, project, workspace.source_paths, description
+                    find_other_versions, project, workspace.source_paths, description, dict(robot.written)
                 )
             finally:
                 self._is_comparing = False

@@ -39,8 +39,9 @@ UNFIXABLE: Mapping[str, str] = {
     **dict.fromkeys(("L701", "L702"), "there is no general replacement in the language"),
     "L703": "the robot program also uses the XABSL name",
     "L704": _AMBIGUOUS,
+    "D432": "whether to rename the state or the method is not certain",
     "D425": "where to step the component is not certain",
-    **dict.fromkeys(("G501", "G502", "G503", "G504"), "Generate shows and writes generated files"),
+    **dict.fromkeys(("G501", "G502", "G503", "G504", "G505", "G506"), "Generate shows and writes generated files"),
 }
 """The reason for every rule without a quick fix."""
 

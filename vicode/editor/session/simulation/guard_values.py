@@ -97,6 +97,7 @@ def _collect_values(design: Design, iteration: IterationResult, steps: Steps) ->
     values: dict[str, Any] = {name: _plain(value) for name, value in (step.get("values") or {}).items()}
     now = {str(each["component"]): each for each in iteration.tree}
     values.update((name, step[name]) for name in ("action_done", "conflict") if isinstance(step.get(name), bool))
+    values["team_size"] = step.get("team_size", 1)
     if isinstance(step.get("state_time_ns"), int):
         values["state_time"] = step["state_time_ns"] / (1e6 if design.time_unit == "ms" else 1e9)
     for use in design.uses:

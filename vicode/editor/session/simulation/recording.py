@@ -132,7 +132,7 @@ class Recording:
 
     def _add_values(self, iteration: IterationResult) -> None:
         index = len(self) - 1
-        for component, values in iteration.values():
+        for component, values in iteration.values().items():
             for name, value in (values or {}).items():
                 number = _number(value)
                 if number is not None:

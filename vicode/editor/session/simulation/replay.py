@@ -98,7 +98,7 @@ class RecordedInputs:
                 raise MissingValuesError("the trace has no values; record it with --values")
             owner = component or "the root component"
             raise MissingValuesError(
-                f"the trace has no value of {owner}.{name}; components must set outputs as attributes of the instance"
+                f"the trace has no value of {owner}.{name}; an output must be a bool, int, float, str or an enumeration"
             )
         return value
 
@@ -256,7 +256,7 @@ class _Replay:
     def _remember(self, recorded: IterationResult, replayed: IterationResult) -> None:
         for known, iteration in zip(self._values, (recorded, replayed), strict=True):
             known.update(recorded.inputs)
-            known.update((name, each) for name, each in iteration.values() if each)
+            known.update((name, each) for name, each in iteration.values().items() if each)
 
 
 def _take_consecutive(
@@ -300,4 +300,4 @@ def _require_calls(recorded: IterationResult, replayed: IterationResult) -> None
 
 def _input_values(iteration: IterationResult) -> Iterator[tuple[str, Mapping[str, Any] | None]]:
     yield PARAMETERS, iteration.tree[0].get("values")
-    yield from iteration.values()
+    yield from iteration.values().items()

@@ -102,6 +102,9 @@ def prepare_run(
     class_path = python_class_path(ready, design.component)
     runs_by_hand = hand_written_components(stubbed, design) - set(stub_names)
     _check_classes(whole, runs_by_hand, folder)
+    if runs_by_hand and project.clock:
+        remedy = "run it with vicode run --watch, and attach"
+        raise NotReadyError(f"{project.world} sets the pace (clock: world), which a simulation cannot follow; {remedy}")
     setup = Setup(
         component=class_path,
         probes=f"{class_path.partition('.')[0]}._probes",

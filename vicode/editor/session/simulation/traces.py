@@ -54,11 +54,9 @@ def input_script(iterations: Iterable[IterationResult], inputs: Iterable[Simulat
     script: list[Inputs] = []
     for iteration in iterations:
         changes: dict[str, dict[str, Any]] = {}
-        for step in iteration.tree:
-            component = str(step.get("component"))
-            values = step.get("values") or {}
+        for component, values in iteration.values().items():
             for name, each in names.get(component, {}).items():
-                value = each.accept(values.get(name))
+                value = each.accept((values or {}).get(name))
                 if value is not None and known.get(each.key) != value:
                     known[each.key] = value
                     changes.setdefault(component, {})[name] = value

@@ -84,7 +84,7 @@ class Calculator(Component):
         if decide:
             self._change_to("Long")
             return
-        self.whole = (
+        self.whole = arithmetic.limit(
             abs(self.n)
             + min(self.n, self.m, 3)
             + max(self.n, self.m)
@@ -93,7 +93,7 @@ class Calculator(Component):
             + arithmetic.floor(self.a)
             + arithmetic.ceil(self.a)
             + arithmetic.round_half_even(self.a)
-            + arithmetic.to_int(self.a)
+            + arithmetic.to_int(self.a),
         )
         self.result = (
             abs(self.a)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from vicode.bica import Component, State
+from vicode.bica import Component, State, arithmetic
 
 from parts import Last as Final_
 from parts import State as State_
@@ -64,7 +64,7 @@ class Class(Component):
     def modulate(self, *, speed: float = root_, count: int = decide_) -> None:
         """Set the parameters."""
         self.speed = speed
-        self.count = count
+        self.count = arithmetic.limit(count)
 
     def _in_on(self, decide: bool = True) -> None:
         if decide:

@@ -18,6 +18,9 @@ class Root_(Enum):
     Enum = "Enum"
 
 
+Root_.__name__ = "Root"
+
+
 # (fmt: off)
 decide_: Final = 1
 # (noqa # < vicode a 12345678>)

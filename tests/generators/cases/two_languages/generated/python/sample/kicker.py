@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from vicode.bica import Component, State
+from vicode.bica import Component, State, arithmetic
 
 if TYPE_CHECKING:
     from vicode.bica import Root
@@ -27,7 +27,7 @@ class Kicker(Component):
 
     def modulate(self, *, power: int = 3, hard: bool = True) -> None:
         """Set the parameters."""
-        self.power = power
+        self.power = arithmetic.limit(power)
         self.hard = hard
 
     def _in_a(self, decide: bool = True) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from vicode.bica import Component, State
+from vicode.bica import Component, State, arithmetic
 
 from .declarations import Side, mine, patience, reach
 from .interfaces import Legs, Notes, Perception, Stand
@@ -83,7 +83,7 @@ class Player(Component):
                 return
         self._act_common()
         self.tries += 1
-        self.notes.lost -= -1
+        self.notes.lost = arithmetic.limit(self.notes.lost - -1)
         self.perception.led = bool(self.world.ball_seen) == self.busy
         self._call(
             self.legs,

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from xml.sax.saxutils import quoteattr
 
-from vicode.importers.scxml.reader import NAMESPACE
+from vicode.diagram.export_formats import NotExportableError
 from vicode.model.design import Action, Assign, Decision, Declaration, Design, State, Stay, Transition
 from vicode.model.disabled import strip_disabled
 from vicode.model.expressions import (
@@ -24,26 +24,23 @@ from vicode.model.expressions import (
 )
 from vicode.model.project import Interface, Project
 
+_NAMESPACE = "http://www.w3.org/2005/07/scxml"
 _TRIGONOMETRY = ("sin", "cos", "tan", "atan2", "asin", "acos", "atan", "hypot")
 _FUNCTIONS = frozenset({*_TRIGONOMETRY, "abs", "min", "max", "floor", "ceil", "sqrt", "exp", "log", "sign"})
 _OPERATORS = {"==": "===", "!=": "!==", "and": "&&", "or": "||"}
-
-
-class NotInScxmlError(Exception):
-    """SCXML has no counterpart of a part of the design; the message says which."""
 
 
 def write_scxml(design: Design) -> str:
     """Write a design as SCXML; events are the bool inputs that its guards test.
 
     Raises:
-        NotInScxmlError: SCXML cannot say it.
+        NotExportableError: SCXML cannot say it.
     """
     design = strip_disabled(design)
     _check_design(design)
     scope = build_scope(_project(design), design)
     lines = ['<?xml version="1.0" encoding="UTF-8"?>']
-    head = f'<scxml xmlns="{NAMESPACE}" version="1.0" datamodel="ecmascript" initial={quoteattr(design.initial)}>'
+    head = f'<scxml xmlns="{_NAMESPACE}" version="1.0" datamodel="ecmascript" initial={quoteattr(design.initial)}>'
     lines += [head, *_data(design, scope)]
     for state in design.states:
         lines += _state(design, state, scope)
@@ -51,6 +48,8 @@ def write_scxml(design: Design) -> str:
 
 
 def _check_design(design: Design) -> None:
+    if not design.states:
+        raise NotExportableError("a document of SCXML has a state")
     for is_used, part in (
         (design.frequency_hz is not None, "frequency"),
         (design.resume, "resume"),
@@ -60,15 +59,15 @@ def _check_design(design: Design) -> None:
         (bool(design.time_unit), f"time_unit: {design.time_unit}"),
     ):
         if is_used:
-            raise NotInScxmlError(f"SCXML has no counterpart of {part}")
+            raise NotExportableError(f"SCXML has no counterpart of {part}")
     for state in design.states:
         parts: dict[str, object] = {"requires": state.requires, "modulates": state.modulates, "actions": state.actions}
         parts |= {"capacity": state.capacity, "synchronized": state.synchronized}
         found = [name for name, value in parts.items() if value]
         if found:
-            raise NotInScxmlError(f"SCXML has no counterpart of {found[0]} (state {state.name})")
+            raise NotExportableError(f"SCXML has no counterpart of {found[0]} (state {state.name})")
         if state.final and (state.transitions or design.common.transitions):
-            raise NotInScxmlError(f"a final state of SCXML has no transitions (state {state.name})")
+            raise NotExportableError(f"a final state of SCXML has no transitions (state {state.name})")
 
 
 def _project(design: Design) -> Project:
@@ -96,7 +95,7 @@ def _data(design: Design, scope: Scope) -> Iterator[str]:
         for each in declared:
             type_ = scope.type_of(each)
             if type_ not in ("bool", "int", "float"):
-                raise NotInScxmlError(f"'{each.name}' is an enumeration; data of SCXML are numbers and bools here")
+                raise NotExportableError(f"'{each.name}' is an enumeration; data of SCXML are numbers and bools here")
             value = _expression(each.initial, scope, type_) if each.initial else "false" if type_ == "bool" else "0"
             yield f"    <data id={quoteattr(each.name)} expr={quoteattr(value)}/>"
         yield "  </datamodel>"
@@ -125,7 +124,7 @@ def _state(design: Design, state: State, scope: Scope) -> Iterator[str]:
         text, is_event = _transition(state, decision, scope)
         if had_event and not is_event:
             reason = "tests transitions without event first, but the design has one after an input"
-            raise NotInScxmlError(f"SCXML {reason} (state {state.name})")
+            raise NotExportableError(f"SCXML {reason} (state {state.name})")
         had_event = is_event
         yield f"    {text}"
     yield f"  </{tag}>"
@@ -133,10 +132,10 @@ def _state(design: Design, state: State, scope: Scope) -> Iterator[str]:
 
 def _transition(state: State, decision: Decision, scope: Scope) -> tuple[str, bool]:
     if not isinstance(decision, Transition | Stay) or decision.guard.code is not None:
-        raise NotInScxmlError(f"SCXML has no groups, and code is not translated (state {state.name})")
+        raise NotExportableError(f"SCXML has no groups, and code is not translated (state {state.name})")
     guard, attributes, terms = decision.guard, "", list[Expr]()
     if guard.after and not _is_number(guard.after):
-        raise NotInScxmlError(f"the time '{guard.after}' is not a number (state {state.name})")
+        raise NotExportableError(f"the time '{guard.after}' is not a number (state {state.name})")
     if guard.when:
         tree = _parse(guard.when, scope, "bool")
         terms = list(tree.operands) if isinstance(tree, Logic) and tree.operator == "and" else [tree]
@@ -164,10 +163,10 @@ def _is_number(text: str) -> bool:
 def _assigns(actions: Iterable[Action], scope: Scope) -> Iterator[str]:
     for action in actions:
         if not isinstance(action, Assign):
-            raise NotInScxmlError("SCXML only assigns: calls and code are not translated")
+            raise NotExportableError("SCXML only assigns: calls and code are not translated")
         for name, value in action.values:
             if "." in name:
-                raise NotInScxmlError(f"'{name}' belongs to another component")
+                raise NotExportableError(f"'{name}' belongs to another component")
             text = quoteattr(_expression(value, scope, ""))
             yield f"      <assign location={quoteattr(name)} expr={text}/>"
 
@@ -180,7 +179,7 @@ def _parse(text: str, scope: Scope, expected: str) -> Expr:
     parsed = parse_expression(text, scope, expected or None)
     if parsed.tree is None or parsed.diagnostics:
         reason = parsed.diagnostics[0].message if parsed.diagnostics else "not an expression"
-        raise NotInScxmlError(f"'{text}': {reason}")
+        raise NotExportableError(f"'{text}': {reason}")
     return parsed.tree
 
 
@@ -206,7 +205,7 @@ def _print_call(node: FunctionCall, *, is_outer: bool) -> str:
     if node.function == "float":
         return _print(node.arguments[0], is_outer=is_outer)
     if node.function not in _FUNCTIONS:
-        raise NotInScxmlError(f"SCXML has no function '{node.function}'")
+        raise NotExportableError(f"SCXML has no function '{node.function}'")
     return f"Math.{node.function}({', '.join(_print(each, is_outer=True) for each in node.arguments)})"
 
 
@@ -217,14 +216,14 @@ def _print_operation(node: Expr) -> str:
         case Binary(operator="+" | "-" | "*" | "/" as operator, left=left, right=right):
             return f"{_print(left)} {operator} {_print(right)}"
         case Binary(operator=operator):
-            raise NotInScxmlError(f"SCXML has no operator '{operator}' with the same meaning")
+            raise NotExportableError(f"SCXML has no operator '{operator}' with the same meaning")
         case Comparison(operands=(left, right), operators=(operator,)):
             return f"{_print(left)} {_OPERATORS.get(operator, operator)} {_print(right)}"
         case Logic(operator=operator, operands=operands):
             return f" {_OPERATORS[operator]} ".join(_print(operand) for operand in operands)
         case OutputRef(alias=alias, output=output):
-            raise NotInScxmlError(
+            raise NotExportableError(
                 f"'{alias}.{output}' is an input; as an event of SCXML, it can only be joined by 'and'"
             )
         case _:
-            raise NotInScxmlError(f"SCXML has no counterpart of an expression ({type(node).__name__})")
+            raise NotExportableError(f"SCXML has no counterpart of an expression ({type(node).__name__})")

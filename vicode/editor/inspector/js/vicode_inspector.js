@@ -1,0 +1,76 @@
+// The Vue component that NiceGUI loads: the form of the selected item, drawn from data that the browser has already.
+import { FORM_NODES, FormStore } from "vicode-inspector";
+
+const SENDS_TEXT = ["vicode-send-text", "vicode-leave", "beforeunload"];
+
+export default {
+  components: FORM_NODES,
+  provide() {
+    return { store: this.store };
+  },
+  template: `
+    <div class="inspector" data-form @keydown.esc="leave">
+      <component v-for="(node, index) in store.view.nodes" :is="node.is" :key="keyOf(node, index)" :node="node" />
+    </div>`,
+  beforeCreate() {
+    this.store = new FormStore((event, payload) => this.$emit(event, payload));
+  },
+  mounted() {
+    this.onSelect = ({ detail }) => this.showSelected(detail.items, detail.seq);
+    this.onOpen = (event) => this.open(event.detail.item) && event.preventDefault();
+    this.onLeave = () => this.store.sendAll();
+    document.addEventListener("vicode-select", this.onSelect);
+    document.addEventListener("vicode-open", this.onOpen);
+    for (const event of SENDS_TEXT) addEventListener(event, this.onLeave);
+    this.$emit("ready", {});
+  },
+  unmounted() {
+    document.removeEventListener("vicode-select", this.onSelect);
+    document.removeEventListener("vicode-open", this.onOpen);
+    for (const event of SENDS_TEXT) removeEventListener(event, this.onLeave);
+  },
+  methods: {
+    load(data) {
+      this.store.load(data);
+      if (this.isOpening && this.store.hasForm) this.focusField(this.store.firstPath());
+      this.isOpening = false;
+    },
+    update(changes) {
+      this.store.update(changes);
+    },
+    /** The selection of Python; ignored if the user has selected something else since. */
+    select(items, seq) {
+      if ((this.seq ?? seq) <= seq) this.showSelected(items, this.seq ?? seq);
+    },
+    complete(number, answer) {
+      this.store.answerCompletion(number, answer);
+    },
+    showFixes(labels) {
+      this.store.view.fixes = labels;
+    },
+    focusField(path) {
+      this.store.focusField(this.$el, path);
+    },
+    showSelected(items, seq) {
+      this.seq = seq;
+      this.store.show(items.length === 1 ? items[0] : null);
+    },
+    /** Opens the guard of a transition: its timer if it has nothing else. Returns whether its form is here. */
+    open(item) {
+      if (item.of !== "transitions") return false;
+      this.showSelected([item], this.seq);
+      this.isOpening = !this.store.hasForm;
+      if (!this.isOpening) this.focusField(this.store.firstPath());
+      return !this.isOpening;
+    },
+    keyOf(node, index) {
+      // Each item has elements of its own, with its own texts.
+      return `${this.store.view.key}|${node.is}|${node.path?.join("/") ?? index}`;
+    },
+    /** Escape returns the focus to the canvas, unless it closes an open list or completion. */
+    leave(event) {
+      if (event.defaultPrevented || event.target.getAttribute("aria-expanded") === "true") return;
+      document.querySelector(".canvas")?.shadowRoot?.querySelector(".stage")?.focus();
+    },
+  },
+};

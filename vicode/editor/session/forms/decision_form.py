@@ -1,0 +1,113 @@
+"""The form of a transition, stay or group."""
+
+from vicode.editor.session.forms.fields import DESCRIPTION, FormField, field_of
+from vicode.editor.session.forms.nodes import (
+    Button,
+    Check,
+    Choice,
+    CodeText,
+    DecisionRow,
+    Decisions,
+    Heading,
+    Languages,
+    Node,
+    TextField,
+    Title,
+)
+from vicode.editor.view import guard_label
+from vicode.findings import DesignPath
+from vicode.languages import LANGUAGES, language_title
+from vicode.model.design import COMMON, Decision, DecisionGroup, Design, Stay, Transition
+from vicode.model.project import Project
+
+_NOUNS = {Transition: "Transition from", DecisionGroup: "Group of", Stay: "Stay in"}
+CODE_HINTS = {
+    "python": "Python statements, such as self.tries += 1",
+    "cpp": "Translated from Python where possible; or statements in C++, such as tries += 1;",
+}
+
+
+def decision_form(project: Project, design: Design, source: str, decision: Decision) -> tuple[Node, ...]:
+    """The form of a decision of a state, or of COMMON."""
+    unit = "milliseconds" if design.time_unit == "ms" else "seconds"
+    nodes: list[Node] = [_title(source, decision)]
+    if isinstance(decision, Transition):
+        nodes.append(Choice(path=("to",), label="To", value=decision.to, options="states"))
+    guard = decision.guard
+    nodes += [
+        CodeText(path=("guard", "when"), label="When", value=guard.when, language="expression", hint="always"),
+        TextField(path=("guard", "after"), label=f"After ({unit} in this state)", value=guard.after, is_code=True),
+    ]
+    if guard.code is None:
+        nodes.append(Button(label="Code predicate", icon="add", action="add-code"))
+    else:
+        nodes += [code_texts(project, decision, ("guard", "code")), Button(label="Remove code", action="remove-code")]
+    nodes.append(TextField(path=("doc",), label=DESCRIPTION.label, value=decision.doc, is_long=True))
+    nodes.append(Check(path=("disabled",), label=_field(decision, ("disabled",)).label, value=decision.disabled))
+    if isinstance(decision, DecisionGroup):
+        for path, title, items in (("then", "Then", decision.then), ("else", "Else", decision.otherwise)):
+            nodes += [Heading(text=title), decisions_list(design, (path,), items)]
+    return (*nodes, Button(label="Remove", icon="delete", action="remove", is_danger=True))
+
+
+def _title(source: str, decision: Decision) -> Title:
+    noun = _NOUNS[type(decision)]
+    if source == COMMON:
+        return Title(text=noun, name="every state", opens=("common", COMMON))
+    return Title(text=noun, name=source, opens=("states", source))
+
+
+def decisions_list(design: Design, path: DesignPath, decisions: tuple[Decision, ...]) -> Decisions:
+    return Decisions(path=path, rows=_rows(design, decisions))
+
+
+def _rows(design: Design, decisions: tuple[Decision, ...]) -> tuple[DecisionRow, ...]:
+    return tuple(
+        DecisionRow(
+            target=decision_target(each),
+            guard=guard_label(each.guard, design.time_unit) or "always",
+            is_disabled=each.disabled,
+            then=_rows(design, each.then) if isinstance(each, DecisionGroup) else (),
+            otherwise=_rows(design, each.otherwise) if isinstance(each, DecisionGroup) else (),
+        )
+        for each in decisions
+    )
+
+
+def decision_target(item: Decision) -> str:
+    match item:
+        case Transition(to=to):
+            return f"→ {to}"
+        case Stay():
+            return "stay"
+        case DecisionGroup():
+            return "if"
+
+
+def code_texts(project: Project, owner: object, path: DesignPath) -> Node:
+    """The texts of a code: one field, or with several languages a tab for each."""
+    written = [language for language in LANGUAGES if _field(owner, (*path, language)).read(owner)]
+    wanted = [language for language in project.languages if language in LANGUAGES]
+    languages = tuple(dict.fromkeys([*wanted, *written])) or ("python",)
+    shown = [_code_text(owner, (*path, language), language) for language in languages]
+    return shown[0] if len(shown) == 1 else Languages(label="Languages of the code", texts=tuple(shown))
+
+
+def _code_text(owner: object, path: DesignPath, language: str) -> CodeText:
+    field, title = _field(owner, path), language_title(language)
+    label = field.label if language == "python" else f"{field.label} in {title}" if field.label else title
+    return CodeText(
+        path=path,
+        label=label or title,
+        value=field.read(owner),
+        language=language,
+        title=title,
+        hint=CODE_HINTS.get(language, ""),
+        can_open=True,
+    )
+
+
+def _field(owner: object, path: DesignPath) -> FormField:
+    field = field_of(owner, path)
+    assert field is not None, f"{type(owner).__name__} has no field {path}"
+    return field
