@@ -16,7 +16,6 @@ from jsonschema import Draft202012Validator
 from tests.bica.sample_player import Player
 from vicode.bica import Component, Root, SimulatedClock
 from vicode.bica.recorder import Recorder, find_segments
-from vicode.bica.run import main
 from vicode.simulation.trace import trace_schema
 
 HOME = Path(__file__).parents[2]
@@ -162,10 +161,10 @@ def test_the_environment_does_not_stop_a_robot(
     assert "cannot record to /dev/null/run.jsonl" in capsys.readouterr().err
 
 
-def test_the_command_records(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_records(tmp_path: Path) -> None:
     names = ["tests.bica.sample_player:Player", "--world", "tests.bica.sample_world:World"]
-    code = main([*names, "--ticks", "3", "--record", str(tmp_path / "run.jsonl"), "--minutes", "1"])
-    assert code == 0, capsys.readouterr().err
+    command = [sys.executable, "-m", "vicode.bica", *names, "--ticks", "3"]
+    subprocess.run([*command, "--record", str(tmp_path / "run.jsonl"), "--minutes", "1"], cwd=HOME, check=True)
     assert len(read([*tmp_path.iterdir()])) == 3
 
 
