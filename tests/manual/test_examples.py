@@ -26,7 +26,7 @@ _DESIGN_KEYS = {key.name for record in DESIGN_RECORDS if record.name == "design"
 # Commands that end and write only where they are.
 _WITHOUT_INPUT = {"sample", "schema"}
 _RUNNABLE = {"check", "docs", "export", "gen", "run", "deploy", "conform", *_WITHOUT_INPUT}
-_NOT_HERE = {"--watch", "--net", "--real-time", "--reload", "--profile"}
+_NOT_HERE = {"--watch", "--net", "--real-time", "--reload", "--profile", "--emulator"}
 
 
 @pytest.mark.parametrize("block", all_blocks("sh", "console", "bash"), ids=str)
