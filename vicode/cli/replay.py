@@ -13,8 +13,8 @@ from vicode.cli.root_selection import find_unsynced_edits
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from vicode.editor.session.simulation.replay import ReplayResult
     from vicode.model.design import Design
+    from vicode.runs.replay import ReplayResult
     from vicode.simulation import IterationResult
 
 
@@ -34,10 +34,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Replay; return 1 if the states differ, 2 if the trace cannot be replayed."""
-    from vicode.editor.session.simulation import NotReadyError
-    from vicode.editor.session.simulation.client import RunFailedError
-    from vicode.editor.session.simulation.replay import MissingValuesError
     from vicode.generators import UnsoundDesignError
+    from vicode.runs import NotReadyError
+    from vicode.runs.client import RunFailedError
+    from vicode.runs.replay import MissingValuesError
     from vicode.simulation.trace import TraceError, open_trace
 
     try:
@@ -76,8 +76,8 @@ def _find_design(path: str, component: str) -> "tuple[LoadedProject, Design]":
 def _replay(
     args: argparse.Namespace, opened: LoadedProject, design: "Design", iterations: "Iterator[IterationResult]"
 ) -> "ReplayResult":
-    from vicode.editor.session.simulation import RunConfig, prepare_run, used_components
-    from vicode.editor.session.simulation.replay import replay_trace
+    from vicode.runs import RunConfig, prepare_run, used_components
+    from vicode.runs.replay import replay_trace
 
     project, folder = opened.open_project.project, opened.open_project.folder.resolve()
     prepared = prepare_run(project, design, RunConfig(), opened.design_paths, folder)
@@ -95,7 +95,7 @@ def _replay(
 
 
 def _report(result: "ReplayResult", opened: LoadedProject, design: "Design") -> int:
-    from vicode.editor.session.simulation.replay_report import describe_difference
+    from vicode.runs.replay_report import describe_difference
 
     if result.difference is None:
         print(f"{design.component}: same states in {result.iterations} iterations, {result.time_ns / 1e9:.2f} s")

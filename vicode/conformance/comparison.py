@@ -15,10 +15,10 @@ from vicode.conformance.reference import run_reference
 from vicode.conformance.report import explain
 from vicode.conformance.traces import TraceIteration, first_difference, large_ints_limit, reduce_for
 from vicode.conformance.xabsl import run_xabsl
-from vicode.editor.session.simulation.setup import NotReadyError
 from vicode.findings import Finding, Severity
 from vicode.generators import UnsoundDesignError, collect_components
 from vicode.model.project import Project
+from vicode.runs.setup import NotReadyError
 from vicode.semantics import NotInterpretableError
 from vicode.simulation.language_comparison import AbsentLanguage, LanguageComparison, LanguageDifference, find_baseline
 

@@ -12,11 +12,11 @@ from typing import Any
 
 from vicode.conformance.inputs import ConformanceRun, InputKind, iteration_times, used_interfaces
 from vicode.conformance.traces import TraceIteration, TraceNormalizer
-from vicode.editor.session.simulation.setup import RunConfig, prepare_run
 from vicode.generators import generate, python_class_path
 from vicode.model.names import python_attribute_name, snake_case
 from vicode.model.project import WORLD, Project
 from vicode.output import apply_diffs, compare_files
+from vicode.runs.setup import RunConfig, prepare_run
 from vicode.simulation import Stub, StubOutput
 from vicode.simulation.environment import fresh_environment
 from vicode.simulation.messages import encode_setup

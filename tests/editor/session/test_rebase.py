@@ -14,7 +14,8 @@ from vicode.editor.session.gestures import (
     NodePosition,
     ReconnectGesture,
 )
-from vicode.editor.view import ItemRef, transition_key
+from vicode.editor.view import ItemRef
+from vicode.model.decision_keys import transition_key
 from vicode.model.design import DecisionGroup, Design, Guard, State, Stay, Transition, Use
 from vicode.model.edits import remove_decisions, remove_states, rename_state, rename_use, reorder_decision
 from vicode.model.traversal import iter_decisions

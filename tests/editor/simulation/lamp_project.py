@@ -5,7 +5,7 @@ from collections.abc import Awaitable, Callable
 from dataclasses import replace
 from pathlib import Path
 
-from vicode.editor.session.simulation import PreparedRun, RunConfig, Simulation, prepare_run
+from vicode.runs import PreparedRun, RunConfig, Simulation, prepare_run
 from vicode.simulation import IterationResult
 from vicode.store import open_project
 

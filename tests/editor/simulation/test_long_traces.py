@@ -8,10 +8,10 @@ import pytest
 
 from tests.editor.simulation.lamp_project import prepare_lamp, recorded_iterations, simulate, write_lamps
 from vicode.bica.observer import TRACE_HEADER
-from vicode.editor.session.simulation import Simulation
-from vicode.editor.session.simulation.trace_recording import find_traces, read_beginning, read_recording
-from vicode.editor.session.simulation.traces import read_iterations
 from vicode.editor.view.plot import WIDTH, render_plot, state_runs
+from vicode.runs import Simulation
+from vicode.runs.trace_recording import find_traces, read_beginning, read_recording
+from vicode.runs.traces import read_iterations
 from vicode.simulation.trace import TraceError
 
 

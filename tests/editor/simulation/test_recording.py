@@ -5,9 +5,9 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from vicode.editor.session.simulation import Recording
 from vicode.editor.view.activation import activation_rows
 from vicode.editor.view.plot import PlotSeries, band_labels, render_plot, state_runs
+from vicode.runs import Recording
 from vicode.simulation import IterationResult
 
 
@@ -105,7 +105,7 @@ def test_the_activation_tree_is_indented() -> None:
 
 
 def test_a_full_recording_loses_its_older_half(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("vicode.editor.session.simulation.recording.MAX_ITERATIONS", 4)
+    monkeypatch.setattr("vicode.runs.recording.MAX_ITERATIONS", 4)
     recording = recorded("Dark", "Dark", "Lit", "Lit")
     recording.make_room()
     recording.make_room()

@@ -16,12 +16,13 @@ from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.panels.simulation.status_message import robot_message
 from vicode.editor.session.robot_version import find_other_versions
 from vicode.editor.session.robots import LinkStatus, RobotLink, RobotRequestError
-from vicode.editor.session.simulation import Breakpoints, Recording, Simulation, prepare_view
-from vicode.editor.session.simulation.guard_values import evaluate_guards
-from vicode.editor.session.simulation.traces import focus_iteration
+from vicode.editor.session.simulation import Breakpoints
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design, State
 from vicode.model.project import Project
+from vicode.runs import Recording, Simulation, prepare_view
+from vicode.runs.guard_values import evaluate_guards
+from vicode.runs.traces import focus_iteration
 from vicode.simulation import IterationResult
 from vicode.store import open_project
 

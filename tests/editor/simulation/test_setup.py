@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 
 from tests.editor.simulation.lamp_project import prepare_lamp, write_lamps
-from vicode.editor.session.simulation import Breakpoints, behavior_key, used_components
+from vicode.editor.session.simulation import Breakpoints
 from vicode.editor.view import ItemRef
 from vicode.model.edits import move_nodes, update_state
+from vicode.runs import behavior_key, used_components
 from vicode.store import open_project
 
 

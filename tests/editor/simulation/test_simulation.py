@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from tests.editor.simulation.lamp_project import prepare_lamp, recorded_iterations, simulate, write_lamps
-from vicode.editor.session.simulation import RunStatus, Simulation
-from vicode.editor.session.simulation.process import ProcessTransport
+from vicode.runs import RunStatus, Simulation
+from vicode.runs.process import ProcessTransport
 from vicode.simulation import StopConditions
 
 SEEN = ("Eye", "seen")

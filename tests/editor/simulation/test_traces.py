@@ -9,11 +9,11 @@ import pytest
 
 from tests.editor.simulation.lamp_project import prepare_lamp, recorded_iterations, simulate, write_lamps
 from vicode.bica.observer import TRACE_HEADER
-from vicode.editor.session.simulation import Recording, RunConfig, Simulation, prepare_run
-from vicode.editor.session.simulation.guard_values import evaluate_guards, latest_steps
 from vicode.editor.session.simulation.trace_overlays import measure_heat
-from vicode.editor.session.simulation.traces import input_script, read_iterations
 from vicode.model.design import Design
+from vicode.runs import Recording, RunConfig, Simulation, prepare_run
+from vicode.runs.guard_values import evaluate_guards, latest_steps
+from vicode.runs.traces import input_script, read_iterations
 from vicode.simulation import IterationResult
 from vicode.simulation.trace import TraceError
 from vicode.store import open_project

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from tests.editor.simulation.lamp_project import prepare_lamp, recorded_iterations, write_lamps
-from vicode.editor.session.simulation import PreparedRun, RunStatus, Simulation
-from vicode.editor.session.simulation.client import RunClient
+from vicode.runs import PreparedRun, RunStatus, Simulation
+from vicode.runs.client import RunClient
 from vicode.simulation import Failed, Inspected, IterationResult, Ready, Response, Stopped
 from vicode.simulation.messages import encode_response
 

@@ -8,9 +8,9 @@ import pytest
 from tests.editor.simulation.lamp_project import recorded_iterations, simulate
 from vicode.bica import Root, SimulatedClock
 from vicode.bica.loader import load_component
-from vicode.editor.session.simulation import RunConfig, Simulation, prepare_run
 from vicode.generators import generate, python_class_path
 from vicode.output import apply_diffs, compare_files
+from vicode.runs import RunConfig, Simulation, prepare_run
 from vicode.store import open_project
 
 PROJECT = """vicode: 1

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from tests.editor.simulation.lamp_project import LAMP, prepare_lamp, simulate, write_lamps
-from vicode.editor.session.simulation import NotReadyError, RunStatus, Simulation
 from vicode.editor.view.activation import code_error_view
+from vicode.runs import NotReadyError, RunStatus, Simulation
 from vicode.simulation import StopConditions
 
 DESIGN = """
@@ -60,7 +60,7 @@ def test_an_endless_loop_is_reported_with_its_line(tmp_path: Path) -> None:
 
 
 def test_a_loop_that_catches_everything_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("vicode.editor.session.simulation.client._GRACE_S", 0.5)
+    monkeypatch.setattr("vicode.runs.client._GRACE_S", 0.5)
     code = "while True:\n              try: time.sleep(9)\n              except BaseException: pass"
     folder = lamp(tmp_path, code)
 
@@ -226,7 +226,7 @@ def test_the_process_ends_when_the_editor_is_killed(tmp_path: Path) -> None:
 import asyncio
 from pathlib import Path
 from tests.editor.simulation.lamp_project import prepare_lamp
-from vicode.editor.session.simulation import Simulation
+from vicode.runs import Simulation
 
 async def main():
     folder = Path({str(folder)!r})

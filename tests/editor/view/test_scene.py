@@ -1,15 +1,8 @@
 """The scene of the canvas, and differences of scenes."""
 
-from vicode.editor.view import (
-    ItemRef,
-    diff_scenes,
-    guard_label,
-    item_at_path,
-    make_scene,
-    parse_transition_key,
-    transition_key,
-)
+from vicode.editor.view import ItemRef, diff_scenes, guard_label, item_at_path, make_scene
 from vicode.findings import Finding, FindingSubject, get_rule
+from vicode.model.decision_keys import parse_transition_key, transition_key
 from vicode.model.design import Code, CommonSection, DecisionGroup, Design, Guard, RunCode, State, Stay, Transition, Use
 from vicode.model.edits import move_nodes, rename_state, set_disabled
 from vicode.model.project import Project

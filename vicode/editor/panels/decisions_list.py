@@ -11,8 +11,9 @@ from vicode.editor.panels.widgets import add_button, reorder_buttons
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.forms.decision_form import decision_target
 from vicode.editor.session.item_paths import TrackedItem
-from vicode.editor.view import ItemRef, guard_label, transition_key
+from vicode.editor.view import ItemRef, guard_label
 from vicode.findings import DesignPath
+from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Decision, DecisionGroup, Guard, Stay
 from vicode.model.edits import add_transition, decisions_path, remove_decisions, reorder_decision
 

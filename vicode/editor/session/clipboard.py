@@ -13,8 +13,9 @@ from vicode.diagram.layered_layout import complete_layout, note_position
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.edits import EditResult
-from vicode.editor.view import ItemKind, ItemRef, parse_transition_key, transition_key
+from vicode.editor.view import ItemKind, ItemRef
 from vicode.findings import Severity
+from vicode.model.decision_keys import parse_transition_key, transition_key
 from vicode.model.design import Design, Point
 from vicode.model.fragments import (
     FragmentSelection,

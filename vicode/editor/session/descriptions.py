@@ -3,7 +3,8 @@
 from dataclasses import fields, is_dataclass
 
 from vicode.editor.session.presence import Presence
-from vicode.editor.view import ItemRef, parse_transition_key
+from vicode.editor.view import ItemRef
+from vicode.model.decision_keys import parse_transition_key
 from vicode.model.paths import describe_path
 
 _MAX_VALUE_LENGTH = 400

@@ -15,8 +15,9 @@ from vicode.editor.session.outside_edits import OutsideEdits
 from vicode.editor.session.positions import keep_positions
 from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
 from vicode.editor.session.subscribers import Subscribers
-from vicode.editor.view import Scene, diff_scenes, make_scene, parse_transition_key
+from vicode.editor.view import Scene, diff_scenes, make_scene
 from vicode.findings import Finding
+from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Design
 from vicode.model.merge import Conflict, merge_designs
 from vicode.model.paths import describe_path

@@ -21,7 +21,8 @@ from vicode.editor.session.edits import (
     state_name_error,
 )
 from vicode.editor.session.transition_gestures import ConnectGesture, LabelGesture, ReconnectGesture, ReorderGesture
-from vicode.editor.view import ItemKind, ItemRef, parse_transition_key
+from vicode.editor.view import ItemKind, ItemRef
+from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Design, DiagramNote, Point
 from vicode.model.diagram_edits import add_frame, move_notes, remove_frames, remove_notes, rename_frame
 from vicode.model.edits import (

@@ -1,6 +1,6 @@
 """Compares the languages of an open design in another process, in the sandbox of simulations.
 
-The process runs `vicode.conformance`, which is a layer above the editor.
+The process runs `vicode.conformance`.
 """
 
 import asyncio
@@ -13,9 +13,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.editor.session.decoding import MalformedEventError, decode
-from vicode.editor.session.simulation.process import ProcessTransport, launch_module
 from vicode.model.design import Design
 from vicode.model.project import Project
+from vicode.runs.process import ProcessTransport, launch_module
 from vicode.simulation.isolation import make_temporary
 from vicode.simulation.language_comparison import LANGUAGE_TITLES, LanguageComparison
 

@@ -5,8 +5,9 @@ from dataclasses import dataclass, field
 
 from vicode.editor.session.history import UndoHistory
 from vicode.editor.session.item_paths import TrackedItem
-from vicode.editor.view import ItemRef, parse_transition_key
+from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath, Finding
+from vicode.model.decision_keys import parse_transition_key
 from vicode.sync import FileEdits, RecordedEdit, RegionEdit, RegionKey
 
 

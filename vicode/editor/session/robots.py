@@ -26,7 +26,7 @@ from vicode.simulation.robots import (
 )
 
 if TYPE_CHECKING:
-    from vicode.editor.session.simulation import Recording
+    from vicode.runs import Recording
 
 _ANSWER_LIMIT_S = 5.0
 _FIRST_RETRY_S, _MAX_RETRY_S = 0.5, 5.0
@@ -107,7 +107,7 @@ class WatchedRobot:
             adapt: Makes an iteration describe the component; the latest one given is used.
         """
         # An editor that is not attached starts without the simulation.
-        from vicode.editor.session.simulation import Recording  # noqa: PLC0415
+        from vicode.runs import Recording  # noqa: PLC0415
 
         known = self._recordings.get(component)
         recording = known[0] if known else Recording()

@@ -9,7 +9,8 @@ from re import Pattern
 from vicode.editor.session.fuzzy_match import Alignment, align, subsequence_pattern
 from vicode.editor.session.library import Library
 from vicode.editor.session.workspace import Workspace
-from vicode.editor.view import ItemKind, ItemRef, transition_key, transition_label
+from vicode.editor.view import ItemKind, ItemRef, transition_label
+from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Declaration, Design, Transition
 from vicode.model.traversal import iter_transitions
 

@@ -10,8 +10,9 @@ from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.edits import EditError, EditResult, RequestedEdit, creation_key
 from vicode.editor.session.gestures import RenameGesture
-from vicode.editor.view import ItemRef, make_table, parse_row_id, parse_transition_key, transition_key
+from vicode.editor.view import ItemRef, make_table, parse_row_id
 from vicode.findings import DesignPath
+from vicode.model.decision_keys import parse_transition_key, transition_key
 from vicode.model.design import COMMON, Call, Decision, Design, State, Transition
 from vicode.model.edits import (
     add_state,

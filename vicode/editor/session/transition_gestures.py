@@ -14,8 +14,9 @@ from vicode.editor.session.edits import (
     create_state,
     require_state,
 )
-from vicode.editor.view import ItemRef, parse_transition_key, transition_key
+from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
+from vicode.model.decision_keys import parse_transition_key, transition_key
 from vicode.model.design import COMMON, Design, Point, Transition
 from vicode.model.edits import add_transition, decisions_path, remove_decisions, reorder_decision, replace_decision
 from vicode.model.traversal import LocatedDecision, find_decision, iter_decisions

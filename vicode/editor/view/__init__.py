@@ -4,7 +4,7 @@ from vicode.diagram.transition_labels import guard_label, transition_label
 from vicode.editor.view.item_labels import item_label, part_label
 from vicode.editor.view.scene import Scene, make_scene
 from vicode.editor.view.scene_diff import diff_scenes
-from vicode.editor.view.selection import ItemKind, ItemRef, item_at_path, parse_transition_key, transition_key
+from vicode.editor.view.selection import ItemKind, ItemRef, item_at_path
 from vicode.editor.view.table import TableData, diff_tables, item_row_id, make_table, parse_row_id
 from vicode.editor.view.tooltip import tooltip_sections
 
@@ -22,9 +22,7 @@ __all__ = [
     "make_scene",
     "make_table",
     "parse_row_id",
-    "parse_transition_key",
     "part_label",
     "tooltip_sections",
-    "transition_key",
     "transition_label",
 ]

@@ -6,7 +6,8 @@ from typing import Any
 
 from vicode.editor.view.guard_rows import format_value
 from vicode.editor.view.item_labels import item_label
-from vicode.editor.view.selection import ItemRef, parse_transition_key
+from vicode.editor.view.selection import ItemRef
+from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Design
 from vicode.model.traversal import find_decision
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from vicode.diagram.transition_labels import guard_label
-from vicode.editor.view.selection import transition_key
+from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Decision, DecisionGroup, Design, Guard, Transition
 from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.traversal import LocatedDecision, iter_decisions

@@ -8,8 +8,9 @@ from vicode.diagram.frames import drawn_frames, frame_padding
 from vicode.diagram.layered_layout import complete_layout, note_position
 from vicode.diagram.node_geometry import note_lines, note_size
 from vicode.diagram.transition_labels import guard_kind, short_transition_label, transition_label
-from vicode.editor.view.selection import ItemRef, item_at_path, transition_key
+from vicode.editor.view.selection import ItemRef, item_at_path
 from vicode.findings import Finding, Severity, worst_severity
+from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Call, Design, DiagramNote, State, Transition
 from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.project import Project

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from vicode.findings import DesignPath
+from vicode.model.decision_keys import transition_key
 
 ItemKind = Literal["states", "transitions", "components", "links", "common", "frames", "notes", "design"]
 
@@ -39,16 +40,3 @@ def decision_path(path: DesignPath) -> DesignPath:
     """The path of the innermost decision on a path."""
     last = max(index for index, part in enumerate(path) if isinstance(part, int))
     return path[: last + 1]
-
-
-def transition_key(path: DesignPath) -> str:
-    """The canvas id of a decision: "Kick/0", "Kick/2/then/1", "@common/0"."""
-    source, rest = ("@common", path[2:]) if path[0] == "common" else (path[1], path[3:])
-    return "/".join(str(part) for part in (source, *rest))
-
-
-def parse_transition_key(key: str) -> DesignPath:
-    """The path of a decision from its canvas id."""
-    source, *rest = key.split("/")
-    start: DesignPath = ("common", "transitions") if source == "@common" else ("states", source, "transitions")
-    return (*start, *(int(part) if part.isdecimal() else part for part in rest))

@@ -4,8 +4,9 @@ from collections import defaultdict
 from collections.abc import Iterable
 from typing import Any, cast, get_args
 
-from vicode.editor.view.selection import ItemKind, ItemRef, item_at_path, transition_key
+from vicode.editor.view.selection import ItemKind, ItemRef, item_at_path
 from vicode.findings import DesignPath, Finding, worst_severity
+from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Code, CommonSection, Decision, DecisionGroup, Design, State, Transition
 from vicode.model.traversal import LocatedDecision, iter_decisions
 

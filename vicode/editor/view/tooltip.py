@@ -2,7 +2,8 @@
 
 from collections.abc import Iterable, Sequence
 
-from vicode.editor.view.selection import ItemRef, parse_transition_key
+from vicode.editor.view.selection import ItemRef
+from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Action, Assign, Call, Code, Design, RunCode
 from vicode.model.traversal import find_decision
 

@@ -15,8 +15,10 @@ from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.panels.simulation.trust_dialog import ask_for_trust
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.code_sync import find_lacking
-from vicode.editor.session.simulation import (
-    Breakpoints,
+from vicode.editor.session.simulation import Breakpoints
+from vicode.editor.view import ItemRef
+from vicode.generators import UnsoundDesignError
+from vicode.runs import (
     NotReadyError,
     PreparedRun,
     Recording,
@@ -26,11 +28,9 @@ from vicode.editor.session.simulation import (
     behavior_key,
     prepare_run,
 )
-from vicode.editor.session.simulation.guard_values import evaluate_guards, latest_steps
-from vicode.editor.session.simulation.trace_recording import read_beginning, read_recording
-from vicode.editor.session.simulation.traces import input_script, read_iterations
-from vicode.editor.view import ItemRef
-from vicode.generators import UnsoundDesignError
+from vicode.runs.guard_values import evaluate_guards, latest_steps
+from vicode.runs.trace_recording import read_beginning, read_recording
+from vicode.runs.traces import input_script, read_iterations
 from vicode.simulation import IterationResult, StopConditions
 from vicode.simulation.isolation import isolation_problem
 from vicode.simulation.stop_reasons import COUNT_REACHED

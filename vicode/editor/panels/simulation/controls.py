@@ -6,8 +6,8 @@ from vicode.editor.panels.fields import set_enabled
 from vicode.editor.panels.simulation.controller import SPEEDS, SimulationController
 from vicode.editor.panels.simulation.status_message import status_message
 from vicode.editor.panels.widgets import icon_button
-from vicode.editor.session.simulation import Simulation
 from vicode.editor.view import ItemRef
+from vicode.runs import Simulation
 
 
 class SimulationControls:

@@ -10,7 +10,7 @@ from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.panels.simulation.robot_form import RobotForm
 from vicode.editor.panels.simulation.trace_files import TraceFileChoice
 from vicode.editor.panels.simulation.trace_overlays import TraceOverlays
-from vicode.editor.session.simulation import stubbed_components, used_components
+from vicode.runs import stubbed_components, used_components
 from vicode.simulation.trace import TraceError
 
 # The file is sent in a multipart body.

@@ -9,9 +9,9 @@ from vicode.editor.panels.project.project_fields import write_project
 from vicode.editor.panels.simulation.inputs_form import input_controls, short_value
 from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.panels.widgets import icon_button
-from vicode.editor.session.simulation import PARAMETERS, SimulationInput, collect_tunable
 from vicode.model.design import Declaration, Design
 from vicode.model.project import Project
+from vicode.runs import PARAMETERS, SimulationInput, collect_tunable
 
 
 class RobotTuning:

@@ -8,12 +8,12 @@ from nicegui import run
 
 from vicode.editor.session.robot_version import find_other_versions
 from vicode.editor.session.robots import LinkStatus, RobotRequestError, WatchedRobot
-from vicode.editor.session.simulation import Recording, RunStatus, Simulation, prepare_view
-from vicode.editor.session.simulation.guard_values import evaluate_guards
-from vicode.editor.session.simulation.traces import focus_iteration
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design
 from vicode.model.project import Project
+from vicode.runs import Recording, RunStatus, Simulation, prepare_view
+from vicode.runs.guard_values import evaluate_guards
+from vicode.runs.traces import focus_iteration
 from vicode.simulation import IterationResult
 from vicode.simulation.robots import RobotDescription
 

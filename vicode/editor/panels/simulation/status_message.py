@@ -4,8 +4,8 @@ from vicode.editor.panels import texts
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.session.robots import LinkStatus
-from vicode.editor.session.simulation import RunStatus, Simulation
 from vicode.editor.view.activation import code_error_view
+from vicode.runs import RunStatus, Simulation
 
 _HINT = "F10 steps, F6 plays and pauses, Shift+F6 runs to the next state, F9 sets a breakpoint on the selection."
 

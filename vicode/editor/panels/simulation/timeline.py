@@ -8,8 +8,8 @@ from nicegui.events import GenericEventArguments
 
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.panels.simulation.range_input import RangeInput
-from vicode.editor.session.simulation import Simulation
 from vicode.editor.view.plot import PlotSeries, add_cursor, band_labels, render_series
+from vicode.runs import Simulation
 
 _DEFAULT_CURVES = 3
 _MAX_CURVES = 6

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from nicegui import run, ui
 
 from vicode.editor.panels.simulation.controller import SimulationController
-from vicode.editor.session.simulation.trace_recording import find_traces
+from vicode.runs.trace_recording import find_traces
 from vicode.simulation.trace import TraceError
 
 _PROGRESS_INTERVAL_S = 0.5

@@ -9,8 +9,9 @@ from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.forms.fields import FormField, field_of, replace_text
 from vicode.editor.session.forms.text_merge import merge_texts
 from vicode.editor.session.item_paths import change_item, item_at, rebase_path
-from vicode.editor.view import ItemRef, parse_transition_key, transition_key
+from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
+from vicode.model.decision_keys import parse_transition_key, transition_key
 from vicode.model.design import DecisionGroup, Design, Guard, Stay
 from vicode.model.edits import add_transition, assign_id, decisions_path, remove_decisions, reorder_decision
 from vicode.model.paths import describe_path

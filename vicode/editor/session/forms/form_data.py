@@ -6,7 +6,8 @@ from typing import Any
 
 from vicode.editor.session.forms.decision_form import decision_form
 from vicode.editor.session.forms.nodes import Node, form_json
-from vicode.editor.view import ItemRef, parse_transition_key, transition_key
+from vicode.editor.view import ItemRef
+from vicode.model.decision_keys import parse_transition_key, transition_key
 from vicode.model.design import Decision, Design
 from vicode.model.project import Project
 from vicode.model.traversal import find_decision, iter_decisions

@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from vicode.editor.view import ItemRef, transition_key
+from vicode.editor.view import ItemRef
+from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Design, Transition
 from vicode.model.traversal import iter_transitions
 from vicode.simulation import StopConditions

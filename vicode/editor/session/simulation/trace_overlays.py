@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from vicode.diagram.heat_map import heat_color
-from vicode.editor.session.simulation.recording import Recording
-from vicode.editor.session.simulation.traces import TransitionKeys
-from vicode.editor.view import ItemRef, transition_key
+from vicode.editor.view import ItemRef
+from vicode.model.decision_keys import transition_key
 from vicode.model.design import Design
 from vicode.model.traversal import iter_transitions
+from vicode.runs.recording import Recording
+from vicode.runs.traces import TransitionKeys
 from vicode.simulation import IterationResult
 from vicode.simulation.trace import open_trace
 from vicode.simulation.trace_statistics import RunDifference, StateRun, StateStatistics, find_difference, read_history

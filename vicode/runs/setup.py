@@ -8,13 +8,13 @@ from pathlib import Path
 from vicode.bica.tick import choose_tick_ns
 from vicode.check import check_project
 from vicode.check.classes import check_classes
-from vicode.editor.session.simulation.inputs import SimulationInput, collect_inputs, input_types, make_stub
-from vicode.editor.view import transition_key
 from vicode.findings import DesignPath, Severity
 from vicode.generators import collect_components, generate, python_class_path, python_probes
+from vicode.model.decision_keys import transition_key
 from vicode.model.design import Decision, DecisionGroup, Design, State, Transition
 from vicode.model.project import INTERNAL, Interface, Project
 from vicode.output import OutputFile
+from vicode.runs.inputs import SimulationInput, collect_inputs, input_types, make_stub
 from vicode.simulation import Setup
 from vicode.simulation.stubs import STUB_MODULE
 from vicode.store import read_python_module

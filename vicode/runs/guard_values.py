@@ -4,13 +4,13 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from vicode.editor.session.simulation.recording import Recording
-from vicode.editor.view import transition_key
 from vicode.model.constant_folding import evaluate_constants
+from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Design, Guard
 from vicode.model.expressions import BOOL, FLOAT, Scope, Value, build_scope, evaluate, parse_expression, read_name, walk
 from vicode.model.project import Project
 from vicode.model.traversal import iter_decisions
+from vicode.runs.recording import Recording
 from vicode.simulation import IterationResult
 
 _MAX_LOOKBACK = 100

@@ -5,11 +5,11 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-from vicode.editor.session.simulation.inputs import SimulationInput
-from vicode.editor.session.simulation.recording import MAX_ITERATIONS
-from vicode.editor.view import transition_key
+from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Design
 from vicode.model.traversal import iter_transitions
+from vicode.runs.inputs import SimulationInput
+from vicode.runs.recording import MAX_ITERATIONS
 from vicode.simulation import Inputs, IterationResult
 from vicode.simulation.trace import TraceError, read_trace
 

@@ -6,11 +6,11 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
-from vicode.editor.session.simulation.client import RunClient
-from vicode.editor.session.simulation.inputs import DONE, PARAMETERS, SimulationInput
-from vicode.editor.session.simulation.process import start_process
-from vicode.editor.session.simulation.recording import merge_inputs
-from vicode.editor.session.simulation.setup import PreparedRun
+from vicode.runs.client import RunClient
+from vicode.runs.inputs import DONE, PARAMETERS, SimulationInput
+from vicode.runs.process import start_process
+from vicode.runs.recording import merge_inputs
+from vicode.runs.setup import PreparedRun
 from vicode.simulation import Inputs, IterationResult, Request, Start
 
 _CHUNK = 100

@@ -9,9 +9,9 @@ from collections.abc import Callable
 from itertools import islice
 from pathlib import Path
 
-from vicode.editor.session.simulation.recording import MAX_ITERATIONS, Recording
-from vicode.editor.session.simulation.traces import TransitionKeys, require_root
 from vicode.model.design import Design
+from vicode.runs.recording import MAX_ITERATIONS, Recording
+from vicode.runs.traces import TransitionKeys, require_root
 from vicode.simulation import IterationResult
 from vicode.simulation.trace import TraceError, open_trace
 from vicode.simulation.trace_index import TraceIndex, load_index

@@ -4,11 +4,11 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from vicode.editor.session.simulation.replay import Difference
 from vicode.model.constant_folding import evaluate_constants
 from vicode.model.design import COMMON, Design, Guard, Transition
 from vicode.model.project import Project
 from vicode.model.traversal import iter_transitions
+from vicode.runs.replay import Difference
 
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)?")
 

@@ -7,11 +7,11 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
-from vicode.editor.session.simulation.client import RunClient, RunFailedError
-from vicode.editor.session.simulation.inputs import SimulationInput
-from vicode.editor.session.simulation.process import start_process
-from vicode.editor.session.simulation.recording import MAX_ITERATIONS, Recording, merge_inputs
-from vicode.editor.session.simulation.setup import PreparedRun
+from vicode.runs.client import RunClient, RunFailedError
+from vicode.runs.inputs import SimulationInput
+from vicode.runs.process import start_process
+from vicode.runs.recording import MAX_ITERATIONS, Recording, merge_inputs
+from vicode.runs.setup import PreparedRun
 from vicode.simulation import Inputs, IterationResult, Request, StopConditions
 from vicode.simulation.stop_reasons import COUNT_REACHED, stop_reason
 

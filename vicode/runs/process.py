@@ -11,9 +11,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from vicode.bica.errors import find_region
-from vicode.editor.session.simulation.client import RunClient
-from vicode.editor.session.simulation.setup import PreparedRun
 from vicode.output import apply_diffs, compare_files
+from vicode.runs.client import RunClient
+from vicode.runs.setup import PreparedRun
 from vicode.simulation.environment import fresh_environment
 from vicode.simulation.isolation import isolation_problem, launch_command, make_temporary
 from vicode.simulation.messages import MAX_MESSAGE_BYTES
