@@ -329,3 +329,20 @@ def test_simulate_asks_once_before_it_runs_the_code_of_a_folder(
         where(page, "0.00 s · iteration 1")
         page.goto("about:blank")
     assert (storage / "state" / "trusted").read_text() == f"{(project / 'forward').resolve()}\n"
+
+
+def test_the_command_for_the_terminal_lists_what_was_set(editor: str, page: Page, project: Path) -> None:
+    open_simulation(page, editor)
+    command = page.get_by_role("button", name="Run this in the terminal…")
+    expect(command).to_be_disabled()
+    page.keyboard.press("F10")
+    where(page, "iteration 1 ·")
+    page.get_by_role("switch", name="Perception ball_seen").click()
+    page.get_by_role("button", name="Step (F10)").click()
+    where(page, "iteration 2 ·")
+    command.click()
+    dialog = page.get_by_role("dialog", name="Run this in the terminal")
+    path = project / "forward" / "player.yaml"
+    shown = dialog.get_by_role("group", name="Command")
+    expect(shown).to_have_text(f"vicode run {path} --set '0.016666667 s: Perception.ball_seen=true' --ticks 2")
+    assert not complaints(page)

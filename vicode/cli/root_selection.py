@@ -11,7 +11,9 @@ _UNPROVIDED = ("P209", "P210")
 """Rules about components whose outputs nothing provides during the run."""
 
 
-def select_root(path: str, profile: str, verb: str, language: str = "python") -> tuple[LoadedProject, str] | int:
+def select_root(
+    path: str, profile: str, verb: str, language: str = "python", *, are_inputs_given: bool = False
+) -> tuple[LoadedProject, str] | int:
     """The project and the root component of a path; the exit code, after the reason was printed, if there is none.
 
     Args:
@@ -19,6 +21,7 @@ def select_root(path: str, profile: str, verb: str, language: str = "python") ->
         profile: The profile, "" for none.
         verb: What the command does, such as "run".
         language: The language of the code.
+        are_inputs_given: Whether components that have no implementation get their outputs in another way.
 
     Raises:
         OSError: The path cannot be read, or there is no such profile.
@@ -39,7 +42,8 @@ def select_root(path: str, profile: str, verb: str, language: str = "python") ->
     if component is None:
         print(f"vicode: {path} has several components; specify the design to {verb}", file=sys.stderr)
         return 2
-    print_findings((each for each in opened.findings if each.rule.code in _UNPROVIDED), to_stderr=True)
+    if not are_inputs_given:
+        print_findings((each for each in opened.findings if each.rule.code in _UNPROVIDED), to_stderr=True)
     edits = find_unsynced_edits(opened, component, language)
     if edits:
         print_findings(edits, to_stderr=True)

@@ -34,6 +34,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--seed", type=int, default=0, metavar="N", help="random seed of the world (default: %(default)s)")
     add("--profile", metavar="NAME", default="", help="use the implementations and the world of this profile")
     add("--world", metavar="MODULE:CLASS", help="use another world than that of project.yaml")
+    add(
+        "--set",
+        action="append",
+        default=[],
+        metavar="[TIME:]NAME=VALUE",
+        help="run without a world: set an input, at the start or at a time, as in --set '2.5 s: Eyes.distance=0.4'",
+    )
+    add("--inputs", metavar="FILE", help="like --set, with one input on each line of FILE")
     add("--reload", action="store_true", help="exchange the code during the run when a design or a module changes")
     add("--watch", metavar="ADDRESS", help="let 'vicode attach' connect: PORT, HOST:PORT or unix:PATH (docs/live.md)")
     add("--control", action="store_true", help="with --watch: let viewers pause and change the run")
@@ -43,6 +51,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--on-call", action="store_true", help="with --net: step the component only while other robots call it")
     add("--trace", metavar="FILE", help="write a trace (docs/traces.md) to FILE; - is the standard output")
     add("--values", action="store_true", help="include outputs and variables in the trace, for replay in the editor")
+    _add_pace(parser)
+    add("--until-done", action="store_true", help="stop when the root component is done")
+    add(
+        "--on-error",
+        choices=("continue", "stop"),
+        default="continue",
+        help="what to do after an exception in a component (default: %(default)s)",
+    )
+    add("--plain", action="store_true", help="print one line per state change; the default if stdout is not a terminal")
+
+
+def _add_pace(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
     add("--real-time", action="store_true", help="run in real time instead of as fast as possible")
     add(
         "--clock",
@@ -62,14 +83,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="MS",
         help="time between iterations (default: a period that fits the frequencies, at most 20 ms)",
     )
-    add("--until-done", action="store_true", help="stop when the root component is done")
-    add(
-        "--on-error",
-        choices=("continue", "stop"),
-        default="continue",
-        help="what to do after an exception in a component (default: %(default)s)",
-    )
-    add("--plain", action="store_true", help="print one line per state change; the default if stdout is not a terminal")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -77,18 +90,28 @@ def run(args: argparse.Namespace) -> int:
     if args.control and args.watch is None:
         print("vicode: --control has no effect without --watch; add --watch 7070", file=sys.stderr)
         return 2
-    selected = select_root(args.path, args.profile, "run")
+    has_inputs = bool(args.set or args.inputs)
+    selected = select_root(args.path, args.profile, "run", are_inputs_given=has_inputs)
     if isinstance(selected, int):
         return selected
     opened, component = selected
-    if not args.world and _needs_bridge(opened.open_project.project, component):
+    if not args.world and not has_inputs and _needs_bridge(opened.open_project.project, component):
         print(
             f"vicode: {component} needs the world of a bridge; start it with: vicode bridge {args.path}",
             file=sys.stderr,
         )
         return 2
     with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
-        class_path = generate_for_run(opened, component, Path(folder))
+        if has_inputs:
+            from vicode.cli.run_inputs import RunInputsError, generate_with_inputs
+
+            try:
+                class_path, args.world = generate_with_inputs(opened, component, Path(folder), args)
+            except RunInputsError as error:
+                print(f"vicode: {error}", file=sys.stderr)
+                return 2
+        else:
+            class_path = generate_for_run(opened, component, Path(folder))
         if args.reload:
             from vicode.cli.run_reload import start_watching
 

@@ -12,7 +12,7 @@ from vicode.simulation.guards import GuardEvaluator
 from vicode.simulation.limits import CapturedOutput
 from vicode.simulation.messages import Inputs, IterationResult, Setup, Start
 from vicode.simulation.restore import restore_root
-from vicode.simulation.stubs import StubComponent, convert_value, install_stub_module
+from vicode.simulation.stubs import StubInputs, install_stub_module
 
 
 class RunHost:
@@ -30,7 +30,6 @@ class RunHost:
         install_stub_module(setup.stubs)
         component_class = load_component(setup.component)
         probes = importlib.import_module(setup.probes)
-        self._enumerations = probes.ENUMERATIONS
         world = make_world(setup.world or None, setup.seed)
         observer = Observer(self._on_record, values=True)
         with wrap_user_errors(f"cannot create {setup.component}"):
@@ -42,9 +41,7 @@ class RunHost:
                 on_error=lambda _error: None,
                 observer=observer,
             )
-        self._stubs = [stub for stub in self._root.components if isinstance(stub, StubComponent)]
-        for stub in self._stubs:
-            stub.set_initial_values(self._enumerations)
+        self._inputs = StubInputs(self._root, dict(setup.parameter_types), probes.ENUMERATIONS)
         self._watch = GuardEvaluator(self._root.main, probes, setup.functions)
 
     @property
@@ -53,21 +50,14 @@ class RunHost:
 
     def set_inputs(self, inputs: Inputs) -> None:
         """Set the outputs of stubs and the parameters of the root component."""
-        for stub in self._stubs:
-            stub.set_outputs(inputs.get(stub.stub.component, {}))
-        types = dict(self._setup.parameter_types)
-        given = {name: value for name, value in inputs.get("", {}).items() if name in types}
-        if given:
-            now = {name: getattr(self.main, name) for name in types}
-            new = {name: convert_value(value, types[name], self._enumerations) for name, value in given.items()}
-            cast("Any", self.main).modulate(**{**now, **new})
+        self._inputs.set(inputs)
 
     def continue_from(self, start: Start, inputs: Inputs) -> None:
         """Enter a recorded run with its inputs: the next step is the iteration after `start`."""
         self._clock.advance(max(0, start.time_ns - self._clock.now_ns()))
         restore_root(self._root, start)
         self.set_inputs(inputs)
-        for stub in self._stubs:
+        for stub in self._inputs.stubs:
             stub.work()
 
     def evaluate_guards(self) -> dict[str, dict[str, Any]]:
@@ -79,10 +69,8 @@ class RunHost:
         if time_ns is not None:
             self._clock.advance(max(0, time_ns - self._clock.now_ns()))
         self._watch.begin_iteration()
-        for stub in self._stubs:
-            # Calls made while guards were inspected do not belong to the iteration.
-            stub.drain_calls()
-            stub.hold_outputs()
+        # Calls made while guards were inspected do not belong to the iteration.
+        self._inputs.begin_iteration()
         world = self._root.world
         advance = getattr(world, "advance", None)
         if advance is not None:
@@ -115,5 +103,5 @@ class RunHost:
             guards=self._watch.evaluate() if has_guards else {},
             prints=lines,
             omitted_lines=left_out,
-            calls=[call for stub in self._stubs for call in stub.drain_calls()],
+            calls=[call for stub in self._inputs.stubs for call in stub.drain_calls()],
         )

@@ -6,11 +6,11 @@ import sys
 from collections.abc import Mapping
 from enum import Enum
 from types import ModuleType
-from typing import Any
+from typing import Any, cast
 
 from vicode.bica import Component, Root, arithmetic
 from vicode.bica.observer import to_json_value
-from vicode.simulation.messages import Stub, StubOutput
+from vicode.simulation.messages import Inputs, Stub, StubOutput
 
 STUB_MODULE = "vicode_stubs"
 DONE = "is_done"
@@ -119,6 +119,33 @@ class _StubFunction:
         value = self._owner.convert(self._output, found)
         self._owner.record_call(self._output, named, value)
         return value
+
+
+class StubInputs:
+    """Sets what a user can set: the outputs of all stubs and the parameters of the main component."""
+
+    def __init__(self, root: Root, parameter_types: Mapping[str, str], enumerations: Enumerations) -> None:
+        self._main = root.main
+        self._types, self._enumerations = parameter_types, enumerations
+        self.stubs = tuple(stub for stub in root.components if isinstance(stub, StubComponent))
+        for stub in self.stubs:
+            stub.set_initial_values(enumerations)
+
+    def set(self, inputs: Inputs) -> None:
+        """Set the values by component, "" for parameters; unknown names are ignored."""
+        for stub in self.stubs:
+            stub.set_outputs(inputs.get(stub.stub.component, {}))
+        given = {name: value for name, value in inputs.get("", {}).items() if name in self._types}
+        if given:
+            now = {name: getattr(self._main, name) for name in self._types}
+            new = {name: convert_value(value, self._types[name], self._enumerations) for name, value in given.items()}
+            cast("Any", self._main).modulate(**{**now, **new})
+
+    def begin_iteration(self) -> None:
+        """Return to the values of the last step, and forget calls that were made between iterations."""
+        for stub in self.stubs:
+            stub.drain_calls()
+            stub.hold_outputs()
 
 
 def install_stub_module(stubs: tuple[Stub, ...]) -> None:

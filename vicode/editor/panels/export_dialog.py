@@ -1,7 +1,6 @@
 """Exports the diagram as a file or as text on the clipboard, with a preview."""
 
 import base64
-import json
 from collections.abc import Callable
 
 from nicegui import run, ui
@@ -9,6 +8,7 @@ from nicegui import run, ui
 from vicode.diagram.export_formats import EXPORT_FORMATS, ExportFormat, ExportOptions, NotExportableError
 from vicode.editor.panels import texts
 from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.copy_text import copy_text
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
@@ -17,10 +17,6 @@ from vicode.model.names import snake_case
 _TITLES = {each.name: each.title for each in EXPORT_FORMATS.values()}
 _SVG = EXPORT_FORMATS["svg"]
 _ALL, _SELECTED = "Whole diagram", "Selection"
-# Also works on pages without HTTPS, which lack the clipboard API.
-_WRITE = "return Quasar.copyToClipboard(%s).then(() => true, () => false)"
-# The browser may ask the user for permission.
-_CLIPBOARD_TIMEOUT_S = 60
 # The preview of a larger diagram would be slower than the download.
 _MAX_PREVIEW_STATES = 400
 
@@ -131,22 +127,11 @@ def _copier(context: WindowContext, form: ExportFormat) -> Callable[[], None]:
 
 def _copy(context: WindowContext, form: ExportFormat, options: ExportOptions) -> None:
     try:
-        text = json.dumps(form.write(context.design, options).decode())
+        text = form.write(context.design, options).decode()
     except NotExportableError as error:
         context.show_toast(str(error), "warning")
         return
-
-    async def write() -> None:
-        try:
-            is_done = await context.client.run_javascript(_WRITE % text, timeout=_CLIPBOARD_TIMEOUT_S)
-        except TimeoutError:
-            is_done = False
-        if is_done:
-            context.show_toast(texts.copied(context.design.component, form.label), "positive")
-        else:
-            context.show_toast(texts.CLIPBOARD_DENIED, "warning")
-
-    context.run_in_background(write(), "copy")
+    copy_text(context, text, texts.copied(context.design.component, form.label))
 
 
 def _download(context: WindowContext, form: ExportFormat, options: ExportOptions) -> None:

@@ -36,7 +36,8 @@ COMPARISON_OUTDATED = "The design has changed since this comparison."
 ALSO_OPEN_ELSEWHERE = " · Open in another editor"
 
 INTERNAL_ERROR = "Internal error; the change may not be saved. See the server log."
-CLIPBOARD_DENIED = "Clipboard access denied. Download the file instead."
+CLIPBOARD_DENIED = "Clipboard access denied. Select the text and copy it, or download the file."
+COMMAND_COPIED = "Command copied."
 
 PROJECT_SCOPE = "Shared by all designs; saved immediately."
 NOT_IMPLEMENTED = "Not implemented yet"

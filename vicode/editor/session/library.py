@@ -2,13 +2,16 @@
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from vicode.editor.session.external_editor import ExternalEditor
 from vicode.editor.session.overview import ProjectOverview
 from vicode.editor.session.presence import UserDirectory
+from vicode.editor.session.recovery import state_folder
 from vicode.editor.session.robots import RobotLink
+from vicode.editor.session.trust import trust_folder
 from vicode.editor.session.workspace import Workspace
 from vicode.output import remove_leftovers
 from vicode.samples import DEFAULT_SAMPLE, copy_sample
@@ -62,7 +65,10 @@ class Library:
     def ensure_project(self) -> Workspace:
         """The first project, created if the folder contains none."""
         if not self.workspaces:
+            is_empty = not any(path for path in self.folder.iterdir() if not path.name.startswith("."))
             self.workspaces.append(self._open(self.folder))
+            # All code of this folder will be written here; after a restart, nobody knows.
+            self.workspaces[0].is_trusted = is_empty
         return self.workspaces[0]
 
     def remove_leftovers(self) -> None:
@@ -81,6 +87,9 @@ class Library:
         target = self.folder / DEFAULT_SAMPLE
         copy_sample(DEFAULT_SAMPLE, target)
         added = self._open(target)
+        added.is_trusted = True
+        with suppress(OSError):
+            trust_folder(state_folder(), target)
         self.workspaces.append(added)
         return added
 

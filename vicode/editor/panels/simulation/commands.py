@@ -47,6 +47,7 @@ def simulation_commands(
         ),
         ("simulate-here", "Simulate: run to the selected state", shown(_run_to), "adjust", "Ctrl+F10"),
         ("robot-enter", "Robot: go to the selected state", shown(_enter), "login", ""),
+        ("simulate-terminal", "Simulate: run this in the terminal…", _show_terminal(get_controller), "terminal", ""),
         ("simulate-stop", "Simulate: stop", shown(lambda it: it.stop()), "stop", ""),
         ("breakpoint", "Toggle breakpoint on the selection", toggle, "stop_circle", "F9"),
     )
@@ -54,6 +55,12 @@ def simulation_commands(
         Command(name, label, act, MenuGroup.SIMULATE, icon=icon, keys=(keys,) if keys else (), while_typing=True)
         for name, label, act, icon, keys in rows
     )
+
+
+def _show_terminal(get_controller: "Callable[[], SimulationController]") -> Callable[[], object]:
+    from vicode.editor.panels.simulation.terminal_dialog import show_terminal_command  # noqa: PLC0415
+
+    return lambda: show_terminal_command(get_controller())
 
 
 async def _run_to(simulator: "SimulationController") -> None:

@@ -5,6 +5,7 @@ from nicegui import ui
 from vicode.editor.panels.fields import set_enabled
 from vicode.editor.panels.simulation.controller import SPEEDS, SimulationController
 from vicode.editor.panels.simulation.status_message import status_message
+from vicode.editor.panels.simulation.terminal_dialog import show_terminal_command
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.view import ItemRef
 from vicode.runs import Simulation
@@ -24,6 +25,9 @@ class SimulationControls:
                 "fast_forward", "Run until the state changes (Shift+F6)", controller.step_to_change
             )
             self.stop = icon_button("stop", "Stop the simulation", controller.stop)
+            self.terminal = icon_button(
+                "terminal", "Run this in the terminal…", lambda: show_terminal_command(controller)
+            )
             self.where = ui.button("", on_click=self._reveal, color=None).props("flat dense no-caps no-wrap")
             self.where.classes("simulation-where mono")
             with self.where:
@@ -51,7 +55,7 @@ class SimulationControls:
     def refresh(self) -> None:
         simulator, simulation = self.controller, self.controller.simulation
         is_robot = simulator.robot.is_shown
-        for part in (*self.simulated_only, self.restart, self.stop, self.change):
+        for part in (*self.simulated_only, self.restart, self.stop, self.change, self.terminal):
             part.set_visibility(not is_robot)
         if is_robot:
             self._refresh_for_robot(simulation)
@@ -61,6 +65,7 @@ class SimulationControls:
             self.play.props(f"icon={icon}")
         set_enabled(self.back, flag=simulation is not None and simulation.cursor > 0)
         set_enabled(self.stop, flag=simulation is not None)
+        set_enabled(self.terminal, flag=simulation is not None)
         for button in (self.play, self.step, self.change):
             set_enabled(button, flag=simulation is None or simulation.can_step or simulator.is_stale)
         self._show_position(_where(simulation))
