@@ -1,5 +1,6 @@
 """`vicode rename`: every kind of name, in all files or none."""
 
+import json
 import shutil
 from pathlib import Path
 
@@ -124,8 +125,37 @@ def test_all_files_or_none(lamps: Path, monkeypatch: pytest.MonkeyPatch) -> None
     assert texts(lamps) == before
 
 
-def test_uses_in_hand_written_code_are_listed(forward: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert vicode("rename", "Side.left", "port", "forward") == 0
-    notes = capsys.readouterr().err.splitlines()
-    assert "vicode: not renamed in hand-written code: forward/field/kicker.py:20" in notes
-    assert len(notes) == 3
+def run_states(folder: Path) -> list[list[str]]:
+    """The states of all components in each iteration of 20 s."""
+    trace = folder / "trace.jsonl"
+    assert vicode("run", str(folder / "player.yaml"), "--seconds", "20", "--trace", str(trace)) == 0
+    records = [json.loads(line) for line in trace.read_text(encoding="utf-8").splitlines()]
+    return [[step["state"] for step in record["tree"]] for record in records if "tree" in record]
+
+
+def test_hand_written_modules_are_renamed(forward: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    before = run_states(forward)
+    capfd.readouterr()
+    for old, new in (("Side.left", "port"), ("Kick", "KickMotion_"), ("KickMotion_.diagonal", "outward")):
+        assert vicode("rename", old, new, "forward") == 0
+    output = capfd.readouterr()
+    kicker = (forward / "field" / "kicker.py").read_text(encoding="utf-8")
+    assert "Side.left" not in kicker
+    assert "from forward.declarations import KickMotion_, Side" in kicker
+    assert "kick: KickMotion_ = KickMotion_.front, side: Side = Side.port" in kicker
+    # The dictionary has the names of the elements as keys.
+    assert "vicode: check by hand: field/kicks.py:" in output.err
+    kicks = forward / "field" / "kicks.py"
+    kicks.write_text(kicks.read_text(encoding="utf-8").replace('"diagonal"', '"outward"'), encoding="utf-8")
+    assert vicode("check", "forward") == 0
+    assert run_states(forward) == before
+
+
+def test_a_name_that_the_project_no_longer_has_is_found(forward: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    kicker = forward / "field" / "kicker.py"
+    kicker.write_text(kicker.read_text(encoding="utf-8").replace("Side.left", "Side.lefft"), encoding="utf-8")
+    assert vicode("check", "forward") == 0
+    output = capsys.readouterr().out
+    assert "forward/field/kicker.py:20:27: warning P212 different-class: 'Side' has no element 'lefft'" in output
+    assert "did you mean 'left'?" in output
+    assert vicode("run", str(forward / "player.yaml"), "--seconds", "1") == 1

@@ -14,8 +14,8 @@ from vicode.cli import main
 from vicode.generators import generate
 from vicode.generators.cpp.names import escape, namespace
 from vicode.generators.plan import PackagePlan
-from vicode.generators.plan.names import package_name
 from vicode.model.design import Assign, Declaration, Design, Guard, State, Transition
+from vicode.model.names import package_name
 from vicode.model.project import Project
 from vicode.templating import read_asset
 

@@ -25,7 +25,7 @@ from vicode.findings import DesignPath, Finding, FindingSubject, Note, Span, did
 from vicode.languages import GENERATED_LANGUAGES
 from vicode.model.design import Declaration
 from vicode.model.expressions import Scope, build_scope, constant_scopes
-from vicode.model.names import snake_case
+from vicode.model.names import package_name
 from vicode.model.project import INTERNAL, MISSING, WORLD, Project, RemoteReference
 
 _CLASS_IN_MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*\Z", re.ASCII)
@@ -80,13 +80,13 @@ def find_unusable_project_names(project: Project) -> Iterator[Finding]:
     """P208: a project name whose Python package cannot be imported or hides another module."""
     reason = _package_problem(project) if "python" in project.languages else ""
     if reason:
-        message = f"the package '{_package_name(project)}' of this project {reason}"
+        message = f"the package '{package_name(project.name)}' of this project {reason}"
         fix = "set another name with 'project:' in project.yaml"
         yield replace(_make_finding("P208", ("project",), message, fix), languages=("python",))
 
 
 def _package_problem(project: Project) -> str:
-    package = _package_name(project)
+    package = package_name(project.name)
     targets = {
         "world": project.world,
         **{interface.component: interface.implementation for interface in project.components},
@@ -99,11 +99,6 @@ def _package_problem(project: Project) -> str:
     if package in ("vicode", "bica"):
         return "would hide the runtime"
     return f"would hide the module of '{hidden[0]}'" if hidden else ""
-
-
-def _package_name(project: Project) -> str:
-    """Return the name of the Python package. Generators prefix names that start with a digit, which hides nothing."""
-    return re.sub(r"[^a-z0-9]+", "_", snake_case(project.name), flags=re.ASCII).strip("_")
 
 
 def find_bad_names(project: Project) -> Iterator[Finding]:

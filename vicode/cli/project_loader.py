@@ -133,6 +133,7 @@ def _load_project(folder: Path, files: set[Path] | None, profile: str) -> Loaded
 def _check_classes(opened: "OpenProject", components: Collection[str] | None = None) -> tuple[Finding, ...]:
     """Compare hand-written classes with project.yaml."""
     from vicode.check.classes import check_classes
+    from vicode.check.module_names import check_module_names
     from vicode.model.project import select_profile
     from vicode.store import read_python_module
 
@@ -140,7 +141,8 @@ def _check_classes(opened: "OpenProject", components: Collection[str] | None = N
         return ()
     projects = [opened.project, *(select_profile(opened.project, each.name) for each in opened.project.profiles)]
     read_module = partial(read_python_module, opened.folder)
-    found = (finding for project in projects for finding in check_classes(project, read_module, components))
+    checks = (check_classes, check_module_names)
+    found = (each for project in projects for check in checks for each in check(project, read_module, components))
     return tuple(dict.fromkeys(found))
 
 

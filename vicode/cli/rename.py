@@ -1,9 +1,7 @@
 """Rename a state, component or declaration and all its uses in the designs of a project."""
 
 import argparse
-import re
 import sys
-from collections.abc import Iterator
 from difflib import unified_diff
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -69,8 +67,7 @@ def run(args: argparse.Namespace) -> int:
     else:
         apply_rename(plan)
         _print_written(plan)
-    hand_written = (f"not renamed in hand-written code: {place}" for place in _find_in_python(workspace, args.old))
-    for note in (*plan.notes, *hand_written):
+    for note in plan.notes:
         print(f"vicode: {note}", file=sys.stderr)
     return 0
 
@@ -101,20 +98,6 @@ def _find(args: argparse.Namespace) -> "tuple[Workspace, SymbolRef] | None":
     hint = did_you_mean(args.old, known)
     print(f"vicode: there is no '{args.old}'{f'; {hint}' if hint else ''}", file=sys.stderr)
     return None
-
-
-def _find_in_python(workspace: "Workspace", name: str) -> Iterator[str]:
-    """Lines of the project's Python modules that contain a name; members of components are checked by P212."""
-    if "." in name and workspace.project.enumeration(name.partition(".")[0]) is None:
-        return
-    word = re.compile(rf"\b{re.escape(name)}\b")
-    output = workspace.folder / workspace.project.generated
-    for file in sorted(workspace.folder.rglob("*.py")):
-        parts = file.relative_to(workspace.folder).parts
-        if file.is_relative_to(output) or any(part.startswith(".") for part in parts):
-            continue
-        lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
-        yield from (f"{_shown(file)}:{number}" for number, line in enumerate(lines, 1) if word.search(line))
 
 
 def _format_diff(plan: "FileRenamePlan") -> str:

@@ -42,3 +42,9 @@ def python_attribute_name(name: str) -> str:
     """Convert an XABSL name to a Python attribute: `ball.seen` to `ball_seen`, `class` to `class_`."""
     plain = name.replace(".", "_")
     return f"{plain}_" if keyword.iskeyword(plain) else plain
+
+
+def package_name(name: str) -> str:
+    """Convert a project name, which may be any text, to a package name."""
+    stem = identifier_stem(name)
+    return f"project_{stem}" if stem[0].isdigit() else stem

@@ -3,11 +3,13 @@
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import chain
 from pathlib import Path
 
 from vicode.bica.tick import choose_tick_ns
 from vicode.check import check_project
 from vicode.check.classes import check_classes
+from vicode.check.module_names import check_module_names
 from vicode.findings import DesignPath, Severity
 from vicode.generators import collect_components, generate, python_class_path, python_probes
 from vicode.model.decision_keys import transition_key
@@ -159,7 +161,9 @@ def _check_errors(project: Project, components: frozenset[str]) -> None:
 
 
 def _check_classes(project: Project, components: Collection[str], folder: Path) -> None:
-    for finding in check_classes(project, partial(read_python_module, folder), components):
+    read_module = partial(read_python_module, folder)
+    found = (check(project, read_module, components) for check in (check_classes, check_module_names))
+    for finding in chain.from_iterable(found):
         where = f"{Path(finding.location.file).name}, line {finding.location.line}: " if finding.location else ""
         raise NotReadyError(f"{where}{finding.message}. Fix it, then restart.")
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from vicode.editor.session import texts
 from vicode.editor.session.edits import state_name_error
 from vicode.editor.session.rename_component import FileChange, plan_component_rename, validate_writable
+from vicode.editor.session.rename_modules import plan_module_renames
 from vicode.editor.session.rename_symbol import plan_symbol_rename
 from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Design
@@ -40,7 +41,8 @@ def plan_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> FileRename
     design = workspace.project.design(symbol.component or symbol.name)
     if symbol.section == "components" and design is not None:
         plan = plan_component_rename(workspace, symbol.name, new)
-        return FileRenamePlan(changes=plan.changes, removed=plan.removed, error=plan.error)
+        places = plan_module_renames(workspace.folder, workspace.project, symbol, new).remaining
+        return FileRenamePlan(changes=plan.changes, removed=plan.removed, error=plan.error, notes=_notes(places))
     if symbol.section == "states":
         assert design is not None
         error = state_name_error(new, {state.name for state in design.states})
@@ -49,8 +51,8 @@ def plan_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> FileRename
         return FileRenamePlan(changes=changes, error=error)
     found = plan_symbol_rename(workspace, symbol, new)
     changes = found.changes if found.design is None else _design_changes(workspace, found.design)
-    notes = tuple(f"check by hand: {place}" for place in found.ambiguous_places)
-    return FileRenamePlan(changes=changes, error=found.error, notes=(*notes, *((found.note,) if found.note else ())))
+    notes = (*_notes(found.ambiguous_places), *((found.note,) if found.note else ()))
+    return FileRenamePlan(changes=changes, error=found.error, notes=notes)
 
 
 def apply_rename(plan: FileRenamePlan) -> None:
@@ -69,6 +71,10 @@ def apply_rename(plan: FileRenamePlan) -> None:
     except OSError:
         _restore(written)
         raise
+
+
+def _notes(places: Sequence[str]) -> tuple[str, ...]:
+    return tuple(f"check by hand: {place}" for place in places)
 
 
 def _restore(written: Sequence[FileChange]) -> None:

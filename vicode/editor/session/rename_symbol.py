@@ -11,6 +11,7 @@ from vicode.editor.session import texts
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import DocumentSession, FileTransaction
 from vicode.editor.session.rename_component import FileChange, validate_writable
+from vicode.editor.session.rename_modules import plan_module_renames
 from vicode.editor.session.rename_symbol_xabsl import collect_xabsl_renames, count_names_in_xabsl, rename_in_xabsl
 from vicode.editor.session.workspace import Workspace
 from vicode.findings import Finding, Severity
@@ -74,7 +75,8 @@ def plan_symbol_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> Sym
     if error:
         return SymbolRenamePlan(symbol=symbol, new=new, error=error)
     renamed = rename_in_xabsl(project, rename_symbol(project, symbol, new))
-    ambiguous = tuple(_find_ambiguous_uses(project, renamed, symbol))
+    modules = plan_module_renames(workspace.folder, project, symbol, new)
+    ambiguous = (*_find_ambiguous_uses(project, renamed, symbol), *modules.remaining)
     touched = [design.component for design in renamed.designs if project.design(design.component) != design]
     is_shared = any(getattr(renamed, section) != getattr(project, section) for section in _PROJECT_SECTIONS)
     error = describe_new_errors(project, renamed, touched if symbol.component and not is_shared else None)
@@ -85,11 +87,13 @@ def plan_symbol_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> Sym
         )
     file = find_project_file(workspace.folder) if is_shared else None
     error = error or validate_writable(workspace, touched) or _validate_project_file(project, file)
+    error = error or (texts.read_only(modules.locked) if modules.locked else "")
     if error or (is_shared and file is None):
         return SymbolRenamePlan(symbol=symbol, new=new, error=error or texts.PROJECT_FILE_MISSING)
     changes = [_design_change(workspace, design) for design in renamed.designs if design.component in touched]
     if file is not None:
         changes.append(_project_change(file, renamed))
+    changes += modules.changes
     plan = SymbolRenamePlan(
         symbol=symbol, new=new, changes=tuple(changes), note=_manual_step(project, symbol), ambiguous_places=ambiguous
     )

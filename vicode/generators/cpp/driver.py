@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from vicode.generators.cpp.names import GlobalNames, escape, member_name, world_name
 from vicode.generators.cpp.project import component_members, list_interfaces, world_behavior_name
 from vicode.generators.plan import FunctionPlan, InterfacePlan, ProjectPlan, ValuePlan, plan_interface, plan_project
-from vicode.generators.plan.names import package_name
 from vicode.model.expressions import BOOL, FLOAT, INT
+from vicode.model.names import package_name
 from vicode.model.project import INTERNAL, WORLD, Project
 from vicode.templating import read_asset, render
 

@@ -1,7 +1,5 @@
 """Unique snake-case identifiers that are valid in every language."""
 
-from vicode.model.names import identifier_stem
-
 
 class NameAllocator:
     """Allocates names that are unique ignoring case."""
@@ -21,9 +19,3 @@ class NameAllocator:
         self._numbers[key] = number
         self._taken.add(name.casefold())
         return name
-
-
-def package_name(name: str) -> str:
-    """Convert a project name, which may be any text, to a package name."""
-    stem = identifier_stem(name)
-    return f"project_{stem}" if stem[0].isdigit() else stem

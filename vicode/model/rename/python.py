@@ -40,7 +40,7 @@ def has_reference_in_python(text: str, role: str, rename: ReferenceRename) -> bo
 def declares_in_python(text: str, role: str, name: str) -> bool:
     """Return whether code binds a name."""
     tree = _parse_snippet(PythonSnippet.from_text(text, role)) if name in text else None
-    return tree is not None and name in set(_bound_names(tree))
+    return tree is not None and name in set(bound_names(tree))
 
 
 def _parse_snippet(piece: PythonSnippet) -> ast.Module | None:
@@ -53,7 +53,7 @@ def _parse_snippet(piece: PythonSnippet) -> ast.Module | None:
 def _find_references(tree: ast.Module, role: str, rename: ReferenceRename) -> Iterator[_Position]:
     if rename.kind in (ReferenceKind.CONSTANT, ReferenceKind.ENUMERATION, ReferenceKind.ELEMENT):
         name = rename.owner or rename.old
-        if name not in set(_bound_names(tree)):
+        if name not in set(bound_names(tree)):
             yield from (place for node in ast.walk(tree) for place in _find_project_references(node, name, rename))
         return
     for body, me in _bodies(tree, role):
@@ -166,7 +166,7 @@ def _argument_names(arguments: ast.arguments) -> set[str]:
     return {each.arg for each in every if each is not None}
 
 
-def _bound_names(tree: ast.AST) -> Iterator[str]:
+def bound_names(tree: ast.AST) -> Iterator[str]:
     for node in ast.walk(tree):
         match node:
             case ast.Name(id=name) if _stored_name(node):
