@@ -346,3 +346,19 @@ def test_the_command_for_the_terminal_lists_what_was_set(editor: str, page: Page
     shown = dialog.get_by_role("group", name="Command")
     expect(shown).to_have_text(f"vicode run {path} --set '0.016666667 s: Perception.ball_seen=true' --ticks 2")
     assert not complaints(page)
+
+
+def test_a_selected_state_tells_why_it_is_not_active(editor: str, page: Page) -> None:
+    open_simulation(page, editor)
+    page.keyboard.press("F10")
+    where(page, "iteration 1 · LookForBall")
+    select_state(page, "FollowBall")
+    section = page.locator(".why-not")
+    expect(section).to_contain_text("Why not FollowBall?")
+    expect(section.locator(".why-not-condition").first).to_contain_text("perception.ball_seen = false")
+    page.keyboard.press("F10")
+    where(page, "iteration 2 ·")
+    expect(section.locator(".why-not-condition").first).to_contain_text("for 0.02 s")
+    assert not complaints(page)
+    select_state(page, "LookForBall")
+    expect(section).to_be_hidden()

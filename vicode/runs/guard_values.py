@@ -7,7 +7,18 @@ from typing import Any
 from vicode.model.constant_folding import evaluate_constants
 from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Design, Guard
-from vicode.model.expressions import BOOL, FLOAT, Scope, Value, build_scope, evaluate, parse_expression, read_name, walk
+from vicode.model.expressions import (
+    BOOL,
+    FLOAT,
+    Expr,
+    Scope,
+    Value,
+    build_scope,
+    evaluate,
+    parse_expression,
+    read_name,
+    walk,
+)
 from vicode.model.project import Project
 from vicode.model.traversal import iter_decisions
 from vicode.runs.recording import Recording
@@ -32,10 +43,14 @@ def latest_steps(recording: Recording, number: int, components: frozenset[str]) 
     return found
 
 
-def evaluate_guards(
-    project: Project, design: Design, iteration: IterationResult, steps: Steps, tuned: Mapping[str, Any] | None = None
-) -> dict[str, dict[str, Any]]:
-    """The guards of the active state by decision, with `holds`, `parts` and `reads` (None: unknown).
+def guard_values(
+    project: Project,
+    design: Design,
+    iteration: IterationResult,
+    steps: Steps,
+    tuned: Mapping[str, Any] | None = None,
+) -> "GuardValues":
+    """What the guards of a design read in an iteration.
 
     Args:
         project: The project of the design.
@@ -46,29 +61,53 @@ def evaluate_guards(
     """
     values = _collect_values(design, iteration, steps)
     constants = {**evaluate_constants(project), **{name: _plain(value) for name, value in (tuned or {}).items()}}
-    evaluator = _GuardEvaluator(design, build_scope(project, design), {**constants, **values}, iteration)
+    return GuardValues(design, build_scope(project, design), {**constants, **values}, iteration)
+
+
+def evaluate_guards(
+    project: Project, design: Design, iteration: IterationResult, steps: Steps, tuned: Mapping[str, Any] | None = None
+) -> dict[str, dict[str, Any]]:
+    """The guards of the active state by decision, with `holds`, `parts` and `reads` (None: unknown).
+
+    The arguments are those of `guard_values`.
+    """
+    values = guard_values(project, design, iteration, steps, tuned)
     tested = (COMMON, iteration.state)
     return {
-        transition_key(located.path): evaluator.evaluate(located.decision.guard)
+        transition_key(located.path): values.evaluate_guard(located.decision.guard)
         for located in iter_decisions(design)
         if located.source in tested
     }
 
 
-class _GuardEvaluator:
+class GuardValues:
+    """The values that guards read in one iteration."""
+
     def __init__(self, design: Design, scope: Scope, values: Mapping[str, Any], iteration: IterationResult) -> None:
+        self.scope = scope
         self._is_xabsl = design.arithmetic == "xabsl"
         self._ns_per_unit = 1e6 if design.time_unit == "ms" else 1e9
-        self._scope = scope
         self._values = {name: value for name, value in values.items() if value is not None}
         self._passed_ns = iteration.step.get("state_time_ns")
 
-    def evaluate(self, guard: Guard) -> dict[str, Any]:
+    def evaluate(self, tree: Expr) -> Value | None:
+        """The value of an expression, None if it reads what is not known."""
+        return evaluate(tree, self._values, xabsl_arithmetic=self._is_xabsl)
+
+    def read_by(self, tree: Expr) -> dict[str, Any]:
+        """The names that an expression reads, with their values (None: unknown)."""
+        return {name: self._values.get(name) for node in walk(tree) if (name := read_name(node))}
+
+    def time_left_s(self, after: str) -> float | None:
+        """How long the active state must last until a time has passed; at most 0 if it has, None if unknown."""
+        return self._time_left_s(self._evaluate(after, FLOAT, {}))
+
+    def evaluate_guard(self, guard: Guard) -> dict[str, Any]:
         parts: list[bool | None] = []
         reads: dict[str, Any] = {}
         if guard.after:
-            time = self._evaluate(guard.after, FLOAT, reads)
-            parts.append(self._has_passed(time))
+            left = self._time_left_s(self._evaluate(guard.after, FLOAT, reads))
+            parts.append(None if left is None else left <= 0)
         if guard.when:
             value = self._evaluate(guard.when, BOOL, reads)
             parts.append(None if value is None else bool(value))
@@ -77,19 +116,28 @@ class _GuardEvaluator:
         holds = False if False in parts else None if None in parts else True
         return {"holds": holds, "parts": parts, "reads": reads}
 
-    def _has_passed(self, time: Value | None) -> bool | None:
+    def _time_left_s(self, time: Value | None) -> float | None:
         if not isinstance(time, int | float) or not isinstance(self._passed_ns, int) or not math.isfinite(time):
             return None
-        return self._passed_ns >= round(time * self._ns_per_unit)
+        return (round(time * self._ns_per_unit) - self._passed_ns) / 1e9
 
     def _evaluate(self, text: str, type_: str, reads: dict[str, Any]) -> Value | None:
-        parsed = parse_expression(text, self._scope, type_)
+        parsed = parse_expression(text, self.scope, type_)
         if parsed.tree is None or parsed.diagnostics:
             return None
-        for node in walk(parsed.tree):
-            if name := read_name(node):
-                reads[name] = self._values.get(name)
-        return evaluate(parsed.tree, self._values, xabsl_arithmetic=self._is_xabsl)
+        reads |= self.read_by(parsed.tree)
+        return self.evaluate(parsed.tree)
+
+
+def format_value(value: Any) -> str:
+    """A short text of a value of a running component."""
+    if value is None:
+        return "unknown"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    return str(value)[:60]
 
 
 def _collect_values(design: Design, iteration: IterationResult, steps: Steps) -> dict[str, Any]:

@@ -4,12 +4,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from vicode.editor.view.guard_rows import format_value
 from vicode.editor.view.item_labels import item_label
 from vicode.editor.view.selection import ItemRef
 from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Design
 from vicode.model.traversal import find_decision
+from vicode.runs.guard_values import format_value
 
 _LINKS = {"requires": "requires", "modulates": "modulates"}
 

@@ -9,6 +9,7 @@ from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Decision, DecisionGroup, Design, Guard, Transition
 from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.traversal import LocatedDecision, iter_decisions
+from vicode.runs.guard_values import format_value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,17 +78,6 @@ def _reads(guard: Guard, result: Mapping[str, Any]) -> str:
         returned = parts[-1]
         pairs.append("code was not evaluated" if returned is None else f"code returned {format_value(returned)}")
     return ", ".join(pairs)
-
-
-def format_value(value: Any) -> str:
-    """A short text of a value of a running component."""
-    if value is None:
-        return "unknown"
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, float):
-        return f"{value:.4g}"
-    return str(value)[:60]
 
 
 def find_read_outputs(rows: Iterable[GuardRow], guards: Mapping[str, Any]) -> frozenset[str]:

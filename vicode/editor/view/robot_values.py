@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from vicode.editor.view.guard_rows import format_value
+from vicode.runs.guard_values import format_value
 
 _MISSED_RATE = 0.9
 _NOT_FINITE = ("nan", "inf", "-inf")

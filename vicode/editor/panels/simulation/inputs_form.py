@@ -9,8 +9,9 @@ from nicegui import ui
 
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.panels.simulation.range_input import RangeInput
-from vicode.editor.view.guard_rows import find_read_outputs, format_value, list_guard_rows
+from vicode.editor.view.guard_rows import find_read_outputs, list_guard_rows
 from vicode.runs import DONE, PARAMETERS, RunStatus, Simulation, SimulationInput
+from vicode.runs.guard_values import format_value
 
 _MAX_CALLS = 8
 

@@ -9,6 +9,7 @@ from vicode.editor.panels.simulation.guards_list import GuardsList
 from vicode.editor.panels.simulation.input_source import InputSourceForm
 from vicode.editor.panels.simulation.inputs_form import InputsForm
 from vicode.editor.panels.simulation.timeline import Timeline
+from vicode.editor.panels.simulation.why_not_view import WhyNotView
 from vicode.editor.panels.tabs import Tabs
 
 _POLL_INTERVAL_S = 0.08
@@ -22,7 +23,7 @@ class SimulationPanel:
 
     def __init__(self, controller: SimulationController) -> None:
         self.controller = controller
-        self._shown = -1
+        self._shown: tuple[int, str] = (-1, "")
         with ui.element("div").classes("simulation"):
             self.controls = SimulationControls(controller)
             with ui.element("div").classes("simulation-body"):
@@ -31,6 +32,7 @@ class SimulationPanel:
                     self.inputs = InputsForm(controller)
                 with ui.element("section").classes("simulation-part").props('aria-label="Guards of the active state"'):
                     self.guards = GuardsList(controller)
+                    self.why_not = WhyNotView(controller)
                 with ui.element("section").classes("simulation-part simulation-results").props('aria-label="Results"'):
                     self.tabs = Tabs(_RESULT_TABS, "simulation-results", "Results")
         builders = lambda: Timeline(controller), lambda: ActivationTree(controller), lambda: ConsoleOutput(controller)
@@ -44,13 +46,14 @@ class SimulationPanel:
 
     def refresh(self) -> None:
         self.controller.check_design()
-        self._shown = -1
+        self._shown = (-1, "")
         self._poll()
 
     def _poll(self) -> None:
         self.controller.check_project()
-        if self._shown == self.controller.revision:
-            return
-        self._shown = self.controller.revision
-        for part in (self.controls, self.input_source, self.inputs, self.guards, self.tabs):
-            part.refresh()
+        before, self._shown = self._shown, (self.controller.revision, self.why_not.target)
+        if before[0] != self._shown[0]:
+            for part in (self.controls, self.input_source, self.inputs, self.guards, self.tabs):
+                part.refresh()
+        if before != self._shown:
+            self.why_not.refresh()

@@ -14,6 +14,7 @@ from vicode.model.project import Project
 from vicode.runs import Recording, RunStatus, Simulation, prepare_view
 from vicode.runs.guard_values import evaluate_guards
 from vicode.runs.traces import focus_iteration
+from vicode.runs.why_not import WhyNot, explain
 from vicode.simulation import IterationResult
 from vicode.simulation.robots import RobotDescription
 
@@ -193,14 +194,17 @@ class RobotView:
         iteration = recording.iteration(number)
         if iteration is None:
             return {}
-        return evaluate_guards(
-            self.context.workspace.project,
-            self.context.design,
-            iteration,
-            # What was not stepped keeps its values; earlier iterations are shown with the latest of those.
-            {**{name: seen.step for name, seen in robot.steps.items()}, **_steps(iteration)},
-            robot.tuned,
-        )
+        project, design = self.context.workspace.project, self.context.design
+        return evaluate_guards(project, design, iteration, _latest_steps(robot, iteration), robot.tuned)
+
+    def why_not(self, recording: Recording, number: int, target: str, lookback: int) -> WhyNot:
+        """Why a state of the robot is not active in an iteration."""
+        robot, iteration = self.robot, recording.iteration(number)
+        if robot is None or iteration is None:
+            return WhyNot(target=target)
+        project, design = self.context.workspace.project, self.context.design
+        steps = _latest_steps(robot, iteration)
+        return explain(project, design, recording, number, target, steps, robot.tuned, lookback=lookback)
 
     def _compare_versions(self, robot: WatchedRobot) -> None:
         """Compare the code of the robot with the designs, when either changes."""
@@ -221,6 +225,11 @@ class RobotView:
             self._controller.simulation_changed()
 
         self.context.run_in_background(compare(), "compare versions")
+
+
+def _latest_steps(robot: WatchedRobot, iteration: IterationResult) -> dict[str, Mapping[str, Any]]:
+    """What was not stepped keeps its values; earlier iterations are shown with the latest of those."""
+    return {**{name: seen.step for name, seen in robot.steps.items()}, **_steps(iteration)}
 
 
 def _steps(iteration: IterationResult) -> dict[str, Mapping[str, Any]]:
