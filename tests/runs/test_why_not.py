@@ -59,7 +59,7 @@ def prepared(opened: OpenProject) -> PreparedRun:
 def ask(opened: OpenProject, simulation: Simulation, target: str, lookback: int = 2000) -> WhyNot:
     design, recording, number = simulation.prepared.design, simulation.recording, simulation.cursor
     latest = latest_steps(recording, number, frozenset(use.component for use in design.uses))
-    return explain(opened.project, design, recording, number, target, latest, lookback=lookback)
+    return explain(opened.project, design, recording, number, target=target, latest=latest, lookback=lookback)
 
 
 def test_what_fails_since_when_and_by_how_much(coffee_bot: Path) -> None:

@@ -57,10 +57,10 @@ def explain(
     design: Design,
     recording: Recording,
     number: int,
+    *,
     target: str,
     latest: Steps,
     tuned: Mapping[str, Any] | None = None,
-    *,
     lookback: int = 2000,
 ) -> WhyNot:
     """Explain why a state is not active in an iteration.

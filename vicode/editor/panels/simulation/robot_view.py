@@ -204,7 +204,9 @@ class RobotView:
             return WhyNot(target=target)
         project, design = self.context.workspace.project, self.context.design
         steps = _latest_steps(robot, iteration)
-        return explain(project, design, recording, number, target, steps, robot.tuned, lookback=lookback)
+        return explain(
+            project, design, recording, number, target=target, latest=steps, tuned=robot.tuned, lookback=lookback
+        )
 
     def _compare_versions(self, robot: WatchedRobot) -> None:
         """Compare the code of the robot with the designs, when either changes."""

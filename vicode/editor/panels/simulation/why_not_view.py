@@ -96,4 +96,4 @@ def _explain(controller: SimulationController, target: str) -> WhyNot | None:
         return controller.robot.why_not(recording, number, target, lookback)
     project, design = controller.context.workspace.project, simulation.prepared.design
     steps = latest_steps(recording, number, frozenset(use.component for use in design.uses))
-    return explain(project, design, recording, number, target, steps, lookback=lookback)
+    return explain(project, design, recording, number, target=target, latest=steps, lookback=lookback)
