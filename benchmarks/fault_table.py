@@ -184,7 +184,7 @@ RUNTIME_FAULTS = (
         "vicode/bica/arithmetic.py",
         "saturation at nan",
         "    if is_nan(x):\n        return 0\n",
-        "    if is_nan(x):\n        return INT_MIN\n",
+        "    if is_nan(x):\n        return -MAX_INT\n",
         PYTHON,
     ),
     Fault(

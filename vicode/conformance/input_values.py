@@ -9,7 +9,7 @@ from typing import Any
 from vicode.conformance.inputs import RunInput
 from vicode.generators import collect_components
 from vicode.model.constant_folding import evaluate_constants
-from vicode.model.expressions import BOOL, INT, Number, build_scope, parse_expression, walk
+from vicode.model.expressions import BOOL, FLOAT, INT, Number, build_scope, parse_expression, walk
 from vicode.model.project import Project
 from vicode.model.traversal import iter_expressions
 
@@ -52,6 +52,10 @@ class ValueDrawer:
         if kind < 0.3:
             return self._typed(each, rng.choice((low, high, low - 1, high + 1)))
         return self._typed(each, self._near(rng.choice(self.numbers)))
+
+    def unusual_values(self, each: RunInput) -> tuple[float, ...]:
+        """Values of an input that are drawn rarely, and that languages treat differently."""
+        return {INT: _INTS, FLOAT: _UNUSUAL}.get(each.type, ())
 
     def time_ns(self, boundaries: Iterable[int] = ()) -> int:
         """Draw the time until the next iteration; the clock may be set back.
