@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from vicode.conformance.coverage import CoverageRecorder, DesignGoals, Goal
-from vicode.conformance.input_values import MS, ValueDrawer, known_numbers
+from vicode.conformance.input_values import MS, ValueDrawer, deal_unusual, known_numbers, mentioned_inputs
 from vicode.conformance.inputs import ConformanceRun, InputKey, RunInput, RunStep
 from vicode.conformance.reference import ReferenceState
 from vicode.model.expressions import FLOAT, INT
@@ -58,10 +58,12 @@ def choose_runs(
     settings = [(empty, False), *([(empty, True)] if in_xabsl else [])]
     settings += [(replace(empty, robots=robots, team_ticks=_TEAM_TICKS), in_xabsl) for robots in _team_sizes(machines)]
     rng, runs = random.Random(seed), list[ConformanceRun]()
+    mentioned = mentioned_inputs(project, root)
+    unusual = deal_unusual(rng, [each for each in empty.inputs if each.key in mentioned])
     for index, (setting, whole_ms) in enumerate(settings):
         share = iterations * (index + 1) // len(settings) - iterations * index // len(settings)
         drawer = ValueDrawer(rng, known_numbers(project, root), whole_ms)
-        runs += _Search(goals, setting, drawer).find(share)
+        runs += _Search(goals, setting, drawer, unusual).find(share)
     return tuple(runs)
 
 
@@ -108,14 +110,27 @@ class _Point:
 
 
 class _Search:
-    """The search with one number of robots and one kind of times; `setting` is a run without iterations."""
+    """The search with one number of robots and one kind of times.
 
-    def __init__(self, goals: DesignGoals, setting: ConformanceRun, draw: ValueDrawer) -> None:
+    Args:
+        goals: What may happen.
+        setting: A run without iterations.
+        draw: Draws values and times.
+        unusual: Inputs with unusual values.
+    """
+
+    def __init__(
+        self,
+        goals: DesignGoals,
+        setting: ConformanceRun,
+        draw: ValueDrawer,
+        unusual: Iterator[tuple[RunInput, float]],
+    ) -> None:
         self._goals, self._setting, self._draw, self._rng = goals, setting, draw, draw.rng
         self._recorder = CoverageRecorder(goals)
         self._robots = self._recorder.make_robots(setting)
         self._points = [_Point(None, (), self._robots.save())]
-        self._unusual = self._deal_unusual()
+        self._unusual = unusual
 
     def find(self, iterations: int) -> Iterator[ConformanceRun]:
         """Search, and return the runs."""
@@ -263,12 +278,6 @@ class _Search:
                 continue
             state, time_ns = self._robots.save(), step.time_ns
             yield step
-
-    def _deal_unusual(self) -> Iterator[tuple[RunInput, float]]:
-        """Each input with each of its unusual values, in random order, again and again."""
-        pairs = [(each, value) for each in self._setting.inputs for value in self._draw.unusual_values(each)]
-        while pairs:
-            yield from self._rng.sample(pairs, len(pairs))
 
     def _follow(self, step: RunStep) -> bool:
         """Run an iteration; return False if it is left out, after which the robots must be restored.
