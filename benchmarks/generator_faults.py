@@ -196,6 +196,7 @@ GENERATOR_FAULTS = (
         'body += ["    calls_.clear();"] if self._calls() else []',
         "body += []",
         CPP,
+        "the period counts as elapsed at a restart, so that the work follows, which clears the calls first",
     ),
     Fault("vicode/generators/xabsl/options.py", "no target states", "is_target=plan.final", "is_target=False", XABSL),
     Fault(

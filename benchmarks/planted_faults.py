@@ -115,6 +115,8 @@ def find_noticed(
 ) -> dict[str, str]:
     """The first difference of each group, by the languages that a fault concerns.
 
+    "same code" names the groups in which no generated code changes.
+
     Args:
         comparisons: The comparisons by name.
         languages: The languages.
@@ -122,12 +124,14 @@ def find_noticed(
         is_generated: Whether the fault only concerns generated code.
     """
     noticed: dict[str, str] = {}
+    same = {group_of(name) for name in comparisons} if is_generated else set()
     for language in languages:
         able = {name: each for name, each in comparisons.items() if language not in each.absent}
         if is_generated:
             source = "python" if language == "simulator" else language
             changed = {name: each.code[source] != _hash_code(each.run, source) for name, each in able.items()}
             able = {name: each for name, each in able.items() if changed[name]}
+            same -= {group_of(name) for name in able}
         designs = list(dict.fromkeys(map(design_of, able)))
         for start in range(0, len(designs), DESIGNS_AT_ONCE):
             names = designs[start : start + DESIGNS_AT_ONCE]
@@ -136,7 +140,7 @@ def find_noticed(
             }
             if rest:
                 noticed = {**_differences(rest, language, folder / f"{language}{start}"), **noticed}
-    return noticed
+    return {**noticed, **({"same code": " ".join(sorted(same))} if same else {})}
 
 
 def design_of(name: str) -> str:
@@ -227,9 +231,13 @@ def report(results: Iterable[tuple[Fault, Mapping[str, str]]], columns: tuple[st
         yield f"| {fault.file.removeprefix('vicode/')} | {fault.doc}{reason} | {marks} |"
     for group in columns:
         tried = [pair for pair in found if "failed" not in pair[1]]
-        count = sum(group in noticed for _fault, noticed in tried)
-        equivalent = sum(bool(fault.equivalent) for fault, noticed in tried if group not in noticed)
-        yield f"{group}: {count} of {len(tried)} faults noticed; {equivalent} of the others change no trace"
+        missed = [(fault, noticed) for fault, noticed in tried if group not in noticed]
+        equivalent = sum(bool(fault.equivalent) for fault, _noticed in missed)
+        same = sum(group in noticed.get("same code", "") for _fault, noticed in missed)
+        yield (
+            f"{group}: {len(tried) - len(missed)} of {len(tried)} faults noticed; of the others, {equivalent} change "
+            f"no trace, and {same} no code there"
+        )
     for fault, noticed in found:
         if "failed" in noticed:
             yield f"not counted: {fault.file}: {fault.doc}: {noticed['failed']}"
@@ -275,7 +283,7 @@ def main() -> None:
         tests = FaultTests(copy, chosen) if options.tests else None
         for fault in (each for each in chosen if each.key not in known):
             known[fault.key] = noticed = try_fault(fault, copy, state, tests)
-            print(f"{fault.file}: {fault.doc}\n  {noticed or 'NOT NOTICED'}", flush=True)
+            print(f"{fault.file}: {fault.doc}\n  {noticed}", flush=True)
             if options.results:
                 with options.results.open("a", encoding="utf-8") as file:
                     file.write(f"{json.dumps([*fault.key, noticed])}\n")
