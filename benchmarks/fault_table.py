@@ -1,4 +1,4 @@
-"""Faults of the Python runtime for `benchmarks.planted_faults`: a file, a text that occurs once, a replacement."""
+"""Faults of the Python runtime for `benchmarks.planted_faults`."""
 
 from dataclasses import dataclass
 
@@ -10,13 +10,34 @@ ALL = ("python", "cpp", "xabsl")
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """A fault; `languages` are those whose traces it may change."""
+    """A fault: in a file, the text `old`, which occurs once, is replaced by `new`.
+
+    Attributes:
+        languages: The languages whose traces it may change.
+        equivalent: Why it changes no trace, if so; tests of its package may still notice it.
+    """
 
     file: str
     doc: str
     old: str
     new: str
     languages: tuple[str, ...]
+    equivalent: str = ""
+
+    @property
+    def key(self) -> tuple[str, str]:
+        """What tells it from others."""
+        return self.file, self.doc
+
+    def plant(self, source: str) -> str:
+        """Return the text of its file with the fault.
+
+        Raises:
+            ValueError: The text does not occur exactly once.
+        """
+        if (count := source.count(self.old)) != 1:
+            raise ValueError(f"{self.file}: '{self.doc}' replaces a text that occurs {count} times")
+        return source.replace(self.old, self.new)
 
 
 _COMPONENT = "vicode/bica/component.py"
@@ -145,8 +166,8 @@ RUNTIME_FAULTS = (
     Fault(
         "vicode/bica/arithmetic.py",
         "round half up",
-        "return _saturate(x, round)",
-        "return _saturate(x, lambda y: math.floor(y + 0.5))",
+        "return _limited(x, round)",
+        "return _limited(x, lambda y: math.floor(y + 0.5))",
         PYTHON,
     ),
     Fault("vicode/bica/arithmetic.py", "clamp of nan", "return min(x, high)", "return min(high, x)", PYTHON),
@@ -157,12 +178,13 @@ RUNTIME_FAULTS = (
         "return min(a, *others) if others else a",
         "return min(*reversed((a, *others))) if others else a",
         PYTHON,
+        "generated Python calls min; the editor evaluates guards with this function",
     ),
     Fault(
         "vicode/bica/arithmetic.py",
         "saturation at nan",
         "    if is_nan(x):\n        return 0\n",
-        "    if is_nan(x):\n        return INT_MIN\n",
+        "    if is_nan(x):\n        return -MAX_INT\n",
         PYTHON,
     ),
     Fault(

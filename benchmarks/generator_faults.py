@@ -116,7 +116,9 @@ GENERATOR_FAULTS = (
         PYTHON,
     ),
     Fault(_HPP, "time is not continued", "            lag_ns_ += now_ns_ - now;\n", "", CPP),
-    Fault(_HPP, "period truncated", "bica::round(1e9 / hertz)", "static_cast<Nanoseconds>(1e9 / hertz)", CPP),
+    Fault(
+        _HPP, "period truncated", "? 0 : nanoseconds(1e9 / hertz)", "? 0 : static_cast<Nanoseconds>(1e9 / hertz)", CPP
+    ),
     Fault(
         _HPP,
         "period elapsed 1 ns late",
@@ -143,7 +145,11 @@ GENERATOR_FAULTS = (
     Fault(_HPP, "round half up", "(rest == 0.5 && std::fmod(below, 2.0) != 0.0)", "rest == 0.5", CPP),
     Fault(_HPP, "state_time continues", "        entered_ns_ = root.now_ns_;\n    }", "    }", CPP),
     Fault(
-        _HPP, "wait one iteration more", "waiting_iterations_ >= team_.ticks", "waiting_iterations_ > team_.ticks", CPP
+        _HPP,
+        "wait one iteration more",
+        "waiting_iterations_ >= team_->ticks",
+        "waiting_iterations_ > team_->ticks",
+        CPP,
     ),
     Fault(
         _HPP,
@@ -190,6 +196,7 @@ GENERATOR_FAULTS = (
         'body += ["    calls_.clear();"] if self._calls() else []',
         "body += []",
         CPP,
+        "the period counts as elapsed at a restart, so that the work follows, which clears the calls first",
     ),
     Fault("vicode/generators/xabsl/options.py", "no target states", "is_target=plan.final", "is_target=False", XABSL),
     Fault(

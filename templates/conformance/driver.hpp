@@ -77,7 +77,9 @@ inline void run(Robot* (*make)(), std::FILE* input, const std::vector<std::FILE*
         const std::vector<bica::TeamMessage> received = sent;
         for (std::size_t index = 0; index < robots.size(); ++index) {
             Robot& robot = *robots[index];
-            robot.root.team.prepare();
+            if (robots.size() > 1) {
+                robot.root.team.prepare();
+            }
             for (std::size_t sender = 0; sender < received.size(); ++sender) {
                 if (sender != index) {
                     robot.root.team.hear(received[sender]);

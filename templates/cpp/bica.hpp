@@ -495,7 +495,7 @@ public:
     /// The number of robots that are alive, with this one: those whose messages were heard for this iteration.
     std::int64_t size = 1;
 
-    /// Clears the messages of the last iteration; call it before `hear`.
+    /// Clears the messages of the last iteration; call it before `hear`. If it is never called, the robot is alone.
     void prepare();
     /// Takes the message of another robot; unknown states are ignored.
     void hear(const TeamMessage& message);
@@ -504,11 +504,19 @@ public:
 
 private:
     friend class CooperativeState;
+    friend class Root;
 
+    void begin_iteration() {
+        if (is_alone_) {
+            clear();
+        }
+    }
+    void clear();
     CooperativeState* find(const StateKey& key);
 
     CooperativeState* first_ = nullptr;
     CooperativeState* last_ = nullptr;
+    bool is_alone_ = true;
 };
 
 #endif
@@ -564,6 +572,9 @@ public:
         }
         now_ns_ = now;
         ++iteration_;
+#if !defined(BICA_NO_NAMES)
+        team.begin_iteration();
+#endif
         main.step();
     }
 
@@ -1014,6 +1025,11 @@ inline Team::~Team() {
 #endif
 
 inline void Team::prepare() {
+    is_alone_ = false;
+    clear();
+}
+
+inline void Team::clear() {
     size = 1;
     for (CooperativeState* state = first_; state != nullptr; state = state->next_) {
         state->reset();

@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 
 from tests.cli.command_runner import LAMP, lamps, vicode
+from vicode.semantics import Interpreter
+from vicode.store import open_project
 
 __all__ = ["lamps"]
 
@@ -45,6 +47,26 @@ def test_a_trace_has_values_when_they_are_asked_for(lamps: Path) -> None:
     process = start("lamps/lamp.yaml", "--ticks", "2", "--trace", "trace", "--values")
     process.communicate(timeout=60)
     assert "values" in json.loads(Path("trace").read_text().splitlines()[1])["tree"][0]
+
+
+def test_a_robot_without_a_team_enters_the_states_that_it_would_coordinate(lamps: Path) -> None:
+    design = """vicode: 1
+component: Lift
+initial: Wait
+states:
+  Wait: {transitions: [{to: Up, when: "true"}]}
+  Up: {synchronized: 1, transitions: [{to: Down, after: 0.2}]}
+  Down: {capacity: 1, transitions: [{to: Wait, when: team_size == 1}]}
+"""
+    Path("lift").mkdir()
+    Path("lift/lift.yaml").write_text(design, encoding="utf-8")
+    process = start("lift/lift.yaml", "--ticks", "12", "--tick-ms", "100", "--trace", "trace")
+    process.communicate(timeout=60)
+    records = [json.loads(line) for line in Path("trace").read_text().splitlines()[1:-1]]
+    robot = Interpreter(open_project(Path("lift")).project, "Lift")
+    expected = [robot.step(number * 100_000_000)["tree"][0]["state"] for number in range(12)]
+    assert [record["tree"][0]["state"] for record in records] == expected
+    assert set(expected) == {"Wait", "Up", "Down"}
 
 
 def test_the_same_seed_gives_the_same_trace(lamps: Path) -> None:

@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 from tests.cpp_tools import STANDARD, WARNINGS, find_gpp, outputs, start, write_project
+from vicode.semantics import Interpreter
+from vicode.store import open_project
 
 PROJECT = """
 vicode: 1
@@ -159,10 +161,40 @@ def test_states_of_teams_need_names(door: Path, tmp_path: Path) -> None:
     assert "compile without BICA_NO_NAMES" in done.stderr
 
 
-def write_team(folder: Path) -> None:
+def write_team(folder: Path, design: str = TEAM) -> None:
     (folder / "project.yaml").write_text("vicode: 1\nproject: Team\nlanguages: [cpp]\n", encoding="utf-8")
-    (folder / "player.yaml").write_text(TEAM, encoding="utf-8")
+    (folder / "player.yaml").write_text(design, encoding="utf-8")
     write_project(folder, folder)
+
+
+def test_a_robot_whose_program_exchanges_no_messages_is_alone_in_its_team(tmp_path: Path) -> None:
+    write_team(tmp_path, TEAM.replace("synchronized: 2", "synchronized: 1"))
+    (tmp_path / "cpp" / "main.cpp").write_text(
+        """
+#include <cstdio>
+
+#include "team/components.hpp"
+
+int main() {
+    bica::Root root;
+    team::Components components(root);
+    root.team.ticks = 3;
+    for (int iteration = 0; iteration < 12; ++iteration) {
+        root.step(components.player, iteration * 400'000'000LL);
+        std::puts(components.player.state_name());
+    }
+    return 0;
+}
+""",
+        encoding="utf-8",
+    )
+    command = [find_gpp(), *STANDARD, *WARNINGS, "-I.", "main.cpp", "team_unit.cpp", "-o", "program"]
+    outputs([start(command, tmp_path / "cpp")])
+    (printed,) = outputs([start(["./program"], tmp_path / "cpp")])
+    robot = Interpreter(open_project(tmp_path).project, "Player", team_ticks=3)
+    expected = [robot.step(number * 400_000_000)["tree"][0]["state"] for number in range(12)]
+    assert printed.split() == expected
+    assert set(expected) == {"Wait", "Play", "Rest"}
 
 
 def test_components_and_root_may_be_destroyed_in_any_order(tmp_path: Path) -> None:

@@ -161,6 +161,8 @@ class Root:
             now_ns = self._continue_time(now_ns)
         self.now_ns = now_ns
         self.iteration += 1
+        if self.team._states:
+            self.team._begin_iteration()
         step_main()
 
     def watch(

@@ -105,6 +105,8 @@ class Team:
     ticks: int = 0
     size: int = 1
     _states: dict[StateKey, tuple[Component, CooperativeState]] = field(default_factory=dict)
+    _is_alone: bool = True
+    """Whether the robot program exchanges no messages."""
 
     def join(self, component: Component, state: str, *, capacity: int | None, synchronized: int) -> CooperativeState:
         """Register a state of a component as a cooperative state."""
@@ -114,7 +116,18 @@ class Team:
         return cooperative_state
 
     def prepare(self) -> None:
-        """Clear the messages of the last iteration. Call it once per iteration, before `hear`."""
+        """Clear the messages of the last iteration. Call it once per iteration, before `hear`.
+
+        If the robot program never calls it, the robot is alone in its team.
+        """
+        self._is_alone = False
+        self._clear()
+
+    def _begin_iteration(self) -> None:
+        if self._is_alone:
+            self._clear()
+
+    def _clear(self) -> None:
         self.size = 1
         for _component, state in self._states.values():
             state.reset()

@@ -4,7 +4,8 @@ A point of the search is an iteration of a run with the state of the robots afte
 drawn inputs are tried; if they reach a goal that nothing reached before, their end becomes another point. So a later
 attempt continues where an earlier one came in. The inputs are drawn at the numbers that the design mentions, at values
 that make both sides of a comparison equal, at the ends of timers and periods, and from unusual ones. The paths to
-the last points are the runs; iterations that are left continue them with drawn inputs.
+the last points are the runs; iterations that are left continue them with drawn inputs, and with unusual ones for an
+iteration: each input gets each unusual value in turn.
 
 The search depends on the design, the number of iterations and the seed only.
 """
@@ -16,8 +17,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from vicode.conformance.coverage import CoverageRecorder, DesignGoals, Goal
-from vicode.conformance.input_values import MS, ValueDrawer, known_numbers
-from vicode.conformance.inputs import ConformanceRun, InputKey, RunStep
+from vicode.conformance.input_values import MS, ValueDrawer, deal_unusual, known_numbers, mentioned_inputs
+from vicode.conformance.inputs import ConformanceRun, InputKey, RunInput, RunStep
 from vicode.conformance.reference import ReferenceState
 from vicode.model.expressions import FLOAT, INT
 from vicode.model.project import Project
@@ -29,6 +30,7 @@ _LONGEST_ATTEMPT = 6
 _LONGEST_TAIL = 20
 _MOST_ROBOTS, _TEAM_TICKS = 6, 2
 _AIMED, _MOST_VARIED, _SECANTS = 0.15, 4, 3
+_WITH_UNUSUAL = 0.35
 _BESIDE = (1.0, -1.0, 0.5, -0.5, 0.05, -0.05)
 _LARGE, _LONGEST_NS = 1e15, 10**15
 _TIME: InputKey = ("", "@time")
@@ -56,10 +58,12 @@ def choose_runs(
     settings = [(empty, False), *([(empty, True)] if in_xabsl else [])]
     settings += [(replace(empty, robots=robots, team_ticks=_TEAM_TICKS), in_xabsl) for robots in _team_sizes(machines)]
     rng, runs = random.Random(seed), list[ConformanceRun]()
+    mentioned = mentioned_inputs(project, root)
+    unusual = deal_unusual(rng, [each for each in empty.inputs if each.key in mentioned])
     for index, (setting, whole_ms) in enumerate(settings):
         share = iterations * (index + 1) // len(settings) - iterations * index // len(settings)
         drawer = ValueDrawer(rng, known_numbers(project, root), whole_ms)
-        runs += _Search(goals, setting, drawer).find(share)
+        runs += _Search(goals, setting, drawer, unusual).find(share)
     return tuple(runs)
 
 
@@ -106,13 +110,27 @@ class _Point:
 
 
 class _Search:
-    """The search with one number of robots and one kind of times; `setting` is a run without iterations."""
+    """The search with one number of robots and one kind of times.
 
-    def __init__(self, goals: DesignGoals, setting: ConformanceRun, draw: ValueDrawer) -> None:
+    Args:
+        goals: What may happen.
+        setting: A run without iterations.
+        draw: Draws values and times.
+        unusual: Inputs with unusual values.
+    """
+
+    def __init__(
+        self,
+        goals: DesignGoals,
+        setting: ConformanceRun,
+        draw: ValueDrawer,
+        unusual: Iterator[tuple[RunInput, float]],
+    ) -> None:
         self._goals, self._setting, self._draw, self._rng = goals, setting, draw, draw.rng
         self._recorder = CoverageRecorder(goals)
         self._robots = self._recorder.make_robots(setting)
         self._points = [_Point(None, (), self._robots.save())]
+        self._unusual = unusual
 
     def find(self, iterations: int) -> Iterator[ConformanceRun]:
         """Search, and return the runs."""
@@ -232,8 +250,7 @@ class _Search:
         if key == _TIME:
             return replace(step, time_ns=round(value))
         is_int = next(each.type for each in self._setting.inputs if each.key == key) == INT
-        changed = {**step.inputs[0], key: round(value) if is_int else float(value)}
-        return replace(step, inputs=(changed, *step.inputs[1:]))
+        return _with_input(step, key, round(value) if is_int else float(value))
 
     def _limited(self, key: InputKey, value: float, time_ns: int) -> float:
         if key != _TIME:
@@ -244,10 +261,18 @@ class _Search:
     def _continue(self, point: _Point, iterations: int) -> Iterator[RunStep]:
         self._robots.restore(point.state)
         time_ns, state = point.time_ns, point.state
+        unusual: RunInput | None = None
         for index in range(iterations):
             step = self._draw_step(time_ns, is_first=not index and not point.run)
-            if self._rng.random() < _AIMED:
+            if unusual is not None:
+                # Values such as nan would keep guards from holding.
+                step, unusual = _with_input(step, unusual.key, self._draw.value(unusual)), None
+            kind = self._rng.random()
+            if kind < _AIMED:
                 step, _tries = self._aim(step, time_ns, only_unmet=False)
+            elif kind < _AIMED + _WITH_UNUSUAL and (dealt := next(self._unusual, None)) is not None:
+                unusual, value = dealt
+                step = _with_input(step, unusual.key, value)
             if not self._follow(step):
                 self._robots.restore(state)
                 continue
@@ -299,6 +324,11 @@ class _Search:
             for limit in self._rng.sample(self._draw.numbers, min(2, len(self._draw.numbers))):
                 if 0 < limit < 1e5:
                     yield memory.entered_ns + round(limit * machine.ns_per_unit) - now_ns
+
+
+def _with_input(step: RunStep, key: InputKey, value: Any) -> RunStep:
+    """The iteration with another value of an input of the first robot."""
+    return replace(step, inputs=({**step.inputs[0], key: value}, *step.inputs[1:]))
 
 
 def _reader(robot: Interpreter, component: str) -> ComponentStep:

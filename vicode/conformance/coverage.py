@@ -5,6 +5,7 @@ are listed from the designs; `CoverageRecorder` follows a run and collects those
 """
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -45,6 +46,7 @@ class GoalKind(StrEnum):
     PERIOD = "periods elapsed and not"
     TIMER = "timers exactly met and missed by 1 ns"
     ACTIVATION = "components active again"
+    TEAM = "states for which robots wait at the same time"
 
 
 _KEYS = {
@@ -132,6 +134,9 @@ class DesignGoals:
             if not state.disabled:
                 path: DesignPath = ("states", state.name)
                 yield Goal(GoalKind.STATE, (name, path), "active", text=f"state {state.name} of {name}")
+                if state.capacity:
+                    text = f"room in state {state.name} of {name}"
+                    yield from (Goal(GoalKind.TEAM, (name, path), outcome, text=text) for outcome in _TEAM_OUTCOMES)
         if machine.period_ns:
             text = f"period of {name}"
             for outcome in ("elapsed", "not elapsed"):
@@ -187,6 +192,7 @@ def _guard_outcomes(machine: Machine, guard: Guard) -> tuple[str, ...]:
 
 
 _WIDTH = 60
+_TEAM_OUTCOMES = ("wanted by two robots", "taken while another robot waits")
 _TIMER_OUTCOMES = ("met exactly", "missed by 1 ns")
 
 
@@ -243,8 +249,10 @@ class CoverageRecorder:
             for robot in robots.robots
         ]
         self._taken.clear()
-        for number, record in enumerate(robots.step(step)):
+        records = robots.step(step)
+        for number, record in enumerate(records):
             self._end_iteration(robots.robots[number], record, worked_ns[number], active[number])
+        self._see_team(robots, records)
 
     def on_decision(self, step: ComponentStep, item: Decision, outcome: Outcome) -> None:
         """Collect what a decision shows."""
@@ -296,6 +304,18 @@ class CoverageRecorder:
                 self.seen.add(Goal(GoalKind.ACTIVATION, (name, ()), outcome))
             if machine.period_ns and name in active and (machine.design.resume or not is_restart):
                 self._see_period(name, machine, robot.memory.now_ns - worked_ns[name], worked=step["worked"])
+
+    def _see_team(self, robots: ReferenceRobots, records: Sequence[Mapping[str, Any]]) -> None:
+        entered = {
+            (each["component"], each["state"]) for one in records for each in one["tree"] if each["changed_from"]
+        }
+        waiting = Counter(place for robot in robots.robots for place in robot.memory.team.waiting)
+        for (name, state), count in waiting.items():
+            subject: tuple[str, DesignPath] = (name, ("states", state))
+            if count > 1:
+                self.seen.add(Goal(GoalKind.TEAM, subject, _TEAM_OUTCOMES[0]))
+            if (name, state) in entered:
+                self.seen.add(Goal(GoalKind.TEAM, subject, _TEAM_OUTCOMES[1]))
 
     def _see_period(self, name: str, machine: Machine, elapsed_ns: int, *, worked: bool) -> None:
         subject: tuple[str, DesignPath] = (name, ("frequency",))

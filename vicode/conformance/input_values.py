@@ -2,20 +2,34 @@
 
 import math
 import random
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from vicode.conformance.inputs import RunInput
+from vicode.conformance.inputs import PARAMETERS, InputKey, RunInput
 from vicode.generators import collect_components
 from vicode.model.constant_folding import evaluate_constants
-from vicode.model.expressions import BOOL, INT, Number, build_scope, parse_expression, walk
+from vicode.model.design import Design
+from vicode.model.expressions import (
+    BOOL,
+    FLOAT,
+    INT,
+    Expr,
+    Number,
+    OutputRef,
+    Variable,
+    build_scope,
+    parse_expression,
+    walk,
+)
 from vicode.model.project import Project
 from vicode.model.traversal import iter_expressions
 
 MS = 1_000_000
 _NUMBERS = (0.0, -0.0, 1.0, -1.0, 0.5, 2.0, -3.0, 300.0)
 _UNUSUAL = (math.nan, math.inf, -math.inf, -0.0, 0.0, 1e308, -1e308, 5e-324, 2.0**53, -(2.0**53))
+_SPECIAL = 4
+"""The number of values of `_UNUSUAL` that are dealt first."""
 _INTS = (-(2**53), -(2**31), 2**31, 2**53)
 _USUAL_NS = (1 * MS, 10 * MS, 20 * MS, 20 * MS, 20 * MS, 50 * MS, 100 * MS, 1000 * MS)
 _SHORT_NS = (0, 0, 1, 999_999, 500_000, 1_000_001, 1_500_000, 16_666_667, 33_333_333)
@@ -91,21 +105,52 @@ class ValueDrawer:
         return round(number) if math.isfinite(number) and abs(number) <= 2**53 else 0
 
 
+def deal_unusual(rng: random.Random, inputs: Sequence[RunInput]) -> Iterator[tuple[RunInput, float]]:
+    """Each input with each of its unusual values, again and again; nan, the infinities and -0.0 come first."""
+    floats = [each for each in inputs if each.type == FLOAT]
+    first = [(each, value) for each in floats for value in _UNUSUAL[:_SPECIAL]]
+    others = [(each, value) for each in floats for value in _UNUSUAL[_SPECIAL:]]
+    others += [(each, value) for each in inputs if each.type == INT for value in _INTS]
+    while first or others:
+        yield from rng.sample(first, len(first))
+        yield from rng.sample(others, len(others))
+
+
+def mentioned_inputs(project: Project, root: str) -> frozenset[InputKey]:
+    """The inputs that an expression of a design mentions."""
+    return frozenset(_iter_mentioned(project, root))
+
+
+def _iter_mentioned(project: Project, root: str) -> Iterator[InputKey]:
+    for design, tree in _iter_trees(project, root):
+        components = {use.alias: use.component for use in design.uses}
+        for node in walk(tree):
+            match node:
+                case OutputRef(alias=alias, output=output):
+                    yield components[alias], output
+                case Variable(name=name) if design.component == root:
+                    yield PARAMETERS, name
+
+
 def known_numbers(project: Project, root: str) -> tuple[float, ...]:
     """Usual numbers, those in the expressions of a design and those that it uses, and the constants."""
     return tuple(sorted({*_NUMBERS, *_mentioned_numbers(project, root)}))
 
 
 def _mentioned_numbers(project: Project, root: str) -> Iterator[float]:
-    kept = collect_components(project, (root,))
     yield from (float(value) for value in evaluate_constants(project).values() if _is_finite(value))
+    for _design, tree in _iter_trees(project, root):
+        yield from (float(node.value) for node in walk(tree) if isinstance(node, Number))
+
+
+def _iter_trees(project: Project, root: str) -> Iterator[tuple[Design, Expr]]:
+    """The expressions of a design and of those that it uses."""
+    kept = collect_components(project, (root,))
     for design in project.designs:
-        if design.component not in kept:
-            continue
-        scope = build_scope(project, design)
-        for text in iter_expressions(design):
-            tree = parse_expression(text.text, scope).tree
-            yield from (float(node.value) for node in walk(tree) if isinstance(node, Number)) if tree else ()
+        if design.component in kept:
+            scope = build_scope(project, design)
+            trees = (parse_expression(text.text, scope).tree for text in iter_expressions(design))
+            yield from ((design, tree) for tree in trees if tree is not None)
 
 
 def _is_finite(value: object) -> bool:

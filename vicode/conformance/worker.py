@@ -56,7 +56,8 @@ def _run_python(job: Mapping[str, Any]) -> list[tuple[int, Any]]:
         received = list(sent)
         for number, robot in enumerate(robots):
             robot.set_inputs(values[number])
-            robot.root.team.prepare()
+            if len(robots) > 1:
+                robot.root.team.prepare()
             for sender, message in enumerate(received):
                 if sender != number:
                     robot.root.team.hear(message)

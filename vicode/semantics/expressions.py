@@ -88,6 +88,8 @@ class _Evaluation:
         match node:
             case Minus(operand=Number(value=value)):
                 return as_type(-as_type(value, type_), type_)  # type: ignore[operator]
+            case Ternary(test=test, then=then, otherwise=otherwise):
+                return self.evaluate_as(then if self.evaluate(test) else otherwise, type_)
             case _:
                 return as_type(self.evaluate(node), type_)
 
@@ -134,8 +136,8 @@ class _Evaluation:
                 # Both end at the first operand that decides.
                 held = map(self.evaluate, operands)
                 return all(held) if operator == "and" else any(held)
-            case Ternary(test=test, then=then, otherwise=otherwise, type=type_):
-                return self.evaluate_as(then if self.evaluate(test) else otherwise, type_)
+            case Ternary(type=type_):
+                return self.evaluate_as(node, type_)
             case _:
                 exact = self._calculate(node)
                 return self._limit_result(exact) if node.type == INT else exact

@@ -75,8 +75,6 @@ class RunHost:
         advance = getattr(world, "advance", None)
         if advance is not None:
             advance(self._clock.now_ns())
-        # The robot is alone in its team.
-        self._root.team.prepare()
         self._root.step()
         iteration = self._make_result(has_guards=time_ns is None)
         if time_ns is None:

@@ -81,7 +81,7 @@ def _with_conversions(node: Expr, scope: Scope) -> Expr:
             is_mixed = FUNCTIONS[function].return_type == NUMBER and type_ == FLOAT
             converted = [_with_conversions(argument, scope) for argument in arguments]
             is_float = FLOAT in FUNCTIONS[function].parameter_types
-            to_float = [is_mixed or (is_float and _is_negative_zero(value)) for value in converted]
+            to_float = [is_mixed or (is_float and _may_be_negative_zero(value)) for value in converted]
             values = (
                 as_type(value, FLOAT) if is_to else value for value, is_to in zip(converted, to_float, strict=True)
             )
@@ -92,9 +92,13 @@ def _with_conversions(node: Expr, scope: Scope) -> Expr:
             return node
 
 
-def _is_negative_zero(node: Expr) -> bool:
-    """Whether a node is the literal -0, which is -0.0 where a float is expected."""
-    return isinstance(node, Minus) and literal_value(node) == 0
+def _may_be_negative_zero(node: Expr) -> bool:
+    """Whether a node is or chooses the literal -0, which is -0.0 where a float is expected."""
+    match node:
+        case Ternary(then=then, otherwise=otherwise):
+            return _may_be_negative_zero(then) or _may_be_negative_zero(otherwise)
+        case _:
+            return isinstance(node, Minus) and literal_value(node) == 0
 
 
 def _converted_arguments(reference: OutputRef, scope: Scope) -> tuple[tuple[str, Expr], ...]:
