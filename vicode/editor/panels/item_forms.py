@@ -49,6 +49,8 @@ class ItemForms:
     def __init__(self, context: WindowContext) -> None:
         self.context = context
         self._shown: tuple[Design, Forms] = (context.design, {})
+        self._edited: tuple[ItemRef, str] | None = None
+        """The item and the path of the field with the focus."""
         self.view = FormView(self._edit, self._handle, self._on_malformed)
         context.linter.changes.subscribe(lambda: None if self.view.is_deleted else self.refresh())
 
@@ -69,11 +71,23 @@ class ItemForms:
             "open_sections": sorted(context.open_sections),
         }
         self.view.show(data, self._find_moved(forms))
+        self._follow_edited()
         self._shown = (context.design, forms)
         self.view.select(context.selected, context.selection_seq)
         if context.is_opening and context.single_selection is not None:
             context.is_opening = False
             self.view.open(context.single_selection)
+
+    def _follow_edited(self) -> None:
+        """Say so if another user has removed what the user is typing into."""
+        if self._edited is None or self._shown[0] is self.context.design:
+            return
+        item, path = self._edited
+        now = rebase_selection(item, self._shown[0], self.context.design)
+        is_there = now is not None and has_form(self.context.design, now) and self._path_in_file(now, path)
+        self._edited = (now, path) if now is not None and is_there else None
+        if not is_there:
+            self.context.show_toast(texts.EDITED_ITEM_REMOVED, "warning")
 
     def _find_moved(self, forms: Forms) -> dict[str, str]:
         """The new keys of items whose forms changed their places."""
@@ -138,7 +152,7 @@ class ItemForms:
         if result.renamed is not None and result.renamed[0] in context.selected:
             context.select(*(result.renamed[1] if item == result.renamed[0] else item for item in context.selected))
         if result.error == ITEM_MISSING:
-            context.show_toast(texts.CODE_OWNER_CHANGED, "warning")
+            context.show_toast(texts.EDITED_ITEM_REMOVED, "warning")
         elif result.error and not isinstance(edit, TextEdit | NameEdit):
             # Fields for texts show their errors themselves.
             context.show_toast(texts.sentence(result.error), "warning")
@@ -148,6 +162,7 @@ class ItemForms:
         context = self.context
         match event:
             case FocusField(item=item, path=path):
+                self._edited = None if path is None else (item, path)
                 editing = () if path is None else self._path_in_file(item, path)
                 context.presence.update(context.window, editing_path=editing)
             case SelectItem(item=item):
