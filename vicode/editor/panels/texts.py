@@ -298,4 +298,4 @@ def nothing_to_open(reason: object) -> str:
 
 def code_languages(label: str) -> str:
     """The name of the tabs of code."""
-    return f"Languages of {label}" if label else "Languages of the code"
+    return f"Languages of {label}"

@@ -1,12 +1,13 @@
 """The actions in a form: assignments, calls of used components, code."""
 
+import json
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 from vicode.editor.session.forms.decision_form import code_texts
 from vicode.editor.session.forms.fields import known_field, replace_text
-from vicode.editor.session.forms.nodes import Adder, AdderList, Card, Cards, CodeText, Node, node_data
+from vicode.editor.session.forms.nodes import Adder, AdderList, Card, Cards, CodeText, Node, form_json
 from vicode.editor.session.forms.pairs import find_error, parse_pairs
 from vicode.findings import DesignPath
 from vicode.model.design import Action, Assign, Call, Declaration, Design, RunCode
@@ -66,9 +67,9 @@ def adders(project: Project, design: Design) -> dict[AdderList, Any]:
     modulation = replace(call, label="Component", icon="add", adds="modulation", title="", is_unique=True)
     actions = [effects[0], call, effects[1]] if design.uses else effects
     return {
-        "actions": node_data(actions),
-        "effects": node_data(effects),
-        "modulates": node_data([modulation] if design.uses else []),
+        "actions": json.loads(form_json(actions)),
+        "effects": json.loads(form_json(effects)),
+        "modulates": json.loads(form_json([modulation] if design.uses else [])),
     }
 
 

@@ -64,7 +64,7 @@ def decisions_list(design: Design, path: DesignPath, decisions: tuple[Decision, 
 def _rows(design: Design, decisions: tuple[Decision, ...]) -> tuple[DecisionRow, ...]:
     return tuple(
         DecisionRow(
-            target=decision_target(each),
+            target=_decision_target(each),
             guard=guard_label(each.guard, design.time_unit) or "always",
             is_disabled=each.disabled,
             then=_rows(design, each.then) if isinstance(each, DecisionGroup) else (),
@@ -74,7 +74,7 @@ def _rows(design: Design, decisions: tuple[Decision, ...]) -> tuple[DecisionRow,
     )
 
 
-def decision_target(item: Decision) -> str:
+def _decision_target(item: Decision) -> str:
     match item:
         case Transition(to=to):
             return f"→ {to}"

@@ -252,28 +252,22 @@ def iter_fields(nodes: Iterable[Node]) -> Iterator[Field]:
 
 def form_json(nodes: Sequence[Node | Adder]) -> str:
     """The nodes as JSON: objects with the kind as "is", without the fields that have their defaults."""
-    return json.dumps(node_data(nodes), separators=(",", ":"), ensure_ascii=False)
+    return _ENCODER.encode(tuple(nodes))
 
 
-def node_data(nodes: Sequence[Node | Adder]) -> Any:
-    """The nodes as values of JSON."""
-    return _to_json(tuple(nodes))
-
-
-def _to_json(value: Any) -> Any:
-    if isinstance(value, tuple):
-        return [_to_json(each) for each in value]
-    if not hasattr(value, "__dataclass_fields__"):
-        return value
-    kind: Any = type(value)
+def _node_data(node: object) -> dict[str, Any]:
+    kind: Any = type(node)
     shown = {"is": kind.__name__}
     for name, default in _defaults(kind):
-        content = getattr(value, name)
-        if content != default:
-            shown[name] = content if type(content) in (str, bool) else _to_json(content)
+        content = getattr(node, name)
+        if content is not default and content != default:
+            shown[name] = content
     return shown
 
 
 @cache
 def _defaults(kind: Any) -> tuple[tuple[str, Any], ...]:
     return tuple((each.name, each.default) for each in fields(kind))
+
+
+_ENCODER = json.JSONEncoder(default=_node_data, separators=(",", ":"), ensure_ascii=False)

@@ -58,17 +58,16 @@ def common_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
     return (
         Title(text="Every state"),
         TextField(path=("doc",), label=field.label, value=common.doc, is_long=True),
-        Heading(text="Common transitions", hint="tested in every state, before its own transitions"),
+        Heading(text="Transitions", hint="tested in every state before its own"),
         decisions_list(design, ("transitions",), common.transitions),
-        Heading(text="Common actions", hint="run in every state, before its own actions"),
+        Heading(text="Actions", hint="run in every state before its own"),
         action_cards(project, ("actions",), common.actions, ids.ids(("common", "actions"), common.actions)),
     )
 
 
 def uses_xabsl(project: Project, design: Design) -> bool:
     """Whether names in XABSL matter to this design."""
-    is_named = any(state.xabsl_name for state in design.states)
-    return "xabsl" in project.languages or bool(design.xabsl_name or design.arithmetic) or is_named
+    return "xabsl" in project.languages or bool(design.xabsl_name or design.arithmetic)
 
 
 def _check(state: State, name: str) -> Check:
@@ -100,7 +99,8 @@ def _enter_and_leave(project: Project, state: State, ids: ListIds) -> Section:
 
 
 def _more(project: Project, design: Design, state: State) -> Section:
-    names = ["capacity", "synchronized", *(["xabsl_name"] if uses_xabsl(project, design) else [])]
+    has_xabsl_name = bool(state.xabsl_name) or uses_xabsl(project, design)
+    names = ["capacity", "synchronized", *(["xabsl_name"] if has_xabsl_name else [])]
     fields = Row(nodes=tuple(_text(state, name) for name in names))
     set_parts = [
         *(["disabled"] if state.disabled else []),
