@@ -139,7 +139,6 @@ def test_what_few_need_stands_in_folds(editor: str, page: Page, project: Path) -
     expect(page.get_by_text("enter a whole number of robots")).to_be_visible()
     capacity.fill("1")
     page.get_by_label("Synchronized (robots)").fill("2")
-    page.get_by_label("Name in XABSL").fill("strike")
     # A form that is built anew keeps its folds open.
     page.get_by_label("State", exact=True).fill("Strike")
     page.keyboard.press("Enter")
@@ -147,7 +146,6 @@ def test_what_few_need_stands_in_folds(editor: str, page: Page, project: Path) -
     state = text[text.index("  Strike:") :]
     assert "    capacity: 1\n" in state
     assert "    synchronized: 2\n" in state
-    assert "    xabsl_name: strike\n" in state
 
 
 def test_a_field_keeps_focus_and_item_while_others_change_the_list(editor: str, page: Page, other: Page) -> None:

@@ -102,10 +102,8 @@ def test_what_others_make_of_the_text_meanwhile_stays(
     doc = kick_hard(other, editor)
     line.release()
     page.keyboard.type(" And then.")
-    expect(page.get_by_role("textbox", name="Description")).to_have_value(
-        "Kick, with the eyes on the ball. Defend now. And then."
-    )
-    expect(doc).to_have_value("Kick hard, with the eyes on the ball. Defend now. And then.")
+    for each in (page.get_by_role("textbox", name="Description"), doc):
+        expect(each).to_have_value("Kick hard, with the eyes on the ball. Defend now. And then.")
 
 
 def test_what_is_told_twice_is_in_the_text_once(editor: str, page: Page, other: Page, line: SlowConnection) -> None:
@@ -124,12 +122,12 @@ def test_what_is_typed_into_a_wide_editor_is_kept_when_its_state_is_renamed(
     editor: str, page: Page, other: Page, line: SlowConnection
 ) -> None:
     open_player(page, editor)
-    select_state(page, "CircleBall")
+    select_state(page, "WatchBall")
     page.get_by_role("button", name=re.compile("^Enlarge: ")).first.click()
     page.get_by_role("dialog").locator(".cm-content").click()
     page.keyboard.type("first")
     open_player(other, editor)
-    select_state(other, "CircleBall")
+    select_state(other, "WatchBall")
     code = other.get_by_label("Inspector").locator(".cm-content").first
     expect(code).to_contain_text("first")
     line.hold()

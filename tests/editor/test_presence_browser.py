@@ -131,14 +131,9 @@ def test_two_people_type_into_one_field(editor: str, page: Page, other: Page) ->
         theirs.press_sequentially(there)
     # So slowly that each letter is sent by itself, after what the other one typed.
     theirs.press_sequentially("we ", delay=300)
-    # Who types is not disturbed; once both rest, both see both.
-    expect(mine).to_have_value("kick the ball hard")
-    expect(theirs).to_have_value("then we kick the ball")
-    expect(mine).to_be_focused()
-    mine.blur()
-    theirs.blur()
     for each in (mine, theirs):
         expect(each).to_have_value("then we kick the ball hard")
+        expect(each).to_be_focused()
 
 
 @pytest.mark.nightly
@@ -196,20 +191,18 @@ def test_a_wide_editor_stays_while_its_form_changes_until_its_state_is_gone(
 ) -> None:
     open_player(page, editor)
     open_player(other, editor)
-    select_state(page, "CircleBall")
+    select_state(page, "WatchBall")
     page.get_by_role("button", name=re.compile("^Enlarge: ")).first.click()
     wide = page.get_by_role("dialog").locator(".cm-content")
     wide.click()
     page.keyboard.press("Control+End")
     page.keyboard.type(" or first")
-    select_transition(other, "CircleBall/0")
+    select_transition(other, "WatchBall/0")
     other.get_by_role("checkbox", name="Disabled").click()
-    expect(page.locator('g[data-kind="transition"][data-id="CircleBall/0"]').first).to_have_class(
-        re.compile("disabled")
-    )
+    expect(page.locator('g[data-kind="transition"][data-id="WatchBall/0"]').first).to_have_class(re.compile("disabled"))
     page.keyboard.type(" and second")
     expect(wide).to_contain_text("or first and second")
-    select_state(other, "CircleBall")
+    select_state(other, "WatchBall")
     other.get_by_label("State", exact=True).fill("GoRound")
     other.get_by_label("State", exact=True).press("Enter")
     expect(state(page, "GoRound")).to_be_visible()

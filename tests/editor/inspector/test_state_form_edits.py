@@ -295,6 +295,10 @@ def test_the_form_shows_each_part_of_a_state() -> None:
     ]
     plain = item_form(PROJECT, design, ItemRef(kind="states", id="B"), ListIds())
     assert not any(node.is_set for node in plain if isinstance(node, Section))
+    # XABSL matters to the whole project, to a state with a name in it, or not at all.
+    assert "xabsl_name" not in texts_of(plain)
+    with_xabsl = Project(name="p", languages=("python", "xabsl"))
+    assert "xabsl_name" in texts_of(item_form(with_xabsl, design, ItemRef(kind="states", id="B"), ListIds()))
     assert [card.title for node in nodes if isinstance(node, Cards) for card in node.cards] == [
         "Set",
         "Code",

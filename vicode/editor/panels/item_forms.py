@@ -189,6 +189,9 @@ class ItemForms:
                 fixes = self._fixes(number)
                 if index < len(fixes) and fixes[index].label == label:
                     apply_fix(self.context, fixes[index])
+                else:
+                    # The text has changed since the menu was filled.
+                    self.context.show_toast(texts.FIX_OUTDATED, "info")
 
     def _path_in_file(self, item: ItemRef, path: str) -> DesignPath:
         """The path in the file of a field; empty if it no longer exists."""

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 NO_PROBLEMS = "No problems found"
 NO_FIX = "No automatic fix available"
+FIX_OUTDATED = "The text has changed. Choose the fix again."
 NO_DECLARATIONS = "None"
 NO_SUCH_COMPONENT = "No such component."
 NO_MATCHING_DESIGNS = "No designs match the filter."
