@@ -122,7 +122,7 @@ def test_the_history_leads_to_any_point_by_mouse_and_keys(editor: str, page: Pag
     select_state(page, "Kick")
     for text in ("one", "two"):
         type_doc(page, text)
-        page.get_by_label("Initial").click()
+        page.get_by_role("checkbox", name="Initial").click()
     # What is typed just before a reload is not lost.
     page.get_by_role("textbox", name="Description").fill("three")
     page.reload()

@@ -234,7 +234,8 @@ def test_each_language_of_the_code_has_a_tab(editor: str, page: Page, project: P
     tabs = page.get_by_role("tablist", name="Languages of the code").first
     expect(tabs.get_by_role("tab", name="Python")).to_have_attribute("aria-selected", "true")
     tabs.get_by_role("tab", name="C++").click()
-    code = page.get_by_label("Inspector").get_by_label("C++", exact=True)
+    # All codes of a form are shown in the same language.
+    code = page.get_by_label("Inspector").get_by_label("C++", exact=True).first
     expect(code).to_have_text("distances_[distance_count_++ % distances_.size()] = perception.ball_distance;")
     retype(page, code, "distance_count_ += 2;")
     text = save(page, project / "forward" / "player.yaml")

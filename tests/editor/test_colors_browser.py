@@ -7,10 +7,11 @@ from playwright.sync_api import Page, expect
 from tests.editor.player_page import open_player, save, select_state, state
 
 
-def test_a_state_is_colored_by_one_click(editor: str, page: Page, project: Path) -> None:
+def test_a_state_is_colored(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     select_state(page, "Kick")
     green = page.get_by_role("button", name="Color green")
+    page.get_by_label("Inspector").get_by_role("button", name="More").click()
     green.click()
     expect(green).to_have_attribute("aria-pressed", "true")
     drawn = state(page, "Kick").locator(".box")

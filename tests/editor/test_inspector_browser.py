@@ -11,7 +11,7 @@ def test_sections_stay_open_for_other_states_and_after_a_reload(editor: str, pag
     open_player(page, editor)
     select_state(page, "Kick")
     expect(page.get_by_label("Capacity (robots at once)")).to_have_count(0)
-    page.get_by_label("Inspector").get_by_text("Team and XABSL").click()
+    page.get_by_label("Inspector").get_by_role("button", name="More").click()
     expect(page.get_by_label("Capacity (robots at once)")).to_be_visible()
     select_state(page, "GetUp")
     expect(page.get_by_label("Capacity (robots at once)")).to_be_visible()

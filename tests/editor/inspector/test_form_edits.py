@@ -8,8 +8,10 @@ import pytest
 from tests.editor.session.conftest import open_design
 from vicode.editor.session import DocumentSession
 from vicode.editor.session.decoding import MalformedEventError, decode_event
-from vicode.editor.session.forms.edits import FORM_EDITS, FormResult
+from vicode.editor.session.forms.edits import FORM_EDITS
 from vicode.editor.session.forms.form_data import item_form
+from vicode.editor.session.forms.form_places import FormResult
+from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import CodeText, Decisions, Languages, TextField
 from vicode.editor.view import ItemRef
 from vicode.model.design import Code, CommonSection, DecisionGroup, Design, Guard, State, Stay, Transition
@@ -108,6 +110,14 @@ def test_only_the_fields_of_the_form_can_be_written(document: DocumentSession, p
     assert document.design is DESIGN
 
 
+@pytest.mark.parametrize("path", ["", "doc", "requires", "transitions/0", "states"])
+def test_decisions_are_only_added_to_lists_of_decisions(document: DocumentSession, path: str) -> None:
+    for item in (FIRST, {"of": "states", "id": "A"}):
+        for action in ("add-stay", "add-group", "remove-row", "move-row"):
+            assert edit(document, "press", item, action=action, path=path, to="0").error
+    assert document.design is DESIGN
+
+
 def test_malformed_edits_are_not_decoded(document: DocumentSession) -> None:
     for fields in ({"path": 1}, {"path": "doc", "base": "", "text": None}, {"path": "doc", "text": "x"}):
         with pytest.raises(MalformedEventError):
@@ -149,11 +159,11 @@ def test_the_form_shows_each_part_of_a_decision() -> None:
         guard=Guard(when="x", after="1", code=Code(texts=(("python", "return x"), ("cpp", "return x;")))),
     )
     design = replace(DESIGN, time_unit="ms", states=(replace(DESIGN.states[0], transitions=(coded,)), DESIGN.states[1]))
-    nodes = item_form(Project(name="p"), design, ItemRef(kind="transitions", id="A/0"))
+    nodes = item_form(Project(name="p"), design, ItemRef(kind="transitions", id="A/0"), ListIds())
     texts = {node.label: node.value for node in nodes if isinstance(node, TextField | CodeText)}
     assert texts == {"When": "x", "After (milliseconds in this state)": "1", "Description": ""}
     (code,) = (node for node in nodes if isinstance(node, Languages))
     assert [(text.language, text.value) for text in code.texts] == [("python", "return x"), ("cpp", "return x;")]
-    group = item_form(Project(name="p"), DESIGN, ItemRef(kind="transitions", id="A/1"))
+    group = item_form(Project(name="p"), DESIGN, ItemRef(kind="transitions", id="A/1"), ListIds())
     lists = [node for node in group if isinstance(node, Decisions)]
     assert [[row.target for row in each.rows] for each in lists] == [["→ A", "stay"], ["stay"]]

@@ -16,7 +16,9 @@ export async function findFault(folder, people, stored) {
 
 function run(seed, people, stored, SyncedText, mergeTexts) {
   const random = randomNumbers(seed);
-  const store = (text) => (stored === "as typed" ? text : text.trim());
+  const store = (text) => (stored === "without outer spaces" ? text.trim() : text);
+  // As a line `name = expression` cannot be read while it is typed.
+  const refuses = (text) => stored === "whole words only" && text.endsWith(" ");
   let design = "[]";
   const writers = WORDS.slice(0, people).map((words, number) => ({
     words,
@@ -24,7 +26,7 @@ function run(seed, people, stored, SyncedText, mergeTexts) {
     id: 0,
     // One types at the start, the other at the end: their letters must not mix.
     type: (text, letter, count) => (number ? text.slice(0, 1 + count) + letter + text.slice(1 + count) : text + letter),
-    field: Object.assign(new SyncedText(design), { hasFocus: true }),
+    field: Object.assign(new SyncedText(design, stored === "whole words only" && "checked"), { hasFocus: true }),
     up: [],
     down: [],
   }));
@@ -42,13 +44,17 @@ function run(seed, people, stored, SyncedText, mergeTexts) {
       if (edit) up.push({ id: (writer.id += 1), ...edit });
     } else if (choice < 0.8 && up.length) {
       const { id, base, text } = up.shift();
+      if (refuses(text)) {
+        down.push({ id, own: "", error: "refused" });
+        continue;
+      }
       design = store(store(base) === design ? text : mergeTexts(base, text, design));
       for (const each of writers) each.down.push({ text: design });
       down.push({ id, own: store(text) });
     } else if (down.length) {
       const before = field.local;
-      const { text, id, own } = down.shift();
-      if (text === undefined) field.acknowledge(id, own, "");
+      const { text, id, own, error = "" } = down.shift();
+      if (text === undefined) field.acknowledge(id, own, error);
       else field.receive(text);
       if (people === 1 && field.local !== before) return `typed ${before}, shown ${field.local}`;
     }

@@ -25,8 +25,6 @@ class CodeAssist(ui.element, component=CODE_JS / "vicode_code.js"):
         editor: the code editor.
         label: its accessible name.
         complete: computes completions; None for an editor without completion.
-        is_expression: highlight the text as an expression, and let Tab leave the editor.
-        is_single: whether it is one expression: Enter leaves the editor, Shift+Enter inserts a line break.
         hint: placeholder of the empty editor.
         on_line_selected: called with the line number when the user moves the cursor.
     """
@@ -37,8 +35,6 @@ class CodeAssist(ui.element, component=CODE_JS / "vicode_code.js"):
         *,
         label: str,
         complete: Complete | None = None,
-        is_expression: bool = False,
-        is_single: bool = False,
         hint: str = "",
         on_line_selected: Callable[[int], None] | None = None,
     ) -> None:
@@ -51,8 +47,6 @@ class CodeAssist(ui.element, component=CODE_JS / "vicode_code.js"):
         self.props["options"] = {
             "label": label,
             "completes": complete is not None,
-            "isExpression": is_expression,
-            "isSingle": is_single,
             "hint": hint,
             "reportsLine": on_line_selected is not None,
         }

@@ -31,7 +31,14 @@ class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
     ) -> None:
         super().__init__()
         self._on_edit, self._on_event, self._on_malformed = on_edit, on_event, on_malformed
-        self._data: dict[str, Any] = {"rev": -1, "forms": {}, "marks": {}, "lists": {}, "language": ""}
+        self._data: dict[str, Any] = {
+            "rev": -1,
+            "forms": {},
+            "marks": {},
+            "lists": {},
+            "language": "",
+            "open_sections": [],
+        }
         self._selection: tuple[list[dict[str, str]], int] = ([], 0)
         self._opened: ItemRef | None = None
         self._is_mounted = False

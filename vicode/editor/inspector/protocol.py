@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from vicode.editor.view import ItemRef
 
@@ -73,7 +73,16 @@ class ShowLanguage:
     language: str
 
 
-FormEvent = FocusField | SelectItem | CompleteText | OpenCode | ListFixes | ApplyFix | ShowLanguage
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ToggleSection:
+    """The user opened or closed a section; it stays so for all items."""
+
+    kind: ClassVar = "section"
+    key: Literal["enter-leave", "more"]
+    is_open: bool
+
+
+FormEvent = FocusField | SelectItem | CompleteText | OpenCode | ListFixes | ApplyFix | ShowLanguage | ToggleSection
 _EVENTS: tuple[type[FormEvent], ...] = (
     FocusField,
     SelectItem,
@@ -82,6 +91,7 @@ _EVENTS: tuple[type[FormEvent], ...] = (
     ListFixes,
     ApplyFix,
     ShowLanguage,
+    ToggleSection,
 )
 FORM_EVENTS: Mapping[str, type[FormEvent]] = {event.kind: event for event in _EVENTS}
 """The events by kind."""

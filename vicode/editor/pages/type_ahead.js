@@ -25,7 +25,6 @@
     true,
   );
   document.addEventListener("pointerdown", stop, true);
-  document.addEventListener("click", ({ target }) => target.closest("[data-opens-field]") && window.awaitField(), true);
   document.addEventListener("focusin", ({ target }) => {
     if (text === null || !isField(target)) return;
     const typed = text;

@@ -1,6 +1,6 @@
 """Fields for code and expressions, with highlighting, completion and marks at errors."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -16,28 +16,24 @@ from vicode.editor.panels.form import Form
 from vicode.editor.panels.open_in_editor import open_in_editor
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.code_marks import CodeMark, mark_assignments, mark_text
+from vicode.editor.session.code_marks import CodeMark, mark_text
 from vicode.editor.session.completion import (
     CompletionResult,
-    complete_assignments,
     complete_expression,
     complete_python,
 )
 from vicode.editor.session.fixes import is_fixable
 from vicode.languages import LANGUAGES
-from vicode.model.design import Declaration
 
 _SHOWN_MESSAGES = 6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodeFieldSpec:
-    """The content type of a code field: completion, marks and style."""
+    """The content type of a code field: completion and marks."""
 
     complete: Callable[[str, int], CompletionResult]
     find_marks: Callable[[str], Sequence[CodeMark]]
-    css_class: str
-    is_expression: bool = True
     mode: Literal["Python", "C++", "C"] = "Python"
     open_in_editor: Callable[[], None] | None = None
 
@@ -64,21 +60,8 @@ def code_field(form: Form, binding: FieldBinding, language: str = "python") -> F
     spec = CodeFieldSpec(
         complete=lambda text, at: complete(context.workspace.project, context.design, text, at),
         find_marks=find_marks,
-        css_class="code-field",
-        is_expression=False,
         mode=LANGUAGES[language].editor_mode,
         open_in_editor=lambda: open_in_editor(context, binding.get_path(), language),
-    )
-    return add_field(form, _build(context, binding, spec))
-
-
-def pairs_field(form: Form, binding: FieldBinding, settable: Callable[[], Iterable[Declaration]]) -> Field:
-    """Build a field for lines `name = expression`; `settable` returns the allowed names."""
-    context = form.context
-    spec = CodeFieldSpec(
-        complete=lambda text, at: complete_assignments(context.workspace.project, context.design, settable(), text, at),
-        find_marks=lambda text: mark_assignments(text, binding.get_path(), context.document.findings),
-        css_class="code-field expression-field",
     )
     return add_field(form, _build(context, binding, spec))
 
@@ -100,13 +83,12 @@ def _build(
                 if spec.open_in_editor is not None:
                     icon_button("open_in_new", f"Open in editor: {binding.label}", spec.open_in_editor)
                 icon_button("open_in_full", f"Enlarge: {binding.label}", lambda: _enlarge(fields[0], spec))
-        editor = context.code_editors.create(on_focus=focus, language=None if spec.is_expression else spec.mode)
-        editor.classes(spec.css_class + (" is-large" if is_large else ""))
+        editor = context.code_editors.create(on_focus=focus, language=spec.mode)
+        editor.classes("code-field" + (" is-large" if is_large else ""))
         code_assist = CodeAssist(
             editor,
             label=binding.label,
             complete=spec.complete,
-            is_expression=spec.is_expression,
             hint=binding.hint,
         )
         messages = ui.column().classes("field-messages").props('role="status"')

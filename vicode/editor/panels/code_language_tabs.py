@@ -1,6 +1,5 @@
 """Fields for hand-written code: one, or with several languages a tab for each."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 from nicegui import ui
@@ -15,22 +14,14 @@ from vicode.editor.session.item_paths import TrackedItem
 from vicode.languages import LANGUAGES, language_title
 
 
-def code_fields(
-    form: Form,
-    item: TrackedItem,
-    name: str,
-    label: str = "",
-    *,
-    bind: Callable[[FieldBinding], FieldBinding] = lambda binding: binding,
-) -> None:
+def code_fields(form: Form, item: TrackedItem, name: str, label: str) -> None:
     """Build the fields of an attribute that is code.
 
     Args:
         form: The form.
         item: The owner of the code.
         name: The attribute.
-        label: The label; by default the language. With several languages, the others are named in the labels.
-        bind: Changes the binding of each field.
+        label: The label. With several languages, the others are named in the labels.
     """
     context = form.context
 
@@ -61,7 +52,7 @@ def code_fields(
         tabs.on_value_change(lambda event: show(str(event.value)))
 
     def build_field(row: Form, language: str) -> None:
-        code_field(row, bind(_binding(item, name, label, language)), language)
+        code_field(row, _binding(item, name, label, language), language)
 
     Rows(form, lambda: [list_languages()], build)
 
@@ -69,7 +60,7 @@ def code_fields(
 def _binding(item: TrackedItem, name: str, label: str, language: str) -> FieldBinding:
     title = language_title(language)
     attribute = Attribute(
-        label=(label if language == "python" else f"{label} in {title}") if label else title,
+        label=label if language == "python" else f"{label} in {title}",
         name=name,
         format=lambda code: (code.in_language(language) if code else "") or "",
         parse=lambda text: replace_text(getattr(item.get(), name), language, text),

@@ -6,10 +6,8 @@ from dataclasses import replace
 from nicegui import ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.actions_panel import actions_panel
 from vicode.editor.panels.code_language_tabs import code_fields
 from vicode.editor.panels.collapsible import collapsible_section
-from vicode.editor.panels.decisions_list import decisions_list
 from vicode.editor.panels.declarations import SECTIONS, declarations_form
 from vicode.editor.panels.fields import (
     DOC,
@@ -26,10 +24,12 @@ from vicode.editor.panels.fields import (
 from vicode.editor.panels.form import Form, Rows
 from vicode.editor.panels.interface_lists import commands_list, inputs_list
 from vicode.editor.panels.project.project_form import project_form
+from vicode.editor.panels.texts import pluralize
 from vicode.editor.panels.widgets import add_button, heading, icon_button, panel_title
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.item_paths import TrackedItem
-from vicode.model.design import Use
+from vicode.editor.view import ItemRef
+from vicode.model.design import COMMON, Design, Use
 from vicode.model.edits import add_use, remove_uses
 
 _INITIAL = Attribute(label="Initial state", name="initial")
@@ -56,7 +56,7 @@ def design_panel(form: Form) -> None:
     for section, title, hint in SECTIONS:
         heading(title, hint=hint)
         declarations_form(form, section)
-    common_panel(form)
+    _common(form)
     _code(form, design)
     project_form(form)
 
@@ -96,14 +96,26 @@ def _code(form: Form, design: TrackedItem) -> None:
     collapsible_section(form, "code", lambda: "Code", caption, build, is_shared=True)
 
 
-def common_panel(form: Form) -> None:
-    """Build the form of the common transitions and actions."""
-    common = form.item("common")
-    heading("Common transitions", hint="tested in every state, before its own transitions")
-    decisions_list(form, common, "transitions")
-    heading("Common actions", hint="run in every state, before its own actions")
-    actions_panel(form, common, "actions")
-    attribute_field(form, common, replace(DOC, label="Description (all states)"))
+def _common(form: Form) -> None:
+    """Build a row that leads to the form of the common transitions and actions."""
+    context = form.context
+    heading("Every state", hint="transitions and actions before those of each state")
+    row = ui.element("button").props('type="button"').classes("choice use-row")
+    row.on("click", lambda: context.select(ItemRef(kind="common", id=COMMON)))
+    with row:
+        ui.label("Common transitions and actions")
+        count = ui.label().classes("component-name ellipsis")
+    form.watch(lambda: _describe_common(context.design), count.set_text)
+
+
+def _describe_common(design: Design) -> str:
+    common = design.common
+    parts = [
+        pluralize(len(items), noun)
+        for items, noun in ((common.transitions, "transition"), (common.actions, "action"))
+        if items
+    ]
+    return ", ".join(parts) or "none"
 
 
 def _uses(form: Form) -> None:

@@ -2,13 +2,12 @@
 
 from nicegui import ui
 
-from vicode.editor.panels.design_panel import common_panel, design_panel
+from vicode.editor.panels.design_panel import design_panel
 from vicode.editor.panels.form import Form, RemovedTexts, Rows
 from vicode.editor.panels.frame_panel import frame_panel
 from vicode.editor.panels.item_forms import ItemForms
 from vicode.editor.panels.multi_selection_panel import multi_selection_panel
 from vicode.editor.panels.note_panel import note_panel
-from vicode.editor.panels.state_panel import state_panel
 from vicode.editor.panels.use_panel import link_panel, use_panel
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.forms.form_data import has_form
@@ -51,7 +50,8 @@ class Inspector:
         self._last_seen = (context.selected, context.design)
         if tuple(rebase_selection(item, before[1], context.design) for item in before[0]) != context.selected:
             self._selection_number += 1
-            context.client.run_javascript(_SCROLL_TO_TOP % self._host.id)
+            if self._item_kind() is not None:
+                context.client.run_javascript(_SCROLL_TO_TOP % self._host.id)
         return [(self._selection_number, self._item_kind())]
 
     def _item_kind(self) -> object:
@@ -61,8 +61,8 @@ class Inspector:
             # Drawn by the browser.
             return None
         match context.single_selection:
-            case ItemRef(kind="states", id=name):
-                return "state" if context.design.state(name) is not None else None
+            case ItemRef(kind="states"):
+                return None
             case ItemRef(kind="components", id=alias):
                 use, project = context.design.use(alias), context.workspace.project
                 interface = project.interface(use.component) if use else None
@@ -83,14 +83,10 @@ class Inspector:
         if self._item_kind() is None:
             return
         match context.single_selection:
-            case ItemRef(kind="states", id=name):
-                state_panel(form, name)
             case ItemRef(kind="components", id=alias):
                 use_panel(form, alias)
             case ItemRef(kind="links", id=key):
                 link_panel(context, key)
-            case ItemRef(kind="common"):
-                common_panel(form)
             case ItemRef(kind="frames", id=name):
                 frame_panel(form, name)
             case ItemRef(kind="notes", id=name):

@@ -14,20 +14,31 @@ from vicode.editor.inspector.protocol import (
     OpenCode,
     SelectItem,
     ShowLanguage,
+    ToggleSection,
 )
 from vicode.editor.panels import texts
 from vicode.editor.panels.finding_navigation import apply_fix
 from vicode.editor.panels.open_in_editor import open_in_editor
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.completion import CompletionResult, complete_expression, complete_python
+from vicode.editor.session.completion import (
+    CompletionResult,
+    complete_assignments,
+    complete_expression,
+    complete_python,
+)
 from vicode.editor.session.fixes import find_fixes
-from vicode.editor.session.forms.edits import FormEdit, TextEdit, item_path
-from vicode.editor.session.forms.form_data import Forms, item_form, option_lists
-from vicode.editor.session.forms.marks import field_path, finding_path, marks_of, note_at
+from vicode.editor.session.forms.action_form import component_parameters, settable_declarations
+from vicode.editor.session.forms.edits import FormEdit, NameEdit, TextEdit
+from vicode.editor.session.forms.form_data import Forms, has_form
+from vicode.editor.session.forms.form_paths import file_path, item_path, parse_path, resolve
+from vicode.editor.session.forms.marks import ItemFields, marks_of, note_at
+from vicode.editor.session.forms.state_form import OUTSIDE
+from vicode.editor.session.item_paths import item_at
 from vicode.editor.session.rebase import rebase_selection
+from vicode.editor.session.texts import ITEM_MISSING
 from vicode.editor.view import ItemRef, item_at_path
 from vicode.findings import DesignPath
-from vicode.model.design import Design
+from vicode.model.design import Call, Design
 
 _MAX_TEXT_LENGTH = 200_000
 
@@ -38,6 +49,8 @@ class ItemForms:
     def __init__(self, context: WindowContext) -> None:
         self.context = context
         self._shown: tuple[Design, Forms] = (context.design, {})
+        self._edited: tuple[ItemRef, str] | None = None
+        """The item and the path of the field with the focus."""
         self.view = FormView(self._edit, self._handle, self._on_malformed)
         context.linter.changes.subscribe(lambda: None if self.view.is_deleted else self.refresh())
 
@@ -47,20 +60,34 @@ class ItemForms:
     def refresh(self) -> None:
         """Send what has changed, and the selection."""
         context = self.context
-        forms = context.document.shared.forms(context.workspace.project)
+        project, shared = context.workspace.project, context.document.shared
+        forms = shared.forms(project)
         data = {
             "rev": context.document.rev,
             "forms": forms,
             "marks": self._marks(),
-            "lists": option_lists(context.design),
+            "lists": shared.form_lists(project),
             "language": context.code_language,
+            "open_sections": sorted(context.open_sections),
         }
         self.view.show(data, self._find_moved(forms))
+        self._follow_edited()
         self._shown = (context.design, forms)
         self.view.select(context.selected, context.selection_seq)
         if context.is_opening and context.single_selection is not None:
             context.is_opening = False
             self.view.open(context.single_selection)
+
+    def _follow_edited(self) -> None:
+        """Say so if another user has removed what the user is typing into."""
+        if self._edited is None or self._shown[0] is self.context.design:
+            return
+        item, path = self._edited
+        now = rebase_selection(item, self._shown[0], self.context.design)
+        is_there = now is not None and has_form(self.context.design, now) and self._path_in_file(now, path)
+        self._edited = (now, path) if now is not None and is_there else None
+        if not is_there:
+            self.context.show_toast(texts.EDITED_ITEM_REMOVED, "warning")
 
     def _find_moved(self, forms: Forms) -> dict[str, str]:
         """The new keys of items whose forms changed their places."""
@@ -69,18 +96,22 @@ class ItemForms:
             return {}
         moved = {}
         for key, text in before.items():
-            if forms.get(key) == text:
-                continue
             kind, _slash, id_ = key.partition("/")
+            if forms.get(key) == text or kind == "common":
+                continue
             item = ItemRef(kind="transitions" if kind == "transitions" else "states", id=id_)
             now = rebase_selection(item, design, self.context.design)
             if now is not None and now != item:
                 moved[key] = f"{now.kind}/{now.id}"
         return moved
 
+    def _fields(self, item: ItemRef) -> ItemFields:
+        context = self.context
+        return ItemFields.of(context.workspace.project, context.design, item, context.document.shared.list_ids)
+
     def _marks(self) -> dict[str, list[dict[str, Any]]]:
         """The messages of the items with findings, and of the selected one."""
-        context, project = self.context, self.context.workspace.project
+        context = self.context
         findings = context.document.findings
         items = {
             item_at_path(finding.subject.path)
@@ -89,39 +120,50 @@ class ItemForms:
         }
         selected = context.single_selection
         marks = {
-            f"{item.kind}/{item.id}": marks_of(item_form(project, context.design, item), item_path(item), findings)
+            f"{item.kind}/{item.id}": marks_of(self._fields(item), findings)
             for item in items
-            if item != selected
+            if item != selected and has_form(context.design, item)
         }
-        if selected is not None:
-            nodes, path = item_form(project, context.design, selected), item_path(selected)
-            own = marks_of(nodes, path, findings, context.linter.lints_for)
-            marks[f"{selected.kind}/{selected.id}"] = [*own, *self._others_typing(path)]
+        if selected is not None and has_form(context.design, selected):
+            fields = self._fields(selected)
+            own = marks_of(fields, findings, context.linter.lints_for)
+            marks[f"{selected.kind}/{selected.id}"] = [*own, *self._notices(selected), *self._others_typing(fields)]
         return {key: found for key, found in marks.items() if found}
 
-    def _others_typing(self, item: DesignPath) -> list[dict[str, Any]]:
+    def _notices(self, item: ItemRef) -> list[dict[str, Any]]:
+        document = self.context.document
+        is_marked = item in document.shared.outside.marked_items(document.history)
+        return [note_at(OUTSIDE, texts.CHANGED_OUTSIDE)] if is_marked else []
+
+    def _others_typing(self, fields: ItemFields) -> list[dict[str, Any]]:
         presence, window = self.context.presence, self.context.window
-        paths = {other.editing_path for other in presence.others(window)}
+        edited = {other.editing_path for other in presence.others(window)}
         return [
-            note_at(field_path(item, path), texts.others_typing(presence.names_editing(path, window)))
-            for path in paths
-            if item and path[: len(item)] == item != path
+            note_at(path, texts.others_typing(presence.names_editing(in_file, window)))
+            for path, in_file in fields.paths.items()
+            if in_file in edited
         ]
 
     def _edit(self, edit: FormEdit) -> Mapping[str, object]:
-        result = edit.apply(self.context.document)
+        context = self.context
+        result = edit.apply(context.document)
         if result.new_selection is not None:
-            self.context.select(*result.new_selection)
-        if result.error and not isinstance(edit, TextEdit):
-            # Text fields show their errors themselves.
-            self.context.show_toast(texts.sentence(result.error), "warning")
+            context.select(*result.new_selection)
+        if result.renamed is not None and result.renamed[0] in context.selected:
+            context.select(*(result.renamed[1] if item == result.renamed[0] else item for item in context.selected))
+        if result.error == ITEM_MISSING:
+            context.show_toast(texts.EDITED_ITEM_REMOVED, "warning")
+        elif result.error and not isinstance(edit, TextEdit | NameEdit):
+            # Fields for texts show their errors themselves.
+            context.show_toast(texts.sentence(result.error), "warning")
         return {"own": result.own, "error": result.error}
 
     def _handle(self, event: FormEvent) -> None:
         context = self.context
         match event:
             case FocusField(item=item, path=path):
-                editing = () if path is None else finding_path(item_path(item), _steps(path))
+                self._edited = None if path is None else (item, path)
+                editing = () if path is None else self._path_in_file(item, path)
                 context.presence.update(context.window, editing_path=editing)
             case SelectItem(item=item):
                 context.select(item)
@@ -129,15 +171,33 @@ class ItemForms:
             case CompleteText():
                 self._complete(event)
             case OpenCode(item=item, path=path):
-                open_in_editor(context, finding_path(item_path(item), _steps(path))[:-1], _steps(path)[-1])
+                in_file = self._path_in_file(item, path)
+                if in_file:
+                    open_in_editor(context, in_file[:-1], str(in_file[-1]))
+            case ShowLanguage(language=language):
+                context.code_language = language
+            case ToggleSection(key=key, is_open=is_open):
+                (context.open_sections.add if is_open else context.open_sections.discard)(key)
+            case _:
+                self._handle_fixes(event)
+
+    def _handle_fixes(self, event: ListFixes | ApplyFix) -> None:
+        match event:
             case ListFixes(finding=number):
                 self.view.show_fixes(fix.label for fix in self._fixes(number))
             case ApplyFix(finding=number, index=index, label=label):
                 fixes = self._fixes(number)
                 if index < len(fixes) and fixes[index].label == label:
-                    apply_fix(context, fixes[index])
-            case ShowLanguage(language=language):
-                context.code_language = language
+                    apply_fix(self.context, fixes[index])
+                else:
+                    # The text has changed since the menu was filled.
+                    self.context.show_toast(texts.FIX_OUTDATED, "info")
+
+    def _path_in_file(self, item: ItemRef, path: str) -> DesignPath:
+        """The path in the file of a field; empty if it no longer exists."""
+        design, ids, owner = self.context.design, self.context.document.shared.list_ids, item_path(item)
+        steps = resolve(design, ids, owner, parse_path(path))
+        return () if steps is None else file_path(owner, steps)
 
     def _fixes(self, number: int) -> list[Any]:
         context, findings = self.context, self.context.document.findings
@@ -145,14 +205,28 @@ class ItemForms:
         return list(find_fixes(context.workspace.project, context.design, findings[number])) if known else []
 
     def _complete(self, request: CompleteText) -> None:
-        project, design = self.context.workspace.project, self.context.design
         result = CompletionResult(start=request.offset, options=())
         if len(request.text) <= _MAX_TEXT_LENGTH and 0 <= request.offset <= len(request.text):
-            complete = complete_python if _steps(request.path)[-1] == "python" else complete_expression
-            result = complete(project, design, request.text, request.offset)
+            result = self._completions(request)
         answer = {"start": result.start, "options": [asdict(option) for option in result.options]}
         self.view.answer_completion(request.number, answer)
 
-
-def _steps(path: str) -> tuple[str, ...]:
-    return tuple(path.split("/"))
+    def _completions(self, request: CompleteText) -> CompletionResult:
+        project, design, ids = (
+            self.context.workspace.project,
+            self.context.design,
+            self.context.document.shared.list_ids,
+        )
+        owner = item_path(request.item)
+        steps = resolve(design, ids, owner, parse_path(request.path)) or ()
+        match steps[-1:]:
+            case ("python",):
+                return complete_python(project, design, request.text, request.offset)
+            case ("values",):
+                settable = settable_declarations(project, design)
+            case ("arguments",):
+                call = item_at(design, (*owner, *steps[:-1]))
+                settable = component_parameters(project, design, call.alias) if isinstance(call, Call) else ()
+            case _:
+                return complete_expression(project, design, request.text, request.offset)
+        return complete_assignments(project, design, settable, request.text, request.offset)

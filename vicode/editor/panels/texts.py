@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 NO_PROBLEMS = "No problems found"
 NO_FIX = "No automatic fix available"
-NO_TRANSITIONS = "No transitions"
+FIX_OUTDATED = "The text has changed. Choose the fix again."
 NO_DECLARATIONS = "None"
 NO_SUCH_COMPONENT = "No such component."
 NO_MATCHING_DESIGNS = "No designs match the filter."
@@ -44,12 +44,11 @@ NOT_IMPLEMENTED = "Not implemented yet"
 NOT_DECLARED = "Not declared in the project."
 LAST_ELEMENT = "An enumeration needs at least one element. Remove the enumeration instead."
 FRAME_NEEDS_STATE = "A frame needs at least one state. Remove the frame instead."
-CAPACITY_HELP = "A robot waits in its current state until there is room."
-SYNCHRONIZED_HELP = "Robots wait in their current state until this many are ready."
 ARITHMETIC_HELP = "xabsl: arithmetic and restart semantics of XABSL. Empty: default semantics."
 TIME_UNIT_HELP = "Unit of state_time and component_time in expressions. Empty: seconds."
 USER_NAME_HELP = "Other users see this name next to your selection and in the history."
 
+EDITED_ITEM_REMOVED = "Another user removed what you were editing"
 CODE_OWNER_CHANGED = "Another user removed, renamed or moved the owner of this code."
 DESIGN_CHANGED_RENAME_AGAIN = "The design changed. Rename again."
 USED_BY_FOLLOWING = "It is used in these places, which will report errors:"
@@ -301,4 +300,4 @@ def nothing_to_open(reason: object) -> str:
 
 def code_languages(label: str) -> str:
     """The name of the tabs of code."""
-    return f"Languages of {label}" if label else "Languages of the code"
+    return f"Languages of {label}"

@@ -24,19 +24,6 @@ def primary_button(label: str, act: ClickHandler, *, icon: str | None = None) ->
     return ui.button(label, icon=icon, on_click=act, color=None).props("unelevated no-caps").classes("primary-button")
 
 
-def reorder_buttons(
-    row_label: str, *, up: ClickHandler | None, down: ClickHandler | None, remove: ClickHandler
-) -> None:
-    """Build buttons to move and remove a row; `up` or `down` is None at that end. `row_label` is for screen readers."""
-    with ui.row().classes("row-buttons"):
-        for icon, label, act in (("arrow_upward", "Move up", up), ("arrow_downward", "Move down", down)):
-            button = icon_button(icon, label, act or (lambda: None))
-            button.props["aria-label"] = f"{label}: {row_label}"
-            if act is None:
-                button.disable()
-        icon_button("close", "Remove", remove).props["aria-label"] = f"Remove: {row_label}"
-
-
 def add_button(label: str, accessible_name: str, act: ClickHandler | None = None, *, icon: str = "add") -> ui.button:
     """Build a small button below a list; `accessible_name` must contain `label`."""
     button = ui.button(label, icon=icon, on_click=act).props("flat dense no-caps size=sm")

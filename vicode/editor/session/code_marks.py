@@ -1,13 +1,11 @@
 """Marks under the characters of a text field, from findings and lint warnings."""
 
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
+from vicode.editor.session.forms.pairs import PAIR
 from vicode.editor.session.lint import LintWarning
 from vicode.findings import DesignPath, Finding, Severity
-
-_PAIR = re.compile(r"[ \t]*(?P<name>[^=:\n]*?)[ \t]*[=:][ \t]*(?P<value>.*?)[ \t]*$", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,7 +34,7 @@ def mark_text(
 
 def mark_assignments(text: str, path: DesignPath, findings: Iterable[Finding]) -> tuple[CodeMark, ...]:
     """The marks in lines `name = expression`; findings are at `path` plus the name."""
-    places = {found["name"]: (found.span("name"), found.start("value")) for found in _PAIR.finditer(text)}
+    places = {found["name"]: (found.span("name"), found.start("value")) for found in PAIR.finditer(text)}
     return tuple(_marks_of_pairs(text, path, findings, places))
 
 

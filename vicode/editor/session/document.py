@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from vicode.editor.session import texts
-from vicode.editor.session.forms.form_data import Forms, FormWriter
+from vicode.editor.session.forms.form_data import FormLists, Forms, FormWriter
+from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
 from vicode.editor.session.outside_edits import OutsideEdits
 from vicode.editor.session.positions import keep_positions
@@ -82,6 +83,8 @@ class SharedDocument:
     notice: ChangeNotice = field(init=False, default=ChangeNotice())
     outside: OutsideEdits = field(init=False, default_factory=OutsideEdits)
     """Edits of the generated code by other programs."""
+    list_ids: ListIds = field(init=False, default_factory=ListIds)
+    """The ids of the actions in the current design."""
     changes: Subscribers[["DocumentSession"]] = field(init=False, default_factory=Subscribers)
     """Called after every change with the session that made it."""
     _drawn: tuple[tuple[object, ...], Scene] | None = field(init=False, default=None)
@@ -102,6 +105,7 @@ class SharedDocument:
             return
         self._recent_designs[self.rev] = self.history.current.design
         self._recent_designs.pop(self.rev - _MAX_RECENT_DESIGNS, None)
+        self.list_ids.follow(self.history.current.design, history.current.design)
         self.history = history
         self.rev += 1
         self.findings = self._find()
@@ -121,9 +125,13 @@ class SharedDocument:
         if self._written_forms is None or not (
             self._written_forms[0][0] is project and self._written_forms[0][1] == self.rev
         ):
-            forms = self._forms.write(project, self.history.current.design)
+            forms = self._forms.write(project, self.history.current.design, self.list_ids)
             self._written_forms = ((project, self.rev), forms)
         return self._written_forms[1]
+
+    def form_lists(self, project: Project) -> FormLists:
+        """What the forms share."""
+        return self._forms.lists(project, self.history.current.design)
 
     def scene_diff(self, before: Scene, now: Scene) -> dict[str, Any]:
         """The difference of two scenes, cached for all windows that show the first."""

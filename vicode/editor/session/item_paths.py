@@ -51,21 +51,11 @@ class TrackedItem:
 
     def remove(self, root: Any) -> Any:
         """The root without the item, which is one of a list."""
-        return self._change_list(root, lambda items, index: items[:index] + items[index + 1 :])
-
-    def move(self, root: Any, by: int) -> Any:
-        """The root with the item moved in its list."""
-
-        def moved(items: tuple[Any, ...], index: int) -> tuple[Any, ...]:
-            rest = [*items[:index], *items[index + 1 :]]
-            rest.insert(index + by, items[index])
-            return tuple(rest)
-
-        return self._change_list(root, moved)
-
-    def _change_list(self, root: Any, change: Callable[[tuple[Any, ...], int], tuple[Any, ...]]) -> Any:
         path = self.path
-        return change_item(root, path[:-1], lambda items: change(items, int(path[-1]))) if path else root
+        if not path:
+            return root
+        index = int(path[-1])
+        return change_item(root, path[:-1], lambda items: items[:index] + items[index + 1 :])
 
 
 def item_at(root: Any, path: DesignPath) -> Any:

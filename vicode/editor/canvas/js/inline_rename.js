@@ -48,8 +48,9 @@ export class InlineRename {
     this.#open("");
   }
 
-  /** Another user renamed the state: the field stays open, and its text will rename the state again. */
+  /** The state was renamed: the field stays open, and its text will rename the state again, or a new one starts from it. */
   stateRenamed(old, name) {
+    if (this.draft?.source === keyOf("states", old)) this.draft.source = keyOf("states", name);
     if (!this.key || this.key !== keyOf("states", old)) return;
     this.key = keyOf("states", name);
     this.isRenamePending = true;

@@ -15,15 +15,15 @@ export const CodeEditor = {
     },
   },
   mounted() {
-    const { node, store, path } = this;
-    const key = store.keyOfField(path);
-    const options = { label: node.label, completes: true, isExpression: this.isExpression, isSingle: node.language === "expression", hint: node.hint };
+    const { node, store, path, field } = this;
+    const hint = node.alias ? store.view.lists.parameters[node.alias] : node.hint;
+    const options = { label: node.label, completes: true, isExpression: this.isExpression, isSingle: node.language === "expression", hint };
     this.assist = createCodeAssist(options, (_event, request) => store.complete(this.assist, path, request));
     this.theme = new CM.Compartment();
     this.language = new CM.Compartment();
     const listener = CM.EditorView.updateListener.of((update) => {
-      if (update.docChanged && !update.transactions.some((each) => each.annotation(fromElsewhere))) store.type(path, update.state.doc.toString());
-      if (update.focusChanged) update.view.hasFocus ? store.focus(path) : store.blur(key);
+      if (update.docChanged && !update.transactions.some((each) => each.annotation(fromElsewhere))) store.type(field, update.state.doc.toString());
+      if (update.focusChanged) update.view.hasFocus ? store.focus(field) : store.blur(field);
     });
     this.view = new CM.EditorView({
       doc: this.field.local,

@@ -1,24 +1,43 @@
 // What the inspector knows: the forms of all items, the texts of their fields, and the edits on their way.
 import { nextTick, reactive } from "vue";
+import { cardsIn, placed, textsOf, withPending } from "./form_data.js";
 import { SyncedText } from "./synced_text.js";
 
 const SEND_MS = 200;
 
 export const keyOf = ({ of, id }) => `${of}/${id}`;
 
+/** What the browser keeps of an item: its fields, choices and new cards that the design does not have yet. */
+class ShownItem {
+  constructor(key, number) {
+    this.key = key;
+    /** Stays the same when the item is renamed. */
+    this.number = number;
+    this.fields = new Map();
+    this.pending = [];
+    this.chosen = reactive({});
+    this.closed = reactive({});
+  }
+
+  get ref() {
+    const slash = this.key.indexOf("/");
+    return { of: this.key.slice(0, slash), id: this.key.slice(slash + 1) };
+  }
+}
+
 export class FormStore {
   constructor(emit) {
     this.emit = emit;
     this.rev = -1;
     this.editId = 0;
+    this.itemCount = 0;
     this.forms = new Map();
-    this.fields = new Map();
-    this.actions = new Map();
+    this.items = new Map();
     this.timers = new Map();
-    this.view = reactive({ key: null, nodes: [], lists: {}, marks: {}, openSections: [], language: "" });
+    this.view = reactive({ key: null, number: 0, nodes: [], lists: {}, marks: {}, openSections: [], language: "" });
   }
 
-  load({ rev, forms, lists, marks, openSections, language }) {
+  load({ rev, forms, lists, marks, open_sections: openSections, language }) {
     this.forms.clear();
     Object.assign(this.view, { marks: {}, lists: {}, openSections, language });
     this.update({ rev, forms, lists, marks, moved: {}, acks: [] });
@@ -37,104 +56,133 @@ export class FormStore {
       if (list === null) delete this.view.marks[key];
       else this.view.marks[key] = list;
     }
-    for (const key of Object.keys(forms)) if (this.hasFields(key)) this.#refresh(key);
+    for (const key of Object.keys(forms)) if (this.items.has(key)) this.#refresh(this.items.get(key));
     for (const ack of acks) this.#acknowledge(ack);
     if (this.view.key in forms || this.view.key in moved) this.#draw();
   }
 
-  /** Shows the form of an item; null shows none. */
+  /** Shows the form of an item; null shows none. Returns whether it is another one. */
   show(item) {
     const key = item && keyOf(item);
-    if (key === this.view.key) return;
+    if (key === this.view.key) return false;
     this.view.key = key;
     this.#draw();
+    return true;
   }
 
   get hasForm() {
     return this.forms.has(this.view.key);
   }
 
-  hasFields(key) {
-    return [...this.fields.keys()].some((each) => each.startsWith(`${key}|`));
+  /** The shown item. */
+  get shown() {
+    const { key } = this.view;
+    if (!this.items.has(key)) this.items.set(key, new ShownItem(key, (this.itemCount += 1)));
+    return this.items.get(key);
   }
 
   /** The field at a path of the shown item. */
-  field(path, value) {
-    const key = `${this.view.key}|${path}`;
-    if (!this.fields.has(key)) this.fields.set(key, reactive(new SyncedText(value)));
-    const field = this.fields.get(key);
-    return field;
+  field(path, value, kind) {
+    const { fields } = this.shown;
+    if (!fields.has(path)) fields.set(path, reactive(new SyncedText(value, kind)));
+    return fields.get(path);
   }
 
-  type(path, text) {
-    const key = `${this.view.key}|${path}`;
-    this.fields.get(key).type(text);
-    this.#sendSoon(key);
+  type(field, text) {
+    field.type(text);
+    this.#sendSoon(field);
   }
 
-  focus(path) {
-    const key = `${this.view.key}|${path}`;
-    this.fields.get(key).hasFocus = true;
-    this.request("focus", { item: this.#item(key), path });
+  focus(field) {
+    field.hasFocus = true;
+    const [item, path] = this.#find(field);
+    if (item) this.request("focus", { item: item.ref, path });
   }
 
-  blur(key) {
-    const field = this.fields.get(key);
-    if (!field) return;
-    this.#send(key);
+  /** Its user has left a field. */
+  blur(field) {
+    this.#send(field, true);
     field.blur();
-    this.request("focus", { item: this.#item(key), path: null });
+    const [item] = this.#find(field);
+    if (item) this.request("focus", { item: item.ref, path: null });
   }
 
-  keyOfField(path) {
-    return `${this.view.key}|${path}`;
+  /** Sends a finished text, also one that was refused before. */
+  commit(field) {
+    field.error = "";
+    this.#send(field, true);
   }
 
-  choose(path, value) {
-    this.#emitEdit("choose", this.keyOfField(path), { value });
+  /** Makes a choice; `kind` is that of the edit. */
+  choose(kind, path, value, fields = {}) {
+    const { chosen, ref } = this.shown;
+    chosen[path] = { id: this.#emitEdit(kind, ref, { path, value, ...fields }), value };
   }
 
-  check(path, value) {
-    this.#emitEdit("check", this.keyOfField(path), { value });
+  /** The value at a path: that of the design, or one on its way there. */
+  valueAt(path, value) {
+    return this.shown.chosen[path]?.value ?? value;
   }
 
   press(action, fields = {}) {
     this.sendAll();
-    this.emit("edit", { kind: "press", id: (this.editId += 1), rev: this.rev, item: this.#item(`${this.view.key}|`), action, ...fields });
+    return this.#emitEdit("press", this.shown.ref, { action, ...fields });
+  }
+
+  /** Adds a card at once; the design has it later. */
+  addCard(list, adder, { id, alias, text }) {
+    const item = this.shown;
+    const title = [adder.title, alias].filter(Boolean).join(" ");
+    const card = { id, title, nodes: placed(adder.nodes, [...list, id], alias) };
+    const edit = this.press("add-card", { path: list.join("/"), adds: adder.adds, card: id, to: alias, text });
+    item.pending.push({ edit, list: list.join("/"), card });
+    this.#draw();
   }
 
   /** Sends all typed texts now. */
   sendAll() {
-    for (const key of this.fields.keys()) this.#send(key);
+    for (const { fields } of this.items.values()) for (const field of fields.values()) this.#send(field, true);
   }
 
-  #emitEdit(kind, key, fields) {
-    const path = key.slice(key.indexOf("|") + 1);
-    this.emit("edit", { kind, id: (this.editId += 1), rev: this.rev, item: this.#item(key), path, ...fields });
+  #emitEdit(kind, item, fields) {
+    this.editId += 1;
+    this.emit("edit", { kind, id: this.editId, rev: this.rev, item, ...fields });
+    return this.editId;
   }
 
-  #sendSoon(key) {
-    if (this.timers.has(key)) return;
+  #sendSoon(field) {
+    if (this.timers.has(field)) return;
     // The first letter is sent at once; further ones are sent together.
-    this.#send(key);
-    this.timers.set(key, setTimeout(() => (this.timers.delete(key), this.#send(key)), SEND_MS));
+    this.#send(field);
+    this.timers.set(field, setTimeout(() => (this.timers.delete(field), this.#send(field)), SEND_MS));
   }
 
-  #send(key) {
-    const field = this.fields.get(key);
-    const edit = field?.takeEdit(this.editId + 1);
-    if (edit) this.#emitEdit("text", key, edit);
+  #send(field, isLeft = false) {
+    const edit = field.takeEdit(this.editId + 1, isLeft);
+    if (!edit) return;
+    const [item, path] = this.#find(field);
+    if (item) this.#emitEdit(field.kind === "name" ? "name" : "text", item.ref, { path, ...edit });
+  }
+
+  #find(field) {
+    for (const item of this.items.values()) for (const [path, each] of item.fields) if (each === field) return [item, path];
+    return [null, ""];
   }
 
   #acknowledge({ id, own, error }) {
-    for (const [key, field] of this.fields) {
-      if (!field.sent.some((edit) => edit.id === id)) continue;
-      field.acknowledge(id, own, error);
-      this.#sendSoon(key);
-      return;
+    for (const item of this.items.values()) {
+      for (const field of item.fields.values()) {
+        if (!field.sent.some((edit) => edit.id === id)) continue;
+        field.acknowledge(id, own, error);
+        this.#sendSoon(field);
+        return;
+      }
+      for (const [path, choice] of Object.entries(item.chosen)) if (choice.id === id) delete item.chosen[path];
+      const isAnswered = item.pending.some(({ edit }) => edit === id);
+      item.pending = item.pending.filter(({ edit }) => edit !== id);
+      if (isAnswered) this.#refresh(item);
+      if (isAnswered && item.key === this.view.key) this.#draw();
     }
-    // A refused choice: shows the design again.
-    if (error) this.#draw();
   }
 
   /** Requests the completion of a text; `assist` receives the answer. */
@@ -170,6 +218,18 @@ export class FormStore {
     this.request("language", { language });
   };
 
+  /** A section is open if a user has opened it, for all items, or if one of its fields is set and it was not closed here. */
+  isOpen({ key, is_set: isSet }) {
+    return this.view.openSections.includes(key) || Boolean(isSet && !this.shown.closed[key]);
+  }
+
+  toggle({ key }, isOpen) {
+    const others = this.view.openSections.filter((each) => each !== key);
+    this.view.openSections = isOpen ? [...others, key] : others;
+    this.shown.closed[key] = !isOpen;
+    this.request("section", { key, is_open: isOpen });
+  }
+
   select(item) {
     this.sendAll();
     this.show(item);
@@ -177,53 +237,51 @@ export class FormStore {
   }
 
   openDecision(path, index) {
-    const { id } = this.#item(`${this.view.key}|`);
     const rest = path[0] === "transitions" ? path.slice(1) : path;
-    this.select({ of: "transitions", id: [id, ...rest, index].join("/") });
+    this.select({ of: "transitions", id: [this.shown.ref.id, ...rest, index].join("/") });
   }
 
-  /** The field that a double-click on a transition opens: the timer if the guard has nothing else. */
+  /** The field that a double-click opens: that of the guard, or its timer if the guard has nothing else. */
   firstPath() {
+    if (this.shown.ref.of === "common") return "doc";
     const valueAt = (path) => this.view.nodes.find((node) => node.path?.join("/") === path)?.value;
     return valueAt("guard/after") && !valueAt("guard/when") ? "guard/after" : "guard/when";
   }
 
   address(path) {
-    return { rev: this.rev, item: this.#item(this.keyOfField(path)), path };
+    return { rev: this.rev, item: this.shown.ref, path };
   }
 
-  /** Items that others renamed or moved keep their fields. */
+  /** Items that were renamed or moved keep what the browser has of them. */
   #move(moved) {
-    if (!Object.keys(moved).length) return;
-    const renamed = (key) => {
-      const [item, path] = [key.slice(0, key.indexOf("|")), key.slice(key.indexOf("|"))];
-      return (moved[item] ?? item) + path;
-    };
-    this.fields = new Map([...this.fields].map(([key, field]) => [renamed(key), field]));
+    const found = Object.entries(moved).map(([from, to]) => [this.items.get(from), to]);
+    for (const from of Object.keys(moved)) this.items.delete(from);
+    for (const [item, to] of found) {
+      if (!item) continue;
+      item.key = to;
+      this.items.set(to, item);
+    }
     if (this.view.key in moved) this.view.key = moved[this.view.key];
   }
 
   #refresh(item) {
-    const form = this.forms.get(item);
+    const form = this.forms.get(item.key);
     if (!form) return;
-    const texts = textsOf(JSON.parse(form));
-    for (const [key, field] of this.fields) {
-      if (!key.startsWith(`${item}|`)) continue;
-      const path = key.slice(item.length + 1);
+    const nodes = JSON.parse(form);
+    const cards = cardsIn(nodes);
+    item.pending = item.pending.filter(({ list, card }) => !cards.has(`${list}/${card.id}`));
+    const isPending = (path) => item.pending.some(({ list, card }) => path.startsWith(`${list}/${card.id}/`));
+    const texts = textsOf(nodes);
+    for (const [path, field] of item.fields) {
       if (texts.has(path)) field.receive(texts.get(path));
-      else if (!field.isDirty) this.fields.delete(key);
+      else if (!field.isDirty && !isPending(path)) item.fields.delete(path);
     }
   }
 
   #draw() {
     const form = this.forms.get(this.view.key);
-    this.view.nodes = form ? JSON.parse(form) : [];
-  }
-
-  #item(key) {
-    const item = key.slice(0, key.indexOf("|"));
-    const slash = item.indexOf("/");
-    return { of: item.slice(0, slash), id: item.slice(slash + 1) };
+    this.view.nodes = form ? withPending(JSON.parse(form), this.shown.pending) : [];
+    this.view.number = form ? this.shown.number : -1;
   }
 
   async focusField(root, path) {
@@ -231,13 +289,4 @@ export class FormStore {
     const field = root.querySelector(`[data-path="${path}"]`);
     (field?.querySelector(".cm-content, input, textarea") ?? field)?.focus();
   }
-}
-
-/** The texts of a form by their paths. */
-function textsOf(nodes, texts = new Map()) {
-  for (const node of nodes) {
-    if (node.is === "TextField" || node.is === "CodeText") texts.set(node.path.join("/"), node.value ?? "");
-    for (const part of [node.texts, node.nodes]) if (part) textsOf(part, texts);
-  }
-  return texts;
 }

@@ -2,7 +2,12 @@
 import { mergeTexts } from "./text_merge.js";
 
 export class SyncedText {
-  constructor(text) {
+  /**
+   * `kind` is "checked" if the server may refuse a text: then one edit at a time is on its way, so that each is typed over a
+   * text that the design has. The text of a "name" is sent when its user has finished it.
+   */
+  constructor(text, kind = "") {
+    this.kind = kind;
     /** The text of the design, as last received. */
     this.server = text;
     /** The text that the field shows. */
@@ -25,7 +30,7 @@ export class SyncedText {
   }
 
   get isDirty() {
-    return this.isUnsent || this.sent.length > 0;
+    return Boolean(this.error) || this.isUnsent || this.sent.length > 0;
   }
 
   type(text) {
@@ -33,9 +38,10 @@ export class SyncedText {
     this.error = "";
   }
 
-  /** The base and the text of the next edit; null if there is nothing to send. */
-  takeEdit(id) {
+  /** The base and the text of the next edit; null if there is nothing to send. `isLeft` says that the user has finished the text. */
+  takeEdit(id, isLeft = false) {
     if (!this.isUnsent) return null;
+    if (!isLeft && (this.kind === "name" || (this.kind === "checked" && this.sent.length))) return null;
     const base = this.sent.at(-1)?.text ?? this.server;
     this.sent.push({ id, text: this.local });
     return { base, text: this.local };
@@ -74,8 +80,11 @@ export class SyncedText {
 
 // Not a private method: Vue calls methods on a proxy.
 function adopt(field, base, now) {
-  const isTyping = field.local !== base && field.local !== field.settled && !field.error;
-  field.local = isTyping || field.hasFocus ? mergeTexts(base, field.local, now) : now;
-  field.error = "";
+  const isTyping = field.local !== base && field.local !== field.settled;
   field.server = field.settled = now;
+  // What the design does not have stays in sight.
+  if (isTyping && field.error && field.local !== now) return;
+  field.error = "";
+  if (isTyping && field.kind === "name") field.error = `Another user renamed it to ${now}. Press Enter to use your name instead.`;
+  else field.local = isTyping || field.hasFocus ? mergeTexts(base, field.local, now) : now;
 }

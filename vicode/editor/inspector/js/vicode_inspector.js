@@ -1,16 +1,16 @@
 // The Vue component that NiceGUI loads: the form of the selected item, drawn from data that the browser has already.
-import { FORM_NODES, FormStore } from "vicode-inspector";
+import { FormNodes, FormStore } from "vicode-inspector";
 
 const SENDS_TEXT = ["vicode-send-text", "vicode-leave", "beforeunload"];
 
 export default {
-  components: FORM_NODES,
+  components: { FormNodes },
   provide() {
     return { store: this.store };
   },
   template: `
     <div class="inspector" data-form @keydown.esc="leave">
-      <component v-for="(node, index) in store.view.nodes" :is="node.is" :key="keyOf(node, index)" :node="node" />
+      <form-nodes :nodes="store.view.nodes" />
     </div>`,
   beforeCreate() {
     this.store = new FormStore((event, payload) => this.$emit(event, payload));
@@ -53,19 +53,16 @@ export default {
     },
     showSelected(items, seq) {
       this.seq = seq;
-      this.store.show(items.length === 1 ? items[0] : null);
+      if (!this.store.show(items.length === 1 ? items[0] : null)) return;
+      for (let each = this.$el; each && !each.matches(".side"); each = each.parentElement) each.scrollTop = 0;
     },
     /** Opens the guard of a transition: its timer if it has nothing else. Returns whether its form is here. */
     open(item) {
-      if (item.of !== "transitions") return false;
+      if (!["transitions", "common"].includes(item.of)) return false;
       this.showSelected([item], this.seq);
       this.isOpening = !this.store.hasForm;
       if (!this.isOpening) this.focusField(this.store.firstPath());
       return !this.isOpening;
-    },
-    keyOf(node, index) {
-      // Each item has elements of its own, with its own texts.
-      return `${this.store.view.key}|${node.is}|${node.path?.join("/") ?? index}`;
     },
     /** Escape returns the focus to the canvas, unless it closes an open list or completion. */
     leave(event) {

@@ -1,6 +1,6 @@
 """The form of a transition, stay or group."""
 
-from vicode.editor.session.forms.fields import DESCRIPTION, FormField, field_of
+from vicode.editor.session.forms.fields import DESCRIPTION, known_field
 from vicode.editor.session.forms.nodes import (
     Button,
     Check,
@@ -43,7 +43,7 @@ def decision_form(project: Project, design: Design, source: str, decision: Decis
     else:
         nodes += [code_texts(project, decision, ("guard", "code")), Button(label="Remove code", action="remove-code")]
     nodes.append(TextField(path=("doc",), label=DESCRIPTION.label, value=decision.doc, is_long=True))
-    nodes.append(Check(path=("disabled",), label=_field(decision, ("disabled",)).label, value=decision.disabled))
+    nodes.append(Check(path=("disabled",), label=known_field(decision, ("disabled",)).label, value=decision.disabled))
     if isinstance(decision, DecisionGroup):
         for path, title, items in (("then", "Then", decision.then), ("else", "Else", decision.otherwise)):
             nodes += [Heading(text=title), decisions_list(design, (path,), items)]
@@ -64,7 +64,7 @@ def decisions_list(design: Design, path: DesignPath, decisions: tuple[Decision, 
 def _rows(design: Design, decisions: tuple[Decision, ...]) -> tuple[DecisionRow, ...]:
     return tuple(
         DecisionRow(
-            target=decision_target(each),
+            target=_decision_target(each),
             guard=guard_label(each.guard, design.time_unit) or "always",
             is_disabled=each.disabled,
             then=_rows(design, each.then) if isinstance(each, DecisionGroup) else (),
@@ -74,7 +74,7 @@ def _rows(design: Design, decisions: tuple[Decision, ...]) -> tuple[DecisionRow,
     )
 
 
-def decision_target(item: Decision) -> str:
+def _decision_target(item: Decision) -> str:
     match item:
         case Transition(to=to):
             return f"→ {to}"
@@ -84,20 +84,23 @@ def decision_target(item: Decision) -> str:
             return "if"
 
 
-def code_texts(project: Project, owner: object, path: DesignPath) -> Node:
-    """The texts of a code: one field, or with several languages a tab for each."""
-    written = [language for language in LANGUAGES if _field(owner, (*path, language)).read(owner)]
+def code_texts(project: Project, owner: object, path: DesignPath, owner_path: DesignPath = ()) -> Node:
+    """The texts of a code: one field, or with several languages a tab for each.
+
+    `path` leads to the code in its owner, `owner_path` to the owner in the form.
+    """
+    written = [language for language in LANGUAGES if known_field(owner, (*path, language)).read(owner)]
     wanted = [language for language in project.languages if language in LANGUAGES]
     languages = tuple(dict.fromkeys([*wanted, *written])) or ("python",)
-    shown = [_code_text(owner, (*path, language), language) for language in languages]
+    shown = [_code_text(owner, path, language, owner_path) for language in languages]
     return shown[0] if len(shown) == 1 else Languages(label="Languages of the code", texts=tuple(shown))
 
 
-def _code_text(owner: object, path: DesignPath, language: str) -> CodeText:
-    field, title = _field(owner, path), language_title(language)
+def _code_text(owner: object, path: DesignPath, language: str, owner_path: DesignPath) -> CodeText:
+    field, title = known_field(owner, (*path, language)), language_title(language)
     label = field.label if language == "python" else f"{field.label} in {title}" if field.label else title
     return CodeText(
-        path=path,
+        path=(*owner_path, *path, language),
         label=label or title,
         value=field.read(owner),
         language=language,
@@ -105,9 +108,3 @@ def _code_text(owner: object, path: DesignPath, language: str) -> CodeText:
         hint=CODE_HINTS.get(language, ""),
         can_open=True,
     )
-
-
-def _field(owner: object, path: DesignPath) -> FormField:
-    field = field_of(owner, path)
-    assert field is not None, f"{type(owner).__name__} has no field {path}"
-    return field

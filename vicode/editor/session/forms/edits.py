@@ -1,35 +1,18 @@
-"""Edits that the browser makes in forms: typed texts, choices, and buttons."""
+"""Edits that the browser makes in forms: typed texts, choices, names, and buttons."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Literal, Protocol
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Protocol
 
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.forms.fields import FormField, field_of, replace_text
+from vicode.editor.session.edits import apply_edit
+from vicode.editor.session.forms.form_paths import item_path
+from vicode.editor.session.forms.form_places import FormPlace, FormResult, find_place, rebase_owner
+from vicode.editor.session.forms.presses import PRESSES, FormAction
 from vicode.editor.session.forms.text_merge import merge_texts
-from vicode.editor.session.item_paths import change_item, item_at, rebase_path
+from vicode.editor.session.gestures import RenameGesture
 from vicode.editor.view import ItemRef
-from vicode.findings import DesignPath
-from vicode.model.decision_keys import parse_transition_key, transition_key
-from vicode.model.design import DecisionGroup, Design, Guard, Stay
-from vicode.model.edits import add_transition, assign_id, decisions_path, remove_decisions, reorder_decision
-from vicode.model.paths import describe_path
-
-_NEW_PREDICATE = "return self.state_time > 2\n"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FormResult:
-    """The answer to an edit.
-
-    `own` is the text that the design has of the typed one, without the edits of others. `error` says why the edit was
-    refused; the design is unchanged then, and the browser keeps the typed text.
-    """
-
-    own: str = ""
-    error: str = ""
-    new_selection: tuple[ItemRef, ...] | None = None
 
 
 class FormEdit(Protocol):
@@ -39,6 +22,9 @@ class FormEdit(Protocol):
 
     @property
     def id(self) -> int: ...
+
+    @property
+    def item(self) -> ItemRef: ...
 
     def apply(self, document: DocumentSession) -> FormResult: ...
 
@@ -57,16 +43,45 @@ class TextEdit:
 
     def apply(self, document: DocumentSession) -> FormResult:
         """Write the typed text, merged with what others changed since `rev`."""
-        place = _find_place(document, self.item, self.path, self.rev)
+        place = find_place(document, self.item, self.path, self.rev)
         if place is None:
             return FormResult(error=texts.ITEM_MISSING)
         now = place.read(document.design)
-        if error := place.field.validate(self.text):
+        merged = self._merge(document, place, now)
+        error = place.field.validate(self.text) or place.field.validate(merged) or place.find_loss(document.design)
+        if error:
             return FormResult(error=error)
-        # The design may store a text without its outer spaces, for example: that is no edit of others.
-        is_alone = place.stored(document.design, self.base) == now
-        merged = self.text if is_alone else merge_texts(self.base, self.text, now)
         return place.write(document, merged, place.stored(document.design, self.text))
+
+    def _merge(self, document: DocumentSession, place: FormPlace, now: str) -> str:
+        # A text that was refused is not in the design: this one replaces what it was to replace.
+        is_refused = bool(place.field.validate(self.base))
+        # The design may store a text without its outer spaces, for example: that is no edit of others.
+        is_alone = is_refused or place.stored(document.design, self.base) == now
+        return self.text if is_alone else merge_texts(self.base, self.text, now)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NameEdit:
+    """The user entered a new name of the item."""
+
+    kind: ClassVar = "name"
+    id: int
+    rev: int
+    item: ItemRef
+    path: str
+    base: str
+    text: str
+
+    def apply(self, document: DocumentSession) -> FormResult:
+        owner = rebase_owner(document, item_path(self.item), self.rev)
+        if self.item.kind != "states" or not owner:
+            return FormResult(error=texts.ITEM_MISSING)
+        before = ItemRef(kind="states", id=str(owner[1]))
+        result = apply_edit(document, RenameGesture(item=before, name=self.text))
+        selection = result.new_selection
+        renamed = None if selection is None else (before, selection[0])
+        return FormResult(own=before.id if renamed is None else renamed[1].id, error=result.error, renamed=renamed)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,8 +96,34 @@ class ChoiceEdit:
     value: str
 
     def apply(self, document: DocumentSession) -> FormResult:
-        place = _find_place(document, self.item, self.path, self.rev)
-        return place.write(document, self.value) if place else FormResult(error=texts.ITEM_MISSING)
+        place = find_place(document, self.item, self.path, self.rev)
+        if place is None:
+            return FormResult(error=texts.ITEM_MISSING)
+        error = place.field.validate(self.value)
+        return FormResult(error=error) if error else place.write(document, self.value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChoicesEdit:
+    """The user chose `value` from a list of options, where the form showed `base`."""
+
+    kind: ClassVar = "choose-several"
+    id: int
+    rev: int
+    item: ItemRef
+    path: str
+    base: tuple[str, ...]
+    value: tuple[str, ...]
+
+    def apply(self, document: DocumentSession) -> FormResult:
+        """Add and remove what the user has; what others have added or removed since stays so."""
+        place = find_place(document, self.item, self.path, self.rev)
+        now = None if place is None else place.field.read(place.owner_in(document.design))
+        if place is None or not isinstance(now, tuple):
+            return FormResult(error=texts.ITEM_MISSING)
+        kept = [each for each in now if each in self.value or each not in self.base]
+        added = [each for each in self.value if each not in self.base and each not in kept]
+        return place.write(document, (*kept, *added))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,188 +138,39 @@ class CheckEdit:
     value: bool
 
     def apply(self, document: DocumentSession) -> FormResult:
-        place = _find_place(document, self.item, self.path, self.rev)
+        place = find_place(document, self.item, self.path, self.rev)
         return place.write(document, self.value) if place else FormResult(error=texts.ITEM_MISSING)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ButtonEdit:
-    """The user pressed a button: of the form, or of a row of a list at `path`."""
+    """The user pressed a button: of the form, or of a row or card of a list."""
 
     kind: ClassVar = "press"
     id: int
     rev: int
     item: ItemRef
-    action: Literal[
-        "add-code", "remove-code", "remove", "add-transition", "add-stay", "add-group", "remove-row", "move-row"
-    ]
+    action: FormAction
     path: str = ""
+    """The list; of a card, the path of the card."""
     index: int = 0
     """The row of the list, from 0."""
     to: str = ""
-    """The target of a new transition, or the new index of a row."""
+    """The target of a new transition, the component of a new call, or the new index of a row."""
+    adds: str = ""
+    """What a new card contains: "set", "call", "code" or "modulation"."""
+    card: str = ""
+    """The id of a new card, chosen by the browser."""
+    text: str = ""
+    """The text that the browser shows in the new card."""
 
     def apply(self, document: DocumentSession) -> FormResult:
-        owner = _rebase(document, item_path(self.item), self.rev)
-        if owner is None or not owner:
+        owner = rebase_owner(document, item_path(self.item), self.rev)
+        if not owner:
             return FormResult(error=texts.ITEM_MISSING)
-        return _PRESSES[self.action](self, document, owner)
+        return PRESSES[self.action](self, document, owner)
 
 
-FORM_EDITS: Mapping[str, type[FormEdit]] = {each.kind: each for each in (TextEdit, ChoiceEdit, CheckEdit, ButtonEdit)}
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Place:
-    """A field in the current design: the path of its owner, and the path of the value in the owner."""
-
-    owner: DesignPath
-    attribute: DesignPath
-    field: FormField
-
-    def owner_in(self, design: Design) -> Any:
-        return item_at(design, self.owner)
-
-    def read(self, design: Design) -> str:
-        return str(self.field.read(self.owner_in(design)))
-
-    def stored(self, design: Design, text: str) -> str:
-        """The text that the design would have after writing `text`."""
-        return str(self.field.read(self.field.write(self.owner_in(design), text)))
-
-    def write(self, document: DocumentSession, value: object, own: str = "") -> FormResult:
-        """Write a value, unless it would lose content of the file."""
-        owner = self.owner_in(document.design)
-        if self.field.read(owner) == value:
-            return FormResult(own=own)
-        path = (*self.owner, *(step for step in self.attribute if step != "guard"))
-        notice, rev = document.shared.notice, document.rev
-        document.edit(
-            f"edit {describe_path(path)}",
-            lambda design: change_item(design, self.owner, lambda each: self.field.write(each, value)),
-            coalesce_key="/".join(map(str, path)),
-        )
-        is_refused = document.shared.notice is not notice and document.rev == rev
-        return FormResult(own=own, error=document.shared.notice.text if is_refused else "")
-
-
-def item_path(item: ItemRef) -> DesignPath:
-    """The path of an item in the design."""
-    match item:
-        case ItemRef(kind="transitions", id=key):
-            return parse_transition_key(key)
-        case ItemRef(kind="states", id=name):
-            return ("states", name)
-        case _:
-            return ()
-
-
-def _find_place(document: DocumentSession, item: ItemRef, path: str, rev: int) -> _Place | None:
-    steps = _parse(path)
-    last = max((at for at, step in enumerate(steps) if isinstance(step, int)), default=-1) + 1
-    owner = _rebase(document, (*item_path(item), *steps[:last]), rev)
-    field = field_of(item_at(document.design, owner), steps[last:]) if owner else None
-    return _Place(owner=owner, attribute=steps[last:], field=field) if owner and field else None
-
-
-def _rebase(document: DocumentSession, path: DesignPath, rev: int) -> DesignPath | None:
-    """The path of an owner that the browser showed at `rev`, in the current design."""
-    design = document.shared.design_at(rev)
-    rebased: DesignPath | None = path
-    # Step by step: an item that was both renamed and moved would not be recognized.
-    for number in range(rev + 1, document.rev + 1):
-        before, design = design, document.shared.design_at(number)
-        rebased = rebase_path(rebased, before, design) if rebased is not None else None
-    return rebased if rebased is not None and item_at(document.design, rebased) is not None else None
-
-
-def _parse(path: str) -> DesignPath:
-    return tuple(int(step) if step.isdecimal() else step for step in path.split("/") if step)
-
-
-_Press = Callable[[ButtonEdit, DocumentSession, DesignPath], FormResult]
-
-
-def _add_code(_press: ButtonEdit, document: DocumentSession, owner: DesignPath) -> FormResult:
-    def change(design: Design) -> Design:
-        changed = change_item(design, (*owner, "guard"), _with_predicate)
-        return assign_id(changed, owner)
-
-    document.edit("add code", change)
-    return FormResult()
-
-
-def _with_predicate(guard: Guard) -> Guard:
-    return replace(guard, code=replace_text(None, "python", _NEW_PREDICATE))
-
-
-def _remove_code(_press: ButtonEdit, document: DocumentSession, owner: DesignPath) -> FormResult:
-    document.edit(
-        "remove code", lambda design: change_item(design, (*owner, "guard"), lambda guard: replace(guard, code=None))
-    )
-    return FormResult()
-
-
-def _remove(_press: ButtonEdit, document: DocumentSession, owner: DesignPath) -> FormResult:
-    document.edit("remove transition", lambda design: remove_decisions(design, [owner]))
-    return FormResult(new_selection=())
-
-
-def _add_transition(press: ButtonEdit, document: DocumentSession, owner: DesignPath) -> FormResult:
-    source = str(owner[1]) if owner[0] == "states" else "@common"
-    if document.design.state(press.to) is None:
-        return FormResult(error=texts.ITEM_MISSING)
-    document.edit(
-        f"connect {source.lstrip('@')} to {press.to}", lambda design: add_transition(design, source, press.to)
-    )
-    path = decisions_path(document.design, source)
-    last = len(item_at(document.design, path)) - 1
-    return FormResult(new_selection=(ItemRef(kind="transitions", id=transition_key((*path, last))),))
-
-
-def _add_stay(press: ButtonEdit, document: DocumentSession, owner: DesignPath) -> FormResult:
-    return _append(press, document, owner, "stay", Stay())
-
-
-def _add_group(press: ButtonEdit, document: DocumentSession, owner: DesignPath) -> FormResult:
-    return _append(press, document, owner, "group", DecisionGroup(guard=Guard(when="True"), then=(Stay(),)))
-
-
-def _append(
-    press: ButtonEdit, document: DocumentSession, owner: DesignPath, noun: str, item: Stay | DecisionGroup
-) -> FormResult:
-    path = (*owner, *_parse(press.path))
-    document.edit(f"add {noun}", lambda design: change_item(design, path, lambda items: (*items, item)))
-    return FormResult()
-
-
-def _remove_row(press: ButtonEdit, document: DocumentSession, _owner: DesignPath) -> FormResult:
-    path = _row_path(press, document)
-    if path is None:
-        return FormResult(error=texts.ITEM_MISSING)
-    document.edit("remove transition", lambda design: remove_decisions(design, [path]))
-    return FormResult()
-
-
-def _move_row(press: ButtonEdit, document: DocumentSession, _owner: DesignPath) -> FormResult:
-    path = _row_path(press, document)
-    if path is None or not press.to.isdecimal():
-        return FormResult(error=texts.ITEM_MISSING)
-    document.edit("reorder transitions", lambda design: reorder_decision(design, path, int(press.to)))
-    return FormResult()
-
-
-def _row_path(press: ButtonEdit, document: DocumentSession) -> DesignPath | None:
-    return _rebase(document, (*item_path(press.item), *_parse(press.path), press.index), press.rev)
-
-
-_PRESSES: Mapping[str, _Press] = {
-    "add-code": _add_code,
-    "remove-code": _remove_code,
-    "remove": _remove,
-    "add-transition": _add_transition,
-    "add-stay": _add_stay,
-    "add-group": _add_group,
-    "remove-row": _remove_row,
-    "move-row": _move_row,
+FORM_EDITS: Mapping[str, type[FormEdit]] = {
+    each.kind: each for each in (TextEdit, NameEdit, ChoiceEdit, ChoicesEdit, CheckEdit, ButtonEdit)
 }

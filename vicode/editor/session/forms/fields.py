@@ -4,16 +4,30 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from vicode.editor.session import number_text, texts
+from vicode.editor.session.forms.pairs import find_error, find_lost_pairs, format_pairs, parse_pairs
 from vicode.findings import DesignPath
 from vicode.languages import LANGUAGES
-from vicode.model.design import Code, DecisionGroup, Stay, Transition
+from vicode.model.design import (
+    STATE_COLORS,
+    Assign,
+    Call,
+    Code,
+    CommonSection,
+    DecisionGroup,
+    RunCode,
+    State,
+    Stay,
+    Transition,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FormField:
-    """A value of an owner (a state, a transition), as a form shows it: a text, or a bool.
+    """A value of an owner (a state, a transition), as a form shows it: a text, a bool, or several texts.
 
     `write` returns the changed owner; `validate` returns an error message, or "" for a value that can be written.
+    `find_loss` says why the value of an owner cannot be edited without a loss, or "".
     """
 
     label: str
@@ -21,10 +35,11 @@ class FormField:
     write: Callable[[Any, Any], Any]
     hint: str = ""
     validate: Callable[[Any], str] = lambda _value: ""
+    find_loss: Callable[[Any], str] = lambda _owner: ""
 
 
 def attribute(name: str, label: str, *, hint: str = "", parse: Callable[[Any], Any] = lambda value: value) -> FormField:
-    """The field of an attribute that is a text or a bool."""
+    """The field of an attribute that has the type of the field."""
     return FormField(
         label=label,
         hint=hint,
@@ -64,6 +79,32 @@ def replace_text(written: Code | None, language: str, text: str) -> Code:
     return Code(texts=tuple((texts or {"python": text if language == "python" else ""}).items()))
 
 
+def count(name: str, label: str, hint: str) -> FormField:
+    """The field of a number of robots, or None."""
+    return FormField(
+        label=label,
+        hint=hint,
+        read=lambda owner: number_text.format_number(getattr(owner, name)),
+        write=lambda owner, text: replace(owner, **{name: number_text.parse_count(text)}),
+        validate=number_text.validate_count,
+    )
+
+
+def pairs(name: str, label: str, *, is_required: bool = False) -> FormField:
+    """The field of assignments or arguments: lines `name = expression`."""
+
+    def validate(text: str) -> str:
+        return texts.ASSIGNMENT_MISSING if is_required and not text.strip() else find_error(text)
+
+    return FormField(
+        label=label,
+        read=lambda owner: format_pairs(getattr(owner, name)),
+        write=lambda owner, text: replace(owner, **{name: parse_pairs(text)}),
+        validate=validate,
+        find_loss=lambda owner: find_lost_pairs(getattr(owner, name)),
+    )
+
+
 DESCRIPTION = attribute("doc", "Description")
 _PREDICATE = "Predicate (body of a function that returns a bool)"
 _GUARD: Mapping[DesignPath, FormField] = {
@@ -73,13 +114,49 @@ _GUARD: Mapping[DesignPath, FormField] = {
     ("doc",): DESCRIPTION,
     ("disabled",): attribute("disabled", "Disabled (never tested)"),
 }
+_STATE: Mapping[DesignPath, FormField] = {
+    ("name",): attribute("name", "State"),
+    ("doc",): DESCRIPTION,
+    ("final",): attribute("final", "Final", hint="The component is done in this state"),
+    ("disabled",): attribute("disabled", "Disabled", hint="Not generated"),
+    ("color",): replace(
+        attribute("color", "Color"),
+        validate=lambda value: "" if value in ("", *STATE_COLORS) else texts.INVALID_REQUEST,
+    ),
+    ("requires",): attribute("requires", "Components", parse=tuple),
+    ("capacity",): count("capacity", "Capacity (robots at once)", "no limit"),
+    ("synchronized",): count("synchronized", "Synchronized (robots)", "not synchronized"),
+    ("xabsl_name",): attribute("xabsl_name", "Name in XABSL", parse=str.strip),
+}
+_CODE: Mapping[DesignPath, FormField] = {("code", language): code("code", language, "") for language in LANGUAGES}
 _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     Transition: {("to",): attribute("to", "To"), **_GUARD},
     Stay: _GUARD,
     DecisionGroup: _GUARD,
+    State: _STATE,
+    CommonSection: {("doc",): attribute("doc", "Description (all states)")},
+    Assign: {("values",): pairs("values", "name = expression, one per line", is_required=True)},
+    Call: {("arguments",): pairs("arguments", "parameter = expression, one per line")},
+    RunCode: _CODE,
 }
+
+
+def initial_field(state: str) -> FormField:
+    """Whether a state is the initial one, as a field of the design. It stays so until another state is."""
+    return FormField(
+        label="Initial",
+        read=lambda design: design.initial == state,
+        write=lambda design, value: replace(design, initial=state) if value else design,
+    )
 
 
 def field_of(owner: object, path: DesignPath) -> FormField | None:
     """The field at a path of an owner; None if there is none."""
     return _FIELDS.get(type(owner), {}).get(path)
+
+
+def known_field(owner: object, path: DesignPath) -> FormField:
+    """The field at a path that is known to exist."""
+    field = field_of(owner, path)
+    assert field is not None, f"{type(owner).__name__} has no field {path}"
+    return field

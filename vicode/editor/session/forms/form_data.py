@@ -4,16 +4,22 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from vicode.editor.session.forms.action_form import adders, parameter_hints
 from vicode.editor.session.forms.decision_form import decision_form
+from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import Node, form_json
+from vicode.editor.session.forms.state_form import common_form, state_form, uses_xabsl
 from vicode.editor.view import ItemRef
+from vicode.findings import DesignPath
 from vicode.model.decision_keys import parse_transition_key, transition_key
-from vicode.model.design import Decision, Design
+from vicode.model.design import COMMON, CommonSection, Decision, Design, State
 from vicode.model.project import Project
 from vicode.model.traversal import find_decision, iter_decisions
 
 Forms = dict[str, str]
 """The JSON of the form of each item, by "transitions/Kick/0"."""
+FormLists = dict[str, Any]
+"""What the forms of a design share: options of choices by `nodes.OptionList`, "parameters" and "adders"."""
 
 
 @dataclass(eq=False)
@@ -22,12 +28,44 @@ class FormWriter:
 
     _inputs: tuple[object, ...] = ()
     _decisions: dict[str, tuple[Decision, str]] = field(default_factory=dict)
+    _owners: dict[str, tuple[tuple[object, ...], str]] = field(default_factory=dict)
+    _lists: tuple[tuple[object, ...], FormLists] = ((), {})
 
-    def write(self, project: Project, design: Design) -> Forms:
+    def write(self, project: Project, design: Design, ids: ListIds) -> Forms:
         # All that forms depend on besides their item.
-        inputs = (project.languages, design.time_unit)
+        inputs = (project.languages, design.time_unit, uses_xabsl(project, design))
         if inputs != self._inputs:
-            self._inputs, self._decisions = inputs, {}
+            self._inputs, self._decisions, self._owners = inputs, {}, {}
+        return {**self._write_owners(project, design, ids), **self._write_decisions(project, design)}
+
+    def lists(self, project: Project, design: Design) -> FormLists:
+        """What the forms share; the same object while nothing of it changes."""
+        names = [state.name for state in design.states]
+        known, lists = self._lists
+        inputs = (project, design.uses, design.variables, design.outputs, names)
+        if not known or known[0] is not project or known[1:] != inputs[1:]:
+            now = form_lists(project, design)
+            lists = lists if now == lists else now
+            self._lists = (inputs, lists)
+        return lists
+
+    def _write_owners(self, project: Project, design: Design, ids: ListIds) -> Forms:
+        known, self._owners = self._owners, {}
+        items: list[tuple[str, str, State | CommonSection, DesignPath]] = [
+            ("common", COMMON, design.common, ("common",))
+        ]
+        items += [("states", state.name, state, ("states", state.name)) for state in design.states]
+        for kind, name, owner, path in items:
+            key = f"{kind}/{name}"
+            inputs = (owner, name == design.initial, ids.of_owner(path))
+            before = known.get(key)
+            if before is None or before[0][0] is not owner or before[0][1:] != inputs[1:]:
+                form = _owner_form(project, design, owner, ids)
+                before = (inputs, form_json(form))
+            self._owners[key] = before
+        return {key: text for key, (_inputs, text) in self._owners.items()}
+
+    def _write_decisions(self, project: Project, design: Design) -> Forms:
         known, self._decisions = self._decisions, {}
         for located in iter_decisions(design):
             key, decision = f"transitions/{transition_key(located.path)}", located.decision
@@ -40,22 +78,44 @@ class FormWriter:
         return {key: text for key, (_decision, text) in self._decisions.items()}
 
 
-def item_form(project: Project, design: Design, item: ItemRef) -> tuple[Node, ...]:
+def item_form(project: Project, design: Design, item: ItemRef, ids: ListIds) -> tuple[Node, ...]:
     """The form of one item; empty if it has none."""
-    if item.kind == "transitions":
-        located = find_decision(design, parse_transition_key(item.id))
-        return decision_form(project, design, located.source, located.decision) if located else ()
-    return ()
+    match item:
+        case ItemRef(kind="transitions", id=key):
+            located = find_decision(design, parse_transition_key(key))
+            return decision_form(project, design, located.source, located.decision) if located else ()
+        case ItemRef(kind="states", id=name):
+            state = design.state(name)
+            return state_form(project, design, state, ids) if state is not None else ()
+        case ItemRef(kind="common"):
+            return common_form(project, design, ids)
+        case _:
+            return ()
+
+
+def _owner_form(project: Project, design: Design, owner: State | CommonSection, ids: ListIds) -> tuple[Node, ...]:
+    return state_form(project, design, owner, ids) if isinstance(owner, State) else common_form(project, design, ids)
 
 
 def has_form(design: Design, item: ItemRef) -> bool:
     """Whether the browser draws the form of an item."""
-    return item.kind == "transitions" and find_decision(design, parse_transition_key(item.id)) is not None
+    match item:
+        case ItemRef(kind="transitions", id=key):
+            return find_decision(design, parse_transition_key(key)) is not None
+        case ItemRef(kind="states", id=name):
+            return design.state(name) is not None
+        case _:
+            return item.kind == "common"
 
 
-def option_lists(design: Design) -> dict[str, list[str]]:
-    """The options of the choices, by their names (see `nodes.OptionList`)."""
-    return {"states": [state.name for state in design.states], "uses": [use.alias for use in design.uses]}
+def form_lists(project: Project, design: Design) -> FormLists:
+    """What the forms of a design share."""
+    return {
+        "states": [state.name for state in design.states],
+        "uses": [use.alias for use in design.uses],
+        "parameters": parameter_hints(project, design),
+        "adders": adders(project, design),
+    }
 
 
 def diff_forms(old: Mapping[str, Any], new: Mapping[str, Any]) -> dict[str, Any]:

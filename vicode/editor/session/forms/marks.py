@@ -1,42 +1,55 @@
 """Messages at the fields of a form: findings, lint warnings, and who else types there."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
-from vicode.editor.session.code_marks import CodeMark, mark_text
+from vicode.editor.session.code_marks import CodeMark, mark_assignments, mark_text
 from vicode.editor.session.fixes import is_fixable
-from vicode.editor.session.forms.nodes import Choice, CodeText, Languages, Node, TextField
+from vicode.editor.session.forms.form_data import item_form
+from vicode.editor.session.forms.form_paths import file_path, item_path, resolve
+from vicode.editor.session.forms.list_ids import ListIds
+from vicode.editor.session.forms.nodes import Choices, CodeText, Field, Node, iter_fields
 from vicode.editor.session.lint import LintWarning
+from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath, Finding
-
-_GUARD_PARTS = ("when", "after", "code")
+from vicode.model.design import Design
+from vicode.model.project import Project
 
 Lint = Callable[[DesignPath, str], Sequence[LintWarning]]
 """The warnings for the Python code at a path, if they belong to this text."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ItemFields:
+    """The fields of an item's form, and the paths in the file by their paths in the browser."""
+
+    item: DesignPath
+    nodes: tuple[Node, ...]
+    paths: Mapping[DesignPath, DesignPath]
+
+    @classmethod
+    def of(cls, project: Project, design: Design, item: ItemRef, ids: ListIds) -> "ItemFields":
+        nodes, path = item_form(project, design, item, ids), item_path(item)
+        found = {node.path: resolve(design, ids, path, node.path) for node in iter_fields(nodes)}
+        paths = {known: file_path(path, steps) for known, steps in found.items() if steps is not None}
+        return cls(item=path, nodes=nodes, paths=paths)
+
+
 def marks_of(
-    nodes: Iterable[Node], item: DesignPath, findings: Sequence[Finding], lint: Lint = lambda _path, _text: ()
+    fields: ItemFields, findings: Sequence[Finding], lint: Lint = lambda _path, _text: ()
 ) -> list[dict[str, Any]]:
     """The messages of a form as {"path", "start", "end", "severity", "message", "line", "fix"}.
 
     `fix` is the index of a finding with quick fixes, else None.
     """
+    item = fields.item
     own = [each for each in findings if each.subject is not None and each.subject.path[: len(item)] == item]
-    return [_mark_json(node.path, mark, findings) for node in _fields(nodes) for mark in _marks(node, item, own, lint)]
-
-
-def finding_path(item: DesignPath, path: DesignPath) -> DesignPath:
-    """The path in the file of a field: the parts of a guard stand among those of its decision."""
-    return (*item, *(step for step in path if step != "guard"))
-
-
-def field_path(item: DesignPath, path: DesignPath) -> DesignPath:
-    """The path of a field in the form of an item, from its path in the file."""
-    rest = path[len(item) :]
-    is_decision = item[-2:-1] != ("states",)
-    return ("guard", *rest) if is_decision and rest[0] in _GUARD_PARTS else rest
+    return [
+        _mark_json(node.path, mark, findings)
+        for node in iter_fields(fields.nodes)
+        for mark in _marks(node, fields.paths[node.path], own, lint)
+    ]
 
 
 def note_at(path: DesignPath, text: str) -> dict[str, Any]:
@@ -45,18 +58,15 @@ def note_at(path: DesignPath, text: str) -> dict[str, Any]:
     return _mark_json(path, mark, ())
 
 
-def _fields(nodes: Iterable[Node]) -> Iterator[TextField | CodeText | Choice]:
-    for node in nodes:
-        if isinstance(node, TextField | CodeText | Choice):
-            yield node
-        elif isinstance(node, Languages):
-            yield from node.texts
-
-
-def _marks(
-    node: TextField | CodeText | Choice, item: DesignPath, findings: Sequence[Finding], lint: Lint
-) -> Iterable[CodeMark]:
-    path = finding_path(item, node.path)
+def _marks(node: Field, path: DesignPath, findings: Sequence[Finding], lint: Lint) -> Iterable[CodeMark]:
+    if isinstance(node, Choices):
+        return mark_text(", ".join(node.value), path, findings)
+    if isinstance(node, CodeText) and node.language == "pairs":
+        # Findings about the call itself have no field of their own.
+        owners = (path, (*path[:-1], "call"))
+        calls = [each for each in findings if each.subject is not None and each.subject.path in owners]
+        marks = [mark for owner in owners for mark in mark_text(node.value, owner, calls)]
+        return (*marks, *mark_assignments(node.value, path, findings))
     if not isinstance(node, CodeText) or node.language == "expression":
         return mark_text(node.value, path, findings)
     if node.language == "python":

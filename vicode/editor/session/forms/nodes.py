@@ -5,23 +5,30 @@ relative to the item.
 """
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields
+from functools import cache
 from typing import Any, Literal
 
 from vicode.findings import DesignPath
 
 OptionList = Literal["states", "uses"]
-"""A list of options that many forms share; `FormData.lists` has its values."""
+"""A list of options that many forms share; `form_data.FormLists` has its values."""
+AdderList = Literal["actions", "effects", "modulates"]
+"""The kinds of cards that can be added to a list: actions with and without calls, modulated components."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Title:
-    """The heading of the form; the name is a link if `opens` is the id of an item."""
+    """The heading of the form; the name is a link if `opens` is the id of an item.
+
+    A hidden heading is for screen readers only, where sighted users read the name in a field.
+    """
 
     text: str
     name: str = ""
     opens: tuple[str, str] | None = None
+    is_hidden: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,8 +39,27 @@ class TextField:
     label: str
     value: str
     hint: str = ""
+    help: str = ""
     is_code: bool = False
     is_long: bool = False
+    is_checked: bool = False
+    """Whether some texts are refused."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NameField:
+    """The name of the item, which is applied when the user presses Enter or leaves the field."""
+
+    path: DesignPath
+    label: str
+    value: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Notice:
+    """A place above the fields for messages about the item."""
+
+    path: DesignPath
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,17 +73,42 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Choices:
+    """A choice of several options of a shared list, in the order in which they were chosen."""
+
+    path: DesignPath
+    label: str
+    value: tuple[str, ...]
+    options: OptionList
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Colors:
+    """A choice of one color, or none."""
+
+    path: DesignPath
+    label: str
+    value: str
+    options: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Check:
     """A checkbox."""
 
     path: DesignPath
     label: str
     value: bool
+    hint: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CodeText:
-    """A code editor with completion and marks; "expression" is a single one, `language` else a key of LANGUAGES."""
+    """A code editor with completion and marks.
+
+    `language` is a key of LANGUAGES, "expression" for a single one, or "pairs" for lines `name = expression`:
+    assignments, or the parameters of the component `alias`.
+    """
 
     path: DesignPath
     label: str
@@ -66,8 +117,11 @@ class CodeText:
     title: str = ""
     """The title of its tab, with several languages."""
     hint: str = ""
+    alias: str = ""
     can_open: bool = False
     """Whether the text can be opened in the user's own editor."""
+    is_checked: bool = False
+    """Whether some texts are refused."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -116,21 +170,104 @@ class Button:
     is_danger: bool = False
 
 
-Node = Title | TextField | Choice | Check | CodeText | Languages | Heading | Decisions | Button
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Card:
+    """A framed part of the form for one item of a list; `id` names it in paths."""
+
+    id: str
+    title: str
+    nodes: tuple["Node", ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cards:
+    """The list at a path, with buttons that add, move and remove its items."""
+
+    path: DesignPath
+    cards: tuple[Card, ...]
+    adders: AdderList
+    is_ordered: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Adder:
+    """A button that adds a card with these nodes, whose paths are relative to it.
+
+    With `options`, it is a menu: the chosen one is the alias of the nodes, and completes the title.
+    """
+
+    label: str
+    icon: str
+    adds: str
+    title: str
+    nodes: tuple["Node", ...]
+    options: OptionList | None = None
+    is_unique: bool = False
+    """Whether each option is added once, and is the id of its card."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """Fields beside each other."""
+
+    nodes: tuple["Node", ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Section:
+    """A part of the form that is closed until a user opens it, or one of its fields is set.
+
+    `key` remembers for all items whether it is open; `caption` summarizes its content.
+    """
+
+    key: str
+    title: str
+    caption: str
+    nodes: tuple["Node", ...]
+    is_set: bool = False
+
+
+Field = TextField | NameField | Choice | Choices | CodeText
+"""A part of a form with a value that can have messages."""
+Node = Field | Title | Notice | Colors | Check | Languages | Heading | Decisions | Button | Cards | Row | Section
 """A part of a form."""
 
 
-def form_json(nodes: Sequence[Node]) -> str:
+def iter_fields(nodes: Iterable[Node]) -> Iterator[Field]:
+    """All fields of a form."""
+    for node in nodes:
+        match node:
+            case Languages():
+                yield from node.texts
+            case Row() | Section():
+                yield from iter_fields(node.nodes)
+            case Cards():
+                for card in node.cards:
+                    yield from iter_fields(card.nodes)
+            case TextField() | NameField() | Choice() | Choices() | CodeText():
+                yield node
+            case _:
+                pass
+
+
+def form_json(nodes: Sequence[Node | Adder]) -> str:
     """The nodes as JSON: objects with the kind as "is", without the fields that have their defaults."""
-    return json.dumps([_to_json(node) for node in nodes], separators=(",", ":"), ensure_ascii=False)
+    return _ENCODER.encode(tuple(nodes))
 
 
-def _to_json(value: Any) -> Any:
-    if isinstance(value, tuple):
-        return [_to_json(each) for each in value]
-    if not hasattr(value, "__dataclass_fields__"):
-        return value
-    shown = {each.name: getattr(value, each.name) for each in fields(value)}
-    defaults = {each.name: each.default for each in fields(value)}
-    kept = {name: _to_json(content) for name, content in shown.items() if content != defaults[name]}
-    return {"is": type(value).__name__, **kept}
+def _node_data(node: object) -> dict[str, Any]:
+    kind: Any = type(node)
+    shown = {"is": kind.__name__}
+    for name, default in _defaults(kind):
+        content = getattr(node, name)
+        if content is not default and content != default:
+            shown[name] = content
+    return shown
+
+
+@cache
+def _defaults(kind: Any) -> tuple[tuple[str, Any], ...]:
+    return tuple((each.name, each.default) for each in fields(kind))
+
+
+_ENCODER = json.JSONEncoder(default=_node_data, separators=(",", ":"), ensure_ascii=False)

@@ -1,0 +1,69 @@
+// Lists of cards, such as the actions of a state. A new card is there at once, and its first field has the focus.
+import { nextTick } from "vue";
+import * as CM from "nicegui-codemirror";
+
+const newId = () => `b${Math.random().toString(36).slice(2, 12).padEnd(4, "0")}`;
+
+export const Cards = {
+  props: { node: Object },
+  inject: ["store"],
+  template: `
+    <div v-for="(card, index) in node.cards" :key="card.id" class="card nicegui-column" :data-card="pathOf(card)">
+      <div class="card-head nicegui-row">
+        <div class="card-title">{{ card.title }}</div>
+        <div class="row-buttons nicegui-row">
+          <template v-if="node.is_ordered">
+            <q-btn v-bind="small" icon="arrow_upward" :disable="index === 0" :aria-label="name('Move up', card, index)" @click="move(card, -1)" />
+            <q-btn v-bind="small" icon="arrow_downward" :disable="index === node.cards.length - 1" :aria-label="name('Move down', card, index)" @click="move(card, 1)" />
+          </template>
+          <q-btn v-bind="small" icon="close" :aria-label="name('Remove', card, index)" @click="store.press('remove-card', { path: pathOf(card) })" />
+        </div>
+      </div>
+      <form-nodes :nodes="card.nodes" />
+    </div>
+    <div v-if="adders.length" class="adders nicegui-row">
+      <q-btn v-for="adder in adders" flat dense no-caps size="sm" :icon="adder.icon" :label="adder.label" :aria-label="'Add to ' + list + ': ' + adder.label"
+        :disable="adder.options && !optionsOf(adder).length" @click="adder.options || add(adder)">
+        <q-menu v-if="adder.options" auto-close no-refocus><q-list>
+          <q-item v-for="option in optionsOf(adder)" clickable class="mono" role="menuitem" @click="add(adder, option)"><q-item-section>{{ option }}</q-item-section></q-item>
+        </q-list></q-menu>
+      </q-btn>
+    </div>`,
+  computed: {
+    small: () => ({ flat: true, dense: true, round: true, size: "sm", class: "icon-button" }),
+    list() {
+      return this.node.path.join("/");
+    },
+    adders() {
+      return this.store.view.lists.adders[this.node.adders];
+    },
+  },
+  methods: {
+    name(verb, { title }, index) {
+      return this.node.is_ordered ? `${verb}: ${index + 1} ${title}` : `${verb}: ${title}`;
+    },
+    pathOf(card) {
+      return `${this.list}/${card.id}`;
+    },
+    optionsOf(adder) {
+      const options = this.store.view.lists[adder.options];
+      return adder.is_unique ? options.filter((option) => !this.node.cards.some(({ id }) => id === option)) : options;
+    },
+    move(card, by) {
+      this.store.press("move-card", { path: this.pathOf(card), to: String(by) });
+    },
+    add(adder, alias = "") {
+      const id = adder.is_unique ? alias : newId();
+      this.store.addCard(this.node.path, adder, { id, alias, text: adder.nodes[0].value ?? "" });
+      nextTick(() => this.edit(`${this.list}/${id}`));
+    },
+    /** Focuses the first field of a card; its text is selected, to be typed over. */
+    edit(path) {
+      const content = document.querySelector(`[data-card="${CSS.escape(path)}"] .cm-content`);
+      const view = content && CM.EditorView.findFromDOM(content);
+      if (!view) return;
+      view.focus();
+      view.dispatch({ selection: { anchor: 0, head: view.state.doc.length } });
+    },
+  },
+};

@@ -1,0 +1,119 @@
+// Fields with a text, a choice or a check as Vue components, on the components of Quasar.
+import { nextTick } from "vue";
+import { Messages, marksAt } from "./messages.js";
+import { findChange } from "./text_merge.js";
+
+const WITHOUT_CORRECTIONS = { autocapitalize: "off", spellcheck: "false", autocomplete: "off" };
+
+/** A field with a text; `kind` is that of its `SyncedText`. */
+const textField = (template, kindOf) => ({
+  props: { node: Object },
+  inject: ["store"],
+  components: { Messages },
+  template,
+  data() {
+    const path = this.node.path.join("/");
+    return { path, field: this.store.field(path, this.node.value, kindOf(this.node)) };
+  },
+  computed: {
+    marks() {
+      return marksAt(this.store, this.path);
+    },
+    isWrong() {
+      return Boolean(this.field.error || this.marks.some((mark) => mark.severity !== "info"));
+    },
+    corrections() {
+      return this.node.is_code || this.field.kind === "name" ? WITHOUT_CORRECTIONS : {};
+    },
+  },
+  watch: {
+    "field.local"(now, before) {
+      // A text of the design is set without moving the cursor.
+      const element = this.$refs.input?.nativeEl;
+      if (!element || element !== document.activeElement || element.value === now) return;
+      const change = findChange(before, now);
+      const moved = (at) => (at <= change.start ? at : Math.max(change.start, at + now.length - before.length));
+      const [start, end] = [moved(element.selectionStart), moved(element.selectionEnd)];
+      nextTick(() => element.setSelectionRange(start, end));
+    },
+  },
+  methods: {
+    type(text) {
+      this.store.type(this.field, String(text ?? ""));
+    },
+  },
+});
+
+export const TextField = textField(
+  `<div class="field nicegui-column" :data-path="path">
+    <q-input ref="input" outlined dense stack-label :label="node.label" :placeholder="node.hint" :model-value="field.local"
+      :type="node.is_long ? 'textarea' : 'text'" :autogrow="node.is_long" :class="{ mono: node.is_code, 'has-finding': isWrong }"
+      v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @blur="store.blur(field)" />
+    <messages :marks="marks" :error="field.error" />
+    <div v-if="node.help" class="empty">{{ node.help }}</div>
+  </div>`,
+  (node) => node.is_checked && "checked",
+);
+
+export const NameField = textField(
+  `<div class="field nicegui-column" :data-path="path">
+    <q-input ref="input" outlined dense stack-label class="mono" :class="{ 'has-finding': isWrong }" :label="node.label" maxlength="80" :model-value="field.local"
+      v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @blur="store.blur(field)" @keydown.enter="store.commit(field)" />
+    <messages :marks="marks" :error="field.error" />
+  </div>`,
+  () => "name",
+);
+
+const valueField = (template, members = {}) => ({
+  props: { node: Object },
+  inject: ["store"],
+  components: { Messages },
+  template,
+  computed: {
+    path() {
+      return this.node.path.join("/");
+    },
+    value() {
+      return this.store.valueAt(this.path, this.node.value);
+    },
+    marks() {
+      return marksAt(this.store, this.path);
+    },
+    options() {
+      return [...new Set([...this.store.view.lists[this.node.options], ...[this.value].flat()])];
+    },
+  },
+  ...members,
+});
+
+export const Choice = valueField(`
+  <div class="field nicegui-column" :data-path="path">
+    <q-select outlined dense options-dense stack-label :label="node.label" :options="options" :model-value="value"
+      @update:model-value="(chosen) => store.choose('choose', path, chosen)" />
+    <messages :marks="marks" />
+  </div>`);
+
+export const Choices = valueField(`
+  <div class="field nicegui-column" :data-path="path">
+    <q-select outlined dense options-dense stack-label multiple use-chips :class="{ 'has-finding': marks.length }" :label="node.label" :options="options" :model-value="value"
+      @update:model-value="(chosen) => store.choose('choose-several', path, chosen ?? [], { base: value })" />
+    <messages :marks="marks" />
+  </div>`);
+
+export const Check = valueField(`
+  <q-checkbox dense :label="node.label" :model-value="value" :data-path="path" @update:model-value="(checked) => store.choose('check', path, checked)">
+    <q-tooltip v-if="node.hint">{{ node.hint }}</q-tooltip>
+  </q-checkbox>`);
+
+export const Colors = valueField(
+  `<div class="swatches" role="group" :aria-label="node.label">
+    <div class="swatches-label">{{ node.label }}</div>
+    <button v-for="color in colors" type="button" class="swatch" :class="'is-' + (color || 'none')" :aria-label="'Color ' + (color || 'none')" :aria-pressed="String(color === value)"
+      @click="store.choose('choose', path, color)"><q-tooltip>{{ color || "none" }}</q-tooltip></button>
+  </div>`,
+  {
+    data() {
+      return { colors: ["", ...this.node.options] };
+    },
+  },
+);

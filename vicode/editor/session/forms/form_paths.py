@@ -1,0 +1,65 @@
+"""Paths of fields: as the browser names them, of their owners in the design, and in the file.
+
+In the browser, an action is named by its id instead of its index (`ListIds`), and a guard is a step of its own:
+"enter/n3/values", "guard/when".
+"""
+
+from collections.abc import Sequence
+
+from vicode.editor.session.forms.list_ids import ACTION_LISTS, ListIds
+from vicode.editor.session.item_paths import item_at
+from vicode.editor.view import ItemRef
+from vicode.findings import DesignPath
+from vicode.model.decision_keys import parse_transition_key
+from vicode.model.design import Design
+
+_KEYS = {"values": "set", "arguments": "with"}
+
+
+def item_path(item: ItemRef) -> DesignPath:
+    """The path of an item in the design; empty if it has no form."""
+    match item:
+        case ItemRef(kind="transitions", id=key):
+            return parse_transition_key(key)
+        case ItemRef(kind="states", id=name):
+            return ("states", name)
+        case ItemRef(kind="common"):
+            return ("common",)
+        case _:
+            return ()
+
+
+def parse_path(path: str) -> DesignPath:
+    """The steps of a path in the browser."""
+    return tuple(int(step) if step.isdecimal() else step for step in path.split("/") if step)
+
+
+def is_in_list(steps: DesignPath) -> bool:
+    """Whether a path in the browser leads to an action or a part of one."""
+    return len(steps) > 1 and steps[0] in ACTION_LISTS
+
+
+def resolve(design: Design, ids: ListIds, item: DesignPath, steps: DesignPath) -> DesignPath | None:
+    """The path with the index of the action instead of its id; None if there is no such action."""
+    if not is_in_list(steps):
+        return steps
+    path = (*item, steps[0])
+    index = ids.index(path, item_at(design, path) or (), str(steps[1]))
+    return None if index is None else (steps[0], index, *steps[2:])
+
+
+def split_path(steps: DesignPath) -> tuple[DesignPath, DesignPath]:
+    """The owner of a resolved path, relative to the item, and the path of the value in its owner."""
+    if steps[:1] == ("modulates",):
+        return steps[:2], steps[2:]
+    last = max((at for at, step in enumerate(steps) if isinstance(step, int)), default=-1) + 1
+    return steps[:last], steps[last:]
+
+
+def file_path(item: DesignPath, steps: Sequence[str | int]) -> DesignPath:
+    """The path in the file of a resolved path."""
+    if tuple(steps) == ("initial",):
+        return ("initial",)
+    if steps[:1] == ("modulates",):
+        return (*item, *(step for step in steps if step != "arguments"))
+    return (*item, *(_KEYS.get(str(step), step) for step in steps if step != "guard"))

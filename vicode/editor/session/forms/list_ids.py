@@ -1,0 +1,105 @@
+"""Ids of the actions in a design, by which forms and edits name them.
+
+An index would name another action as soon as somebody adds, moves or removes one. Ids follow their actions from one
+version of the design to the next. A browser chooses the ids of the actions that it adds, so it can draw their fields
+and send what is typed into them before it has an answer.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from vicode.findings import DesignPath
+from vicode.model.design import CommonSection, Design, State
+from vicode.model.merge import find_renamed_states, match_items
+
+ACTION_LISTS = ("actions", "enter", "leave")
+_WANTED = re.compile(r"b[0-9a-z]{4,20}")
+_Ids = Mapping[str, tuple[str, ...]]
+
+
+class ListIds:
+    """The ids of all lists; those of a list that has not changed yet are its indices."""
+
+    def __init__(self) -> None:
+        self._changed: dict[DesignPath, _Ids] = {}
+        """The ids of lists by their name, by the path of their owner."""
+        self._last = 0
+        self._wanted: tuple[DesignPath, str] | None = None
+
+    def of_owner(self, path: DesignPath) -> _Ids | None:
+        """What differs from the indices; equal values mean equal ids."""
+        return self._changed.get(path)
+
+    def ids(self, path: DesignPath, items: tuple[Any, ...]) -> tuple[str, ...]:
+        """The ids of the items of a list."""
+        known = self._changed.get(path[:-1], {}).get(str(path[-1]))
+        return tuple(map(str, range(len(items)))) if known is None else known
+
+    def index(self, path: DesignPath, items: tuple[Any, ...], id_: str) -> int | None:
+        ids = self.ids(path, items)
+        return ids.index(id_) if id_ in ids else None
+
+    def want(self, path: DesignPath, id_: str) -> None:
+        """Give this id to the item that the next edit adds to a list."""
+        self._wanted = (path, id_) if _WANTED.fullmatch(id_) else None
+
+    def follow(self, old: Design, new: Design) -> None:
+        """Update the ids to a new version of the design."""
+        before = dict(_owners(old))
+        names = {path[-1]: name for path, name in self._renamed(old, new).items()}
+        changed: dict[DesignPath, _Ids] = {}
+        for path, owner in _owners(new):
+            source = path if path in before else (*path[:-1], names.get(path[-1], ""))
+            known, then = self._changed.get(source), before.get(source)
+            if then is not owner:
+                known = self._follow_owner(source, then, path, owner)
+            if known:
+                changed[path] = known
+        self._changed, self._wanted = changed, None
+
+    @staticmethod
+    def _renamed(old: Design, new: Design) -> dict[DesignPath, str]:
+        if [state.name for state in old.states] == [state.name for state in new.states]:
+            return {}
+        return {("states", now): then for then, now in find_renamed_states(old, new).items()}
+
+    def _follow_owner(self, source: DesignPath, then: Any, path: DesignPath, owner: Any) -> _Ids:
+        if then is None:
+            return {}
+        changed: dict[str, tuple[str, ...]] = {}
+        for section in ACTION_LISTS:
+            before, items = getattr(then, section, ()), getattr(owner, section, ())
+            ids = self.ids((*source, section), before)
+            if before != items:
+                ids = self._follow_list(ids, before, items, (*path, section))
+            if ids != tuple(map(str, range(len(items)))):
+                changed[section] = ids
+        return changed
+
+    def _follow_list(
+        self, ids: tuple[str, ...], before: tuple[Any, ...], items: tuple[Any, ...], path: DesignPath
+    ) -> tuple[str, ...]:
+        matches = match_items(before, items, is_keyed=False)
+        followed = {to: ids[index] for index, to in matches.items()}
+        if len(before) == len(items):
+            # An item that was changed beyond recognition.
+            for index in range(len(items)):
+                if index not in followed and index not in matches:
+                    followed[index] = ids[index]
+        return tuple(
+            followed.get(index) or self._new_id(path, (*ids, *followed.values())) for index in range(len(items))
+        )
+
+    def _new_id(self, path: DesignPath, taken: tuple[str, ...]) -> str:
+        wanted, self._wanted = self._wanted, None
+        if wanted is not None and wanted[0] == path and wanted[1] not in taken:
+            return wanted[1]
+        self._last += 1
+        return f"n{self._last}"
+
+
+def _owners(design: Design) -> Iterator[tuple[DesignPath, State | CommonSection]]:
+    for state in design.states:
+        yield ("states", state.name), state
+    yield ("common",), design.common
