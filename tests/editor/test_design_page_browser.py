@@ -126,19 +126,23 @@ def test_escape_calls_off_a_dialog_that_is_still_on_its_way(editor: str, page: P
     expect(page.get_by_role("dialog")).to_be_visible()
 
 
-def test_a_double_click_on_a_timer_leads_to_its_duration(editor: str, page: Page, project: Path) -> None:
+def test_tab_leads_from_the_label_of_a_timer_to_its_duration(editor: str, page: Page, project: Path) -> None:
     design = project / "forward" / "player.yaml"
     design.write_text(
         design.read_text().replace("{to: WatchBall, when: not kicker.busy, after: 0.5,", "{to: WatchBall, after: 3,")
     )
     open_player(page, editor)
     label(page, "Kick/0").dblclick()
+    expect(page.locator("input.guard-field")).to_have_value("after 3 s")
+    page.keyboard.press("Tab")
     expect(page.get_by_label("After (seconds in this state)")).to_be_focused()
 
 
-def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page, project: Path) -> None:
+def test_a_double_click_on_a_label_opens_its_guard(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     label(page, "Kick/0").dblclick()
+    expect(page.locator("input.guard-field")).to_have_value("not kicker.busy after 0.5 s")
+    page.keyboard.press("Tab")
     expect(page.get_by_label("When", exact=True)).to_be_focused()
     expect(page.get_by_label("When", exact=True)).to_have_text("not kicker.busy")
 

@@ -135,7 +135,7 @@ def test_a_component_is_used_by_keys_and_by_dragging_its_design(sketch: EditorDr
 
 def test_escape_moves_the_focus_from_a_field_to_the_canvas(sketch: EditorDriver) -> None:
     sketch.click(middle(sketch.page.locator('g.chip[data-id="Start/1"]')))
-    sketch.press("Enter")
+    sketch.press("Enter", "Tab")
     after = sketch.page.get_by_label("After (seconds in this state)")
     expect(after).to_be_focused()
     after.fill("5")

@@ -53,6 +53,7 @@ def test_transitions_are_numbered_in_the_order_they_are_tested() -> None:
         ("A/1", "A", "B", "a and b and { code }", 3, 3, "code"),
     ]
     assert scene["rev"] == 7
+    assert [item["guard"] for item in scene["transitions"]] == ["fallen", "after 5 s", "", "a and b"]
 
 
 def test_disabled_items_are_marked() -> None:

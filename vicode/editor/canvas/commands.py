@@ -58,7 +58,7 @@ CANVAS_COMMANDS = (
     CanvasCommand("new-target", "Add transition to new state", _CREATE, ("N",), menus=("states", "common")),
     CanvasCommand("connect", "Connect to…", _CREATE, ("T",), menus=("states", "components", "common")),
     CanvasCommand("finish-connection", "Finish connection", _CREATE, ("Enter",)),
-    CanvasCommand("open-guard", "Edit guard", _MODIFY, ("Enter",), menus=("transitions",)),
+    CanvasCommand("open-guard", "Edit guard", _MODIFY, ("F2", "Enter"), menus=("transitions",)),
     CanvasCommand("open-design", "Open design", _MODIFY, ("Enter",), menus=("components",)),
     CanvasCommand("open-note", "Edit note", _MODIFY, ("Enter",), menus=("notes",)),
     CanvasCommand("open-common", "Edit common transitions and actions", _MODIFY, ("Enter",), menus=("common",)),

@@ -3,6 +3,12 @@
 Labels of single widgets stay where the widget is built; texts of panels are in `vicode.editor.panels.texts`.
 """
 
+from collections.abc import Sequence
+
+from vicode.editor.panels.texts import pluralize
+
+_MAX_NAMED = 4
+
 NO_DESIGNS_TITLE = "No designs yet"
 NO_DESIGNS_HELP = "A design is a state machine in a YAML file."
 NO_DESIGNS_IN_PROJECT = "No designs yet. Create one from a template."
@@ -25,6 +31,8 @@ ONLY_PROJECT_COMPONENTS = "Only other components of this project can be added"
 NO_CONFLICT = "No conflict to resolve"
 LAYOUT_OUTDATED = "The design changed. Run the layout again."
 SAVED_WITH_ERRORS = "Saved, but the file cannot be opened as a design yet"
+LINE_UNREADABLE = "This line cannot be read"
+LINE_EXISTS = "These states and transitions exist already"
 NO_ERRORS_IN_FILE = "No errors. Save to open the design."
 
 
@@ -82,3 +90,11 @@ def layout_running(states: str, limit_s: float) -> str:
 
 def sample_failed(reason: str) -> str:
     return f"The sample was not copied to the folder 'forward': {reason}"
+
+
+def create_line(states: Sequence[str], transitions: int) -> str:
+    """What a line of states and transitions creates, such as "Create Drive, Pour and 2 transitions"."""
+    more = [f"{len(states) - _MAX_NAMED} more states"] if len(states) > _MAX_NAMED else []
+    counted = [pluralize(transitions, "transition")] if transitions else []
+    *first, last = [*states[:_MAX_NAMED], *more, *counted]
+    return f"Create {', '.join(first)} and {last}" if first else f"Create {last}"

@@ -10,7 +10,7 @@ from vicode.model.names import name_from_text
 
 MAX_NAME_LENGTH = 80
 _MAX_QUOTED_LENGTH = 40
-_COLUMNS = {"name": "target", "doc": "description"}
+_COLUMNS = {"name": "target", "when": "guard", "doc": "description"}
 
 # Labels of the undo history.
 

@@ -10,8 +10,9 @@ from vicode.diagram.node_geometry import note_lines, note_size
 from vicode.diagram.transition_labels import guard_kind, short_transition_label, transition_label
 from vicode.editor.view.selection import ItemRef, item_at_path, transition_key
 from vicode.findings import Finding, Severity, worst_severity
-from vicode.model.design import COMMON, Call, Design, DiagramNote, State, Transition
+from vicode.model.design import COMMON, Call, Design, DiagramNote, Guard, State, Transition
 from vicode.model.disabled import disabled_states, is_enabled
+from vicode.model.guard_text import write_guard
 from vicode.model.project import Project
 from vicode.model.traversal import LocatedDecision, iter_transitions
 
@@ -131,6 +132,7 @@ def _transitions(design: Design, transitions: list[LocatedDecision], by_item: _F
             "source": "@common" if located.source == COMMON else located.source,
             "target": transition.to,
             "label": short_transition_label(located, unit),
+            "guard": _guard_text(transition.guard, unit),
             "order": orders[located.source],
             "of": counts[located.source],
             "disabled": not is_enabled(located, off),
@@ -139,6 +141,11 @@ def _transitions(design: Design, transitions: list[LocatedDecision], by_item: _F
             "doc": "\n".join(part for part in (transition_label(located, unit), transition.doc) if part),
             **_marks(by_item, ItemRef(kind="transitions", id=key)),
         }
+
+
+def _guard_text(guard: Guard, unit: str) -> str | None:
+    """The guard as it is edited on the label; None if it is edited in the form, as code."""
+    return None if guard.code is not None and not guard.when and not guard.after else write_guard(guard, unit)
 
 
 def _links(design: Design) -> Iterable[dict[str, str]]:

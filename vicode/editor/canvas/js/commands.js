@@ -73,7 +73,7 @@ function modifyHandlers(canvas) {
   const reorder = (by) => canvas.report("reorder", { id: single().id, by });
   const mark = (name) => canvas.report("mark", { mark: name, id: single().id });
   return {
-    "open-guard": { can: is("transitions"), run: open },
+    "open-guard": { can: is("transitions"), run: () => canvas.guard.start(selection.single()) || open() },
     "open-design": { can: is("components"), run: open },
     "open-note": { can: is("notes"), run: open },
     "open-common": { can: is("common"), run: open },

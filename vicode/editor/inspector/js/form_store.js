@@ -3,6 +3,8 @@ import { nextTick, reactive } from "vue";
 import { SyncedText } from "./synced_text.js";
 
 const SEND_MS = 200;
+// The fields in which Python looks for times when their user leaves them.
+const READS_TIMES = /\|guard\/(when|after)$/;
 
 export const keyOf = ({ of, id }) => `${of}/${id}`;
 
@@ -15,6 +17,7 @@ export class FormStore {
     this.fields = new Map();
     this.actions = new Map();
     this.timers = new Map();
+    this.unsettled = new Set();
     this.view = reactive({ key: null, nodes: [], lists: {}, marks: {}, openSections: [], language: "" });
   }
 
@@ -69,6 +72,7 @@ export class FormStore {
   type(path, text) {
     const key = `${this.view.key}|${path}`;
     this.fields.get(key).type(text);
+    if (READS_TIMES.test(key)) this.unsettled.add(key);
     this.#sendSoon(key);
   }
 
@@ -82,6 +86,7 @@ export class FormStore {
     const field = this.fields.get(key);
     if (!field) return;
     this.#send(key);
+    this.#settle(key);
     field.blur();
     this.request("focus", { item: this.#item(key), path: null });
   }
@@ -106,6 +111,11 @@ export class FormStore {
   /** Sends all typed texts now. */
   sendAll() {
     for (const key of this.fields.keys()) this.#send(key);
+    for (const key of this.unsettled) this.#settle(key);
+  }
+
+  #settle(key) {
+    if (this.unsettled.delete(key)) this.#emitEdit("settle", key, {});
   }
 
   #emitEdit(kind, key, fields) {
@@ -200,6 +210,7 @@ export class FormStore {
       return (moved[item] ?? item) + path;
     };
     this.fields = new Map([...this.fields].map(([key, field]) => [renamed(key), field]));
+    this.unsettled = new Set([...this.unsettled].map(renamed));
     if (this.view.key in moved) this.view.key = moved[this.view.key];
   }
 

@@ -13,6 +13,7 @@ from vicode.editor.view import ItemRef, parse_transition_key, transition_key
 from vicode.findings import DesignPath
 from vicode.model.design import DecisionGroup, Design, Guard, Stay
 from vicode.model.edits import add_transition, assign_id, decisions_path, remove_decisions, reorder_decision
+from vicode.model.guard_text import settle_guard
 from vicode.model.paths import describe_path
 
 _NEW_PREDICATE = "return self.state_time > 2\n"
@@ -124,7 +125,33 @@ class ButtonEdit:
         return _PRESSES[self.action](self, document, owner)
 
 
-FORM_EDITS: Mapping[str, type[FormEdit]] = {each.kind: each for each in (TextEdit, ChoiceEdit, CheckEdit, ButtonEdit)}
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SettleEdit:
+    """The user has finished typing into the expression or the time of a guard: times move to where they belong."""
+
+    kind: ClassVar = "settle"
+    id: int
+    rev: int
+    item: ItemRef
+    path: str
+
+    def apply(self, document: DocumentSession) -> FormResult:
+        place = _find_place(document, self.item, self.path, self.rev)
+        if place is None or not isinstance(guard := getattr(place.owner_in(document.design), "guard", None), Guard):
+            return FormResult(error=texts.ITEM_MISSING)
+        settled = settle_guard(guard, document.design.time_unit)
+        if settled is not guard:
+            document.edit(
+                place.label,
+                lambda design: change_item(design, (*place.owner, "guard"), lambda _guard: settled),
+                coalesce_key=place.key,
+            )
+        return FormResult()
+
+
+FORM_EDITS: Mapping[str, type[FormEdit]] = {
+    each.kind: each for each in (TextEdit, ChoiceEdit, CheckEdit, ButtonEdit, SettleEdit)
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,6 +161,20 @@ class _Place:
     owner: DesignPath
     attribute: DesignPath
     field: FormField
+
+    @property
+    def path(self) -> DesignPath:
+        """The path of the value in the file."""
+        return (*self.owner, *(step for step in self.attribute if step != "guard"))
+
+    @property
+    def label(self) -> str:
+        return f"edit {describe_path(self.path)}"
+
+    @property
+    def key(self) -> str:
+        """The coalesce key: what is typed into one field is one edit."""
+        return "/".join(map(str, self.path))
 
     def owner_in(self, design: Design) -> Any:
         return item_at(design, self.owner)
@@ -150,12 +191,11 @@ class _Place:
         owner = self.owner_in(document.design)
         if self.field.read(owner) == value:
             return FormResult(own=own)
-        path = (*self.owner, *(step for step in self.attribute if step != "guard"))
         notice, rev = document.shared.notice, document.rev
         document.edit(
-            f"edit {describe_path(path)}",
+            self.label,
             lambda design: change_item(design, self.owner, lambda each: self.field.write(each, value)),
-            coalesce_key="/".join(map(str, path)),
+            coalesce_key=self.key,
         )
         is_refused = document.shared.notice is not notice and document.rev == rev
         return FormResult(own=own, error=document.shared.notice.text if is_refused else "")
