@@ -136,3 +136,33 @@ def test_escape_clears_the_selection(canvas: CanvasDriver) -> None:
     canvas.press("Escape")
     assert canvas.selection() == set()
     canvas.wait_for_gesture("select", items=[])
+
+
+def test_letters_of_a_text_whose_field_has_gone_are_no_commands(canvas: CanvasDriver) -> None:
+    canvas.click(canvas.at("states", "GiveUp"))
+    # The field disappears while its user types on.
+    canvas.page.evaluate(
+        """() => {
+          const field = document.body.appendChild(document.createElement("input"));
+          field.id = "vanishing";
+          field.addEventListener("input", () => field.value.length === 3 && field.remove());
+        }"""
+    )
+    canvas.page.locator("#vanishing").focus()
+    canvas.page.keyboard.type("serfdinsm[]")
+    expect(canvas.page.locator("input.rename")).to_be_hidden()
+    # Enter ends a text: what follows is a command.
+    canvas.press("Enter", "Escape", "f")
+    assert canvas.wait_for_gesture("mark") == {"mark": "final", "id": "GiveUp"}
+    assert {gesture["kind"] for gesture in canvas.gestures()} <= {"select", "mark", "command", "tooltip"}
+
+
+def test_a_letter_after_a_pause_is_a_command(canvas: CanvasDriver) -> None:
+    canvas.click(canvas.at("states", "GiveUp"))
+    canvas.page.evaluate("document.body.appendChild(document.createElement('input')).id = 'other'")
+    canvas.page.locator("#other").focus()
+    canvas.page.keyboard.type("x")
+    canvas.page.locator("#other").evaluate("field => field.remove()")
+    canvas.page.wait_for_timeout(1100)
+    canvas.press("f")
+    assert canvas.wait_for_gesture("mark") == {"mark": "final", "id": "GiveUp"}

@@ -13,7 +13,7 @@ from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.texts import SAVED, not_saved
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import DiskConflictError, DocumentSession, apply_edit, code_sync
+from vicode.editor.session import DiskConflictError, DocumentSession, code_sync
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.gestures import DisableGesture
 
@@ -72,7 +72,7 @@ class PageCommands:
 
     def toggle_disabled(self) -> None:
         """Disable the selected states and transitions, or enable them if all are disabled."""
-        self._show_error(apply_edit(self.context.document, DisableGesture(items=self.context.selected)).error)
+        self._show_error(self.canvas_controller.apply(DisableGesture(items=self.context.selected)).error)
 
     def toggle_links(self) -> None:
         self.links_shown = not self.links_shown

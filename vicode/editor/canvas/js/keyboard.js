@@ -1,5 +1,7 @@
 // Converts key events to shortcuts such as "Ctrl+Shift+Z" and runs their commands. Other keys are left to the page.
 
+import { Typing } from "./typing.js";
+
 // The page runs a command, such as saving, or shows something else: what is typed belongs to the design before that.
 const SENDS_TEXT = ["vicode-send-text", "vicode-leave", "beforeunload"];
 const MODIFIER_ORDER = ["Ctrl", "Alt", "Shift"];
@@ -7,6 +9,7 @@ const MODIFIER_ORDER = ["Ctrl", "Alt", "Shift"];
 export class Keyboard {
   constructor(canvas) {
     this.canvas = canvas;
+    this.typing = new Typing();
     const { stage } = canvas;
     this.onPageKey = (event) => this.#pageKey(event);
     stage.addEventListener("keydown", (event) => this.#down(event));
@@ -18,12 +21,16 @@ export class Keyboard {
     document.addEventListener("keydown", this.onPageKey);
     this.onSendText = () => [canvas.rename, canvas.guard].forEach((field) => field.keep());
     for (const name of SENDS_TEXT) addEventListener(name, this.onSendText);
+    this.onCommand = (event) => canvas.commands.isEdit(event.detail) && this.typing.continues() && event.preventDefault();
+    addEventListener("vicode-command", this.onCommand);
     if (document.activeElement === document.body) stage.focus({ preventScroll: true });
   }
 
   dispose() {
     document.removeEventListener("keydown", this.onPageKey);
     for (const name of SENDS_TEXT) removeEventListener(name, this.onSendText);
+    removeEventListener("vicode-command", this.onCommand);
+    this.typing.dispose();
   }
 
   /** Keys pressed while no element of the page has the focus are handled by the canvas. */
@@ -45,6 +52,7 @@ export class Keyboard {
     const chord = chordOf(event);
     if (chord === "Space") return this.#space(true);
     if (gestures.connectMode && /^[\p{L}\p{N}_]$/u.test(event.key) && !/Ctrl|Alt/.test(chord)) return gestures.connectMode.aimByName(event.key);
+    if (commands.isEdit(commands.find(chord)?.name) && this.typing.continues()) return true;
     return commands.runShortcut(chord);
   }
 
