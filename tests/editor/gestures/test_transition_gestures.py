@@ -170,3 +170,21 @@ def test_escape_cancels_every_gesture(sketch: EditorDriver) -> None:
     expect(sketch.page.locator(".message")).to_be_hidden()
     sketch.expect_selection("states/Rest")
     expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
+
+
+def test_an_undo_shows_what_it_changes_off_screen(sketch: EditorDriver) -> None:
+    sketch.select("Go")
+    sketch.press("ArrowRight")
+    sketch.expect_position("states/Go", 450, 100)
+    here = sketch.view()
+    sketch.evaluate(f"setView({{ x: -4000, y: {here['y']}, k: {here['k']} }})")
+    sketch.press("Control+z")
+    sketch.expect_position("states/Go", 440, 100)
+    sketch.wait_for("vicode.view().x > -1000")
+    # What is in view already stays where it is.
+    before = sketch.view()
+    sketch.press("Control+Shift+Z")
+    sketch.expect_position("states/Go", 450, 100)
+    assert sketch.view() == before
+    sketch.press("Control+z", "1")
+    sketch.view()

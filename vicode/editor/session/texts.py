@@ -200,8 +200,9 @@ def cell_changed(value: str) -> str:
     return f"the cell has changed to '{value[:60]}': press Enter again to overwrite it"
 
 
-def missing_components(names: Collection[str]) -> str:
-    return f"Not in this project: {', '.join(names)}" if names else ""
+def paste_note(added: Collection[str], missing: Collection[str]) -> str:
+    parts = (("Also added", added), ("Not in this project", missing))
+    return ". ".join(f"{what}: {', '.join(names)}" for what, names in parts if names)
 
 
 # Numbers.
