@@ -1,7 +1,10 @@
 """What a person does: open, drag, add, connect, guard, undo, generate, save, reload; and two windows on one design."""
 
+import re
 from pathlib import Path
+from typing import Literal
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.editor.player_page import (
@@ -17,6 +20,7 @@ from tests.editor.player_page import (
     state,
 )
 from tests.editor.slow_connection import SlowConnection
+from tests.editor.test_theme import contrast
 
 # The page's socket seems to be open only when the test says so.
 SPEAKS_LATE = """
@@ -307,6 +311,37 @@ def test_messages_hide_no_list_and_take_no_press(editor: str, page: Page) -> Non
           return document.elementFromPoint(x + width / 2, y + height / 2).closest("main") !== null;
         }"""
     )
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_messages_are_readable_and_above_dialogs(editor: str, page: Page, scheme: Literal["light", "dark"]) -> None:
+    page.emulate_media(color_scheme=scheme)
+    open_player(page, editor)
+    page.keyboard.press("?")
+    expect(page.locator(".help")).to_be_visible()
+    page.keyboard.press("Control+s")
+    message = page.locator(".q-notification", has_text="Saved")
+    expect(message).to_be_visible()
+    for kind in ("positive", "negative", "warning", "info"):
+        # Quasar marks the kind by these classes.
+        text, back = message.evaluate(
+            """(message, kind) => {
+              message.classList.remove("bg-positive", "bg-negative", "bg-warning", "bg-info");
+              message.classList.add("bg-" + kind);
+              const {color, backgroundColor} = getComputedStyle(message);
+              return [color, backgroundColor];
+            }""",
+            kind,
+        )
+        assert contrast(hex_color(text), hex_color(back)) >= 4.5, kind
+    above = "([one, other]) => [one, other].map((each) => +getComputedStyle(document.querySelector(each)).zIndex)"
+    message_z, dialog_z = page.evaluate(above, [".q-notifications__list--bottom", ".q-dialog"])
+    assert message_z > dialog_z
+
+
+def hex_color(color: str) -> str:
+    """A color such as "rgb(255, 0, 16)" as in a style sheet."""
+    return "#" + "".join(f"{int(part):02x}" for part in re.findall(r"\d+", color)[:3])
 
 
 def test_what_is_no_frequency_is_told_and_stays_to_be_mended(editor: str, page: Page) -> None:

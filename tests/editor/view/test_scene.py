@@ -84,7 +84,7 @@ def test_findings_mark_the_smallest_item() -> None:
     )
     scene = make_scene(PROJECT, DESIGN, (finding, elsewhere), 0)
     marked = {item["id"]: item["messages"] for item in (*scene["transitions"], *scene["states"]) if item["severity"]}
-    assert marked == {"A/0/then/0": ["'sen' is not declared"]}
+    assert marked == {"A/0/then/0": ["error: 'sen' is not declared"]}
 
 
 def test_a_diff_lists_changed_and_removed_items() -> None:

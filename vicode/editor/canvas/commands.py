@@ -122,11 +122,12 @@ CANVAS_COMMANDS = (
 GESTURE_HELP = (
     (
         "Double-click",
-        "new state; on a state or a frame's title: rename; on a transition: edit guard; on a component: open design",
+        "new state; on a state or a frame's title: rename; on a transition: edit its guard on the label; "
+        "on a component: open design",
     ),
     (
         "Drag from the edge of a state",
-        "new transition; dropped on empty space: also a new state; dropped on a component: link",
+        "new transition, then its guard; dropped on empty space: also a new state; dropped on a component: link",
     ),
     ("Drag an end of a selected transition", "change source or target"),
     ("Drag a label", "move the label; dropped on another label of the same state: change priority"),

@@ -30,9 +30,13 @@ class LineCommand:
     def _create(self, line: TransitionLine) -> None:
         context = self._context
         states, transitions = line.missing_states(context.design), line.missing_transitions(context.design)
+        was_empty = not context.design.states
         label = texts.create_line(states, len(transitions))
         context.edit(label[:1].lower() + label[1:], lambda design: add_line(design, line))
         created = tuple(ItemRef(kind="states", id=name) for name in states if context.design.state(name) is not None)
         if created:
             context.select(*created)
-            context.page.reveal(created[-1])
+        if was_empty:
+            context.page.run_canvas_command("fit")
+        else:
+            context.page.reveal((*created, ItemRef(kind="states", id=line.states[-1]))[0])

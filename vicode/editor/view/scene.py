@@ -27,6 +27,7 @@ def make_scene(
     rev: int,
     *,
     changed_outside: Collection[str] = (),
+    unfinished: Collection[str] = (),
 ) -> Scene:
     """The scene as {"rev", "component", "doc", "common"}, and lists of states, transitions, components, links, frames
     and notes.
@@ -46,6 +47,7 @@ def make_scene(
                 **_state(design, state, by_item),
                 **_at(layout.states[state.name]),
                 "outside": state.name in changed_outside,
+                "unfinished": state.name in unfinished,
             }
             for state in design.states
         ],
@@ -91,12 +93,18 @@ def _at(point: tuple[float, float]) -> dict[str, float]:
     return {"x": point[0], "y": point[1]}
 
 
+def finding_messages(findings: Iterable[Finding]) -> list[str]:
+    """The messages, each with its own severity."""
+    return [f"{finding.severity}: {finding.message}" for finding in findings]
+
+
 def _marks(by_item: _Findings, item: ItemRef) -> dict[str, Any]:
     findings = by_item.get(item)
     if findings is None:
-        return {"severity": None, "messages": []}
+        return {"severity": None, "count": 0, "messages": []}
     severity: Severity | None = worst_severity(findings)
-    return {"severity": str(severity) if severity else None, "messages": [finding.message for finding in findings]}
+    count = sum(finding.severity is severity for finding in findings)
+    return {"severity": str(severity) if severity else None, "count": count, "messages": finding_messages(findings)}
 
 
 def _state(design: Design, state: State, by_item: _Findings) -> dict[str, Any]:

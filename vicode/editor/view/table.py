@@ -4,6 +4,7 @@ from collections import defaultdict
 from collections.abc import Iterable
 from typing import Any, cast, get_args
 
+from vicode.editor.view.scene import finding_messages
 from vicode.editor.view.selection import ItemKind, ItemRef, item_at_path, transition_key
 from vicode.findings import DesignPath, Finding, worst_severity
 from vicode.model.design import COMMON, Code, CommonSection, Decision, DecisionGroup, Design, State, Transition
@@ -73,7 +74,7 @@ def _row(item: ItemRef, kind: str, cells: dict[str, Any], found: dict[ItemRef, l
         "lead": "",
         "cells": cells,
         "severity": str(severity) if severity else None,
-        "messages": [finding.message for finding in found.get(item, ())],
+        "messages": finding_messages(found.get(item, ())),
     }
 
 

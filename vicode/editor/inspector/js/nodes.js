@@ -10,7 +10,7 @@ const Messages = {
   template: `
     <div v-if="error || marks.length" class="field-messages nicegui-column" role="status">
       <div v-if="error" class="field-finding">{{ error }}</div>
-      <div v-for="mark in marks" class="field-finding" :class="{ 'is-info': mark.severity === 'info' }">{{ mark.message }}</div>
+      <div v-for="mark in marks" class="field-finding" :class="mark.severity">{{ mark.message }}</div>
     </div>`,
 };
 
@@ -23,7 +23,7 @@ const TextField = {
   template: `
     <div class="field nicegui-column" :data-path="path">
       <q-input ref="input" outlined dense stack-label :label="node.label" :placeholder="node.hint" :model-value="field.local"
-        :type="node.is_long ? 'textarea' : 'text'" :autogrow="node.is_long" :class="{ mono: node.is_code, 'has-finding': isWrong }"
+        :type="node.is_long ? 'textarea' : 'text'" :autogrow="node.is_long" :class="[{ mono: node.is_code, 'has-finding': worst }, worst]"
         v-bind="corrections" @update:model-value="type" @focus="store.focus(path)" @blur="store.blur(key)" />
       <messages :marks="marks" :error="field.error" />
     </div>`,
@@ -35,8 +35,10 @@ const TextField = {
     marks() {
       return marksAt(this.store, this.path);
     },
-    isWrong() {
-      return Boolean(this.field.error || this.marks.some((mark) => mark.severity !== "info"));
+    /** The worst severity of the messages; "" if they are not about the text. */
+    worst() {
+      if (this.field.error) return "error";
+      return ["error", "warning", "note"].find((severity) => this.marks.some((mark) => mark.severity === severity)) ?? "";
     },
     corrections() {
       return this.node.is_code ? { autocapitalize: "off", spellcheck: "false", autocomplete: "off" } : {};
