@@ -1,7 +1,10 @@
 """What a person does: open, drag, add, connect, guard, undo, generate, save, reload; and two windows on one design."""
 
+import re
 from pathlib import Path
+from typing import Literal
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.editor.player_page import (
@@ -17,6 +20,7 @@ from tests.editor.player_page import (
     state,
 )
 from tests.editor.slow_connection import SlowConnection
+from tests.editor.test_theme import contrast
 
 # The page's socket seems to be open only when the test says so.
 SPEAKS_LATE = """
@@ -126,19 +130,23 @@ def test_escape_calls_off_a_dialog_that_is_still_on_its_way(editor: str, page: P
     expect(page.get_by_role("dialog")).to_be_visible()
 
 
-def test_a_double_click_on_a_timer_leads_to_its_duration(editor: str, page: Page, project: Path) -> None:
+def test_tab_leads_from_the_label_of_a_timer_to_its_duration(editor: str, page: Page, project: Path) -> None:
     design = project / "forward" / "player.yaml"
     design.write_text(
         design.read_text().replace("{to: WatchBall, when: not kicker.busy, after: 0.5,", "{to: WatchBall, after: 3,")
     )
     open_player(page, editor)
     label(page, "Kick/0").dblclick()
+    expect(page.locator("input.guard-field")).to_have_value("after 3 s")
+    page.keyboard.press("Tab")
     expect(page.get_by_label("After (seconds in this state)")).to_be_focused()
 
 
-def test_a_double_click_on_an_arrow_leads_to_its_guard(editor: str, page: Page, project: Path) -> None:
+def test_a_double_click_on_a_label_opens_its_guard(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
     label(page, "Kick/0").dblclick()
+    expect(page.locator("input.guard-field")).to_have_value("not kicker.busy after 0.5 s")
+    page.keyboard.press("Tab")
     expect(page.get_by_label("When", exact=True)).to_be_focused()
     expect(page.get_by_label("When", exact=True)).to_have_text("not kicker.busy")
 
@@ -303,6 +311,37 @@ def test_messages_hide_no_list_and_take_no_press(editor: str, page: Page) -> Non
           return document.elementFromPoint(x + width / 2, y + height / 2).closest("main") !== null;
         }"""
     )
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_messages_are_readable_and_above_dialogs(editor: str, page: Page, scheme: Literal["light", "dark"]) -> None:
+    page.emulate_media(color_scheme=scheme)
+    open_player(page, editor)
+    page.keyboard.press("?")
+    expect(page.locator(".help")).to_be_visible()
+    page.keyboard.press("Control+s")
+    message = page.locator(".q-notification", has_text="Saved")
+    expect(message).to_be_visible()
+    for kind in ("positive", "negative", "warning", "info"):
+        # Quasar marks the kind by these classes.
+        text, back = message.evaluate(
+            """(message, kind) => {
+              message.classList.remove("bg-positive", "bg-negative", "bg-warning", "bg-info");
+              message.classList.add("bg-" + kind);
+              const {color, backgroundColor} = getComputedStyle(message);
+              return [color, backgroundColor];
+            }""",
+            kind,
+        )
+        assert contrast(hex_color(text), hex_color(back)) >= 4.5, kind
+    above = "([one, other]) => [one, other].map((each) => +getComputedStyle(document.querySelector(each)).zIndex)"
+    message_z, dialog_z = page.evaluate(above, [".q-notifications__list--bottom", ".q-dialog"])
+    assert message_z > dialog_z
+
+
+def hex_color(color: str) -> str:
+    """A color such as "rgb(255, 0, 16)" as in a style sheet."""
+    return "#" + "".join(f"{int(part):02x}" for part in re.findall(r"\d+", color)[:3])
 
 
 def test_what_is_no_frequency_is_told_and_stays_to_be_mended(editor: str, page: Page) -> None:

@@ -18,6 +18,9 @@ def test_a_frame_is_made_renamed_dragged_and_deleted(editor: str, page: Page, pr
     expect(frame).to_have_attribute("aria-label", "Frame Find it: LookForBall, FollowBall")
     expect(page.get_by_label("Title", exact=True)).to_have_value("Find it")
     expect(frame).to_have_class("item frame selected")
+    # The frame shows who belongs to it.
+    members = page.locator('g[data-kind="state"].member')
+    assert set(members.evaluate_all("all => all.map((each) => each.dataset.id)")) == {"LookForBall", "FollowBall"}
     title = frame.locator(".handle-bar").bounding_box()
     assert title is not None
     grip = (title["x"] + title["width"] * 0.6, title["y"] + title["height"] / 2)
@@ -33,7 +36,9 @@ def test_a_frame_is_made_renamed_dragged_and_deleted(editor: str, page: Page, pr
     after = [centre_of(page, name) for name in ("LookForBall", "FollowBall", "SearchNet")]
     assert [old != new for old, new in zip(before, after, strict=True)] == [True, True, False]
     assert "frames:\n  Find the ball: [LookForBall, FollowBall]\n" in save(page, project / "forward" / "player.yaml")
+    expect(members).to_have_count(2)
     page.keyboard.press("Delete")
+    expect(members).to_have_count(0)
     expect(frame).to_have_count(0)
     expect(state(page, "LookForBall")).to_be_visible()
     page.keyboard.press("Control+z")

@@ -1,10 +1,11 @@
 """Finding things and going there: the palette, links that select, double clicks, the way back."""
 
 import re
+from pathlib import Path
 
 from playwright.sync_api import Locator, Page, expect
 
-from tests.editor.player_page import component, open_player, select_state, state
+from tests.editor.player_page import component, open_player, save, select_state, state
 from tests.editor.slow_connection import SlowConnection
 
 
@@ -157,3 +158,33 @@ def test_back_shows_the_drawing_as_it_was_left(editor: str, page: Page) -> None:
     expect(state(page, "LookForBall")).to_be_visible()
     same = "left => { const now = %s; return [...'xyk'].every(key => now[key] === left[key]); }"
     page.wait_for_function(same % view, arg=left)
+
+
+def test_a_line_typed_into_the_palette_is_created_as_one_edit(editor: str, page: Page, project: Path) -> None:
+    open_player(page, editor)
+    open_palette(page, "Kick -20 s-> Cheer -sensors.done after 500 ms-> LookForBall")
+    offer = palette(page).get_by_role("option").first
+    expect(offer).to_contain_text("Create Cheer and 2 transitions")
+    page.keyboard.press("Enter")
+    expect(state(page, "Cheer")).to_be_in_viewport()
+    saved = save(page, project / "forward" / "player.yaml")
+    assert "{to: Cheer, after: 20}" in saved
+    assert "{to: LookForBall, when: sensors.done, after: 0.5}" in saved
+    # The drawing has the focus again, and one step takes everything back.
+    page.keyboard.press("Control+z")
+    expect(state(page, "Cheer")).to_have_count(0)
+
+
+def test_a_line_that_cannot_be_read_stays_in_the_palette_with_the_reason(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    # Enter is pressed before the answer.
+    open_palette(page, "Kick -distance <-> Cheer")
+    page.keyboard.press("Enter")
+    offer = palette(page).get_by_role("option").first
+    expect(offer).to_contain_text("This line cannot be read")
+    expect(offer).to_contain_text("'distance <' is not a guard")
+    page.keyboard.press("Enter")
+    expect(palette(page).get_by_role("combobox")).to_have_value("Kick -distance <-> Cheer")
+    expect(palette(page)).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(state(page, "Cheer")).to_have_count(0)

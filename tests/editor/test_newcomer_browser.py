@@ -75,14 +75,11 @@ def draw_states(page: Page) -> None:
     for name in ("TakeOrder", "Serve", "Charge", "Wait"):
         page.keyboard.press("n")
         type_and_enter(page, name)
+        type_and_enter(page, "")
         expect(state(page, name)).to_be_visible()
     page.keyboard.press("t")
     type_and_enter(page, "idle")
-    expect(page.get_by_label("Inspector").get_by_text("Transition from")).to_be_visible()
-    page.keyboard.press("Enter")
-    expect(page.get_by_label("When", exact=True)).to_be_focused()
-    page.keyboard.press("Tab")
-    page.keyboard.type("3")
+    type_and_enter(page, "3 s")
     expect(page.locator('g.item[data-id="Wait/0"][aria-label*="3 s"]')).to_have_count(1)
 
 

@@ -15,7 +15,7 @@ READ = [
     for back in ("paper", "panel", "faint", "accent-soft")
     for front in ("text", "muted", "accent", "error", "warning", "note", "good")
 ]
-READ += [("on-accent", "accent", TEXT), ("on-error", "error", TEXT)]
+READ += [("on-accent", "accent", TEXT), ("on-error", "error", TEXT), ("panel", "text", TEXT)]
 DRAWN = [
     (front, back, TEXT)
     for front, back in (
@@ -34,6 +34,7 @@ DRAWN = [
         ("on-badge", "error"),
         ("on-badge", "warning"),
         ("on-badge", "note"),
+        ("on-badge", "muted"),
     )
 ]
 DRAWN += [

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
+from typing import Any
 
 from vicode.findings import DesignPath
 from vicode.model.decisions import drop_targets, retarget_all
@@ -21,8 +22,10 @@ from vicode.model.design import (
     Use,
 )
 from vicode.model.edits import add_state, rename_use, unique_name, update_decisions
-from vicode.model.rename import rename_alias
+from vicode.model.rename import ReferenceKind, ReferenceRename, rename_alias, rename_in_design
 from vicode.model.traversal import find_decision, iter_actions, iter_decisions, iter_transitions
+
+_SECTIONS = ("parameters", "outputs", "variables")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,17 +44,21 @@ class FragmentSelection:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertResult:
-    """A design with an inserted fragment, the new names of its states, frames and notes, and unavailable components."""
+    """A design with an inserted fragment, the new names of its states, frames and notes, and unavailable components.
+
+    `added` are the declarations and components that the fragment needs: their kind and name, such as "variable tries".
+    """
 
     design: Design
     states: tuple[str, ...] = ()
     frames: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     missing: tuple[str, ...] = ()
+    added: tuple[str, ...] = ()
 
 
 def extract_fragment(design: Design, selection: FragmentSelection) -> Design:
-    """Extract states with the components that they refer to, frames around these states, and notes.
+    """Extract states with the components and declarations that they refer to, frames around these states, and notes.
 
     Without states, the selected decisions are extracted as common transitions.
     """
@@ -64,7 +71,7 @@ def extract_fragment(design: Design, selection: FragmentSelection) -> Design:
     uses = tuple(use for use in design.uses if use.alias in selection.aliases or _references_alias(part, use.alias))
     frames = _frames_around([frame for frame in design.frames if frame.name in selection.frames], states)
     notes = tuple(note for note in design.notes if note.name in selection.notes)
-    return replace(part, uses=uses, frames=frames, notes=notes)
+    return _with_declarations(design, replace(part, uses=uses, frames=frames, notes=notes))
 
 
 def insert_fragment(
@@ -78,7 +85,9 @@ def insert_fragment(
         available: The components that the design can use. References to other components are kept.
         offset: The displacement of all positions in pixels.
     """
+    before = design
     design, fragment, missing = _insert_uses(design, fragment, available, offset)
+    design = _insert_declarations(design, fragment)
     fragment = _with_unique_names(design, fragment)
     lost = _dangling_targets(design, fragment)
     taken = _used_ids(design)
@@ -100,6 +109,7 @@ def insert_fragment(
         frames=tuple(frame.name for frame in frames),
         notes=tuple(note.name for note in notes),
         missing=missing,
+        added=_added(before, design),
     )
 
 
@@ -107,14 +117,16 @@ def append_decisions(
     design: Design, fragment: Design, state_names: Iterable[str], *, available: Collection[str]
 ) -> InsertResult:
     """Append the common transitions of a fragment to states."""
+    before = design
     design, fragment, missing = _insert_uses(design, fragment, available, (0, 0))
+    design = _insert_declarations(design, fragment)
     lost = _dangling_targets(design, fragment)
     taken = _used_ids(design)
     for name in state_names:
         items = _decisions_with_unique_ids(drop_targets(fragment.common.transitions, lost), taken)
         where: DesignPath = ("states", name, "transitions")
         design = update_decisions(design, where, lambda old, items=items: (*old, *items))  # type: ignore[misc]
-    return InsertResult(design=design, missing=missing)
+    return InsertResult(design=design, missing=missing, added=_added(before, design))
 
 
 def duplicate_decision(design: Design, path: DesignPath) -> Design:
@@ -129,6 +141,42 @@ def duplicate_decision(design: Design, path: DesignPath) -> Design:
 
 def _references_alias(part: Design, alias: str) -> bool:
     return rename_alias(part, alias, f"{alias}_") != part
+
+
+def _references_name(part: Design, name: str) -> bool:
+    rename = ReferenceRename(kind=ReferenceKind.OWN, old=name, new=f"{name}_")
+    return rename_in_design(part, rename) != part
+
+
+def _with_declarations(design: Design, part: Design) -> Design:
+    """The part with the declarations that it refers to, and those to which these refer."""
+    needed = [each for _section, each in design.declarations() if _references_name(part, each.name)]
+    found: dict[str, Any] = {
+        name: tuple(each for each in getattr(design, name) if each in needed) for name in _SECTIONS
+    }
+    grown = replace(part, **found)
+    return part if grown == part else _with_declarations(design, grown)
+
+
+def _insert_declarations(design: Design, part: Design) -> Design:
+    """Add the declarations of the part; a name that the design has keeps its meaning."""
+    known = {each.name for _section, each in design.declarations()} | {use.alias for use in design.uses}
+    grown: dict[str, Any] = {
+        name: (*getattr(design, name), *(each for each in getattr(part, name) if each.name not in known))
+        for name in _SECTIONS
+    }
+    return replace(design, **grown)
+
+
+def _added(before: Design, after: Design) -> tuple[str, ...]:
+    uses = [f"component {use.alias}" for use in after.uses if use not in before.uses]
+    known = list(before.declarations())
+    names = [
+        f"{section.removesuffix('s')} {each.name}"
+        for section, each in after.declarations()
+        if (section, each) not in known
+    ]
+    return (*uses, *names)
 
 
 def _insert_uses(

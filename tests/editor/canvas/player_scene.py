@@ -48,7 +48,7 @@ def _state(name: str, x: float, y: float, **more: Any) -> dict[str, Any]:
 
 
 def _transition(source: str, index: int, target: str, label: str, order: int, of: int, **more: Any) -> dict[str, Any]:
-    plain = {"kind": "guard", "doc": "", "severity": None, "messages": []}
+    plain = {"kind": "guard", "guard": label, "doc": "", "severity": None, "messages": []}
     return {
         "id": f"{source}/{index}",
         "source": source,

@@ -65,6 +65,7 @@ def test_the_common_badge_and_components_can_be_moved(canvas: CanvasDriver) -> N
 
 def test_dragging_from_a_handle_to_the_same_node_adds_a_self_loop(canvas: CanvasDriver) -> None:
     canvas.drag_handle("states", "GiveUp", canvas.at("states", "GiveUp"))
+    canvas.press("Enter")
     assert canvas.wait_for_gesture("connect")["target"] == "GiveUp"
 
 
@@ -77,6 +78,7 @@ def test_releasing_next_to_the_source_node_connects_nothing(canvas: CanvasDriver
 
 def test_common_transitions_start_at_the_badge(canvas: CanvasDriver) -> None:
     canvas.drag_handle("common", "@common", canvas.at("states", "GiveUp"))
+    canvas.press("Enter")
     assert canvas.wait_for_gesture("connect")["source"] == "@common"
 
 

@@ -151,6 +151,12 @@ class EditorDriver:
         field.press("Enter")
         expect(self.element("state", name)).to_be_visible()
 
+    def guard_with(self, guard: str = "") -> None:
+        """Type the guard of a new transition."""
+        expect(self.page.locator("input.guard-field")).to_be_focused()
+        self.page.keyboard.type(guard)
+        self.press("Enter")
+
     def expect_undone(self, steps: int = 1) -> None:
         """Undo edits, and check that exactly this many steps restore the saved design."""
         expect(self.page.get_by_text("Unsaved changes")).to_be_visible()

@@ -135,7 +135,7 @@ def test_a_component_is_used_by_keys_and_by_dragging_its_design(sketch: EditorDr
 
 def test_escape_moves_the_focus_from_a_field_to_the_canvas(sketch: EditorDriver) -> None:
     sketch.click(middle(sketch.page.locator('g.chip[data-id="Start/1"]')))
-    sketch.press("Enter")
+    sketch.press("Enter", "Tab")
     after = sketch.page.get_by_label("After (seconds in this state)")
     expect(after).to_be_focused()
     after.fill("5")
@@ -144,3 +144,24 @@ def test_escape_moves_the_focus_from_a_field_to_the_canvas(sketch: EditorDriver)
     expect(sketch.page.locator(".stage").last).to_be_focused()
     sketch.expect_selection("transitions/Start/1")
     sketch.expect_undone()
+
+
+def test_what_a_single_key_did_is_said_and_undone(sketch: EditorDriver) -> None:
+    for key, done in (
+        ("d", "Disabled Go"),
+        ("i", "Go is the initial state"),
+        ("f", "Go is final"),
+        ("m", "Added a note"),
+    ):
+        sketch.select("Go")
+        sketch.press(key)
+        bar = sketch.page.locator(".undo-bar")
+        expect(bar).to_contain_text(done)
+        bar.get_by_role("button", name="Undo").click()
+        expect(bar).to_be_hidden()
+        expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
+    sketch.click(middle(sketch.page.locator('g.chip[data-id="Start/0"]')))
+    sketch.press("]")
+    expect(sketch.page.locator(".undo-bar")).to_contain_text("Changed the order of transitions")
+    sketch.page.locator(".undo-bar").get_by_role("button", name="Undo").click()
+    expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()

@@ -129,6 +129,7 @@ def test_two_fingers_zoom_and_a_finger_drags_a_transition_from_a_state(
     box = box_of(disc)
     assert min(box["width"], box["height"]) >= 40 * min(1, before)
     fingers.drag(middle(disc), sketch.state("Stop"))
+    sketch.guard_with()
     expect(sketch.transition("Rest/0")).to_have_count(1)
     sketch.expect_undone()
 

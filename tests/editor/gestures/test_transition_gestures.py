@@ -40,17 +40,20 @@ def test_both_ends_are_reconnected_by_keys(sketch: EditorDriver) -> None:
 
 def test_states_are_connected_by_mouse_and_by_keys(sketch: EditorDriver) -> None:
     sketch.drag(sketch.handle("Rest", 1), sketch.state("Stop"))
+    sketch.guard_with()
     expect_transition(sketch, "Rest/0", "from Rest to Stop")
     sketch.expect_undone()
     sketch.select("Rest")
     sketch.press("t", "Tab", "Tab", "Enter")
+    sketch.guard_with()
     expect_transition(sketch, "Rest/0", "from Rest to Start")
     sketch.expect_undone()
     sketch.select("Rest")
     sketch.press("t", "ArrowRight")
     expect(sketch.page.locator(".message")).to_contain_text("Stop: press Enter")
     sketch.press("Enter")
-    expect_transition(sketch, "Rest/0", "from Rest to Stop")
+    sketch.guard_with("state_time > 2 after 500 ms")
+    expect_transition(sketch, "Rest/0", "from Rest to Stop: state_time > 2 and 0.5 s")
     sketch.expect_undone()
     sketch.select("Rest")
     sketch.press("t", "w", "a", "l", "Enter")
@@ -63,12 +66,23 @@ def test_states_are_connected_by_mouse_and_by_keys(sketch: EditorDriver) -> None
 def test_a_connection_to_empty_space_creates_a_state(sketch: EditorDriver) -> None:
     sketch.drag(sketch.handle("Rest", 2), sketch.state("Rest", 0, 150))
     sketch.rename_to("Sleep")
-    expect_transition(sketch, "Rest/0", "from Rest to Sleep")
+    sketch.guard_with("20 s")
+    expect_transition(sketch, "Rest/0", "from Rest to Sleep: 20 s")
     sketch.expect_undone()
     sketch.select("Rest")
     sketch.press("n")
     sketch.rename_to("Doze")
+    sketch.guard_with()
     expect_transition(sketch, "Rest/0", "from Rest to Doze")
+    sketch.expect_undone()
+
+
+def test_a_guard_is_edited_on_its_label(sketch: EditorDriver) -> None:
+    sketch.click(label(sketch, "Start/1"), double=True)
+    expect(sketch.page.locator("input.guard-field")).to_have_value("after 3 s")
+    sketch.guard_with("state_time > 1 after 250 ms")
+    expect_transition(sketch, "Start/1", "from Start to Stop: state_time > 1 and 0.25 s")
+    sketch.expect_selection("transitions/Start/1")
     sketch.expect_undone()
 
 
@@ -156,3 +170,21 @@ def test_escape_cancels_every_gesture(sketch: EditorDriver) -> None:
     expect(sketch.page.locator(".message")).to_be_hidden()
     sketch.expect_selection("states/Rest")
     expect(sketch.page.get_by_text("Saved", exact=True)).to_be_visible()
+
+
+def test_an_undo_shows_what_it_changes_off_screen(sketch: EditorDriver) -> None:
+    sketch.select("Go")
+    sketch.press("ArrowRight")
+    sketch.expect_position("states/Go", 450, 100)
+    here = sketch.view()
+    sketch.evaluate(f"setView({{ x: -4000, y: {here['y']}, k: {here['k']} }})")
+    sketch.press("Control+z")
+    sketch.expect_position("states/Go", 440, 100)
+    sketch.wait_for("vicode.view().x > -1000")
+    # What is in view already stays where it is.
+    before = sketch.view()
+    sketch.press("Control+Shift+Z")
+    sketch.expect_position("states/Go", 450, 100)
+    assert sketch.view() == before
+    sketch.press("Control+z", "1")
+    sketch.view()

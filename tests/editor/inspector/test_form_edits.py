@@ -167,3 +167,32 @@ def test_the_form_shows_each_part_of_a_decision() -> None:
     group = item_form(Project(name="p"), DESIGN, ItemRef(kind="transitions", id="A/1"), ListIds())
     lists = [node for node in group if isinstance(node, Decisions)]
     assert [[row.target for row in each.rows] for each in lists] == [["→ A", "stay"], ["stay"]]
+
+
+def test_a_time_typed_into_the_guard_is_moved_when_the_field_is_left(document: DocumentSession) -> None:
+    edit(document, "text", path="guard/when", base="x < 1", text="x < 2 after 500 ms")
+    assert first(document).guard == Guard(when="x < 2 after 500 ms")
+    edit(document, "settle", path="guard/when")
+    assert first(document).guard == Guard(when="x < 2", after="0.5")
+    # Typing and moving are one entry of the history.
+    assert document.undo() == ""
+    assert document.design == DESIGN
+
+
+def test_a_guard_without_a_time_is_not_edited_again(document: DocumentSession) -> None:
+    edit(document, "text", path="guard/when", base="x < 1", text="x < 2 or after 2 s")
+    rev = document.rev
+    assert edit(document, "settle", path="guard/when").error == ""
+    assert document.rev == rev
+    assert edit(document, "settle", path="doc").error == ""
+
+
+def test_always_is_shown_only_where_nothing_else_is_required(document: DocumentSession) -> None:
+    def hint(key: str) -> str:
+        nodes = item_form(Project(name="p"), document.design, ItemRef(kind="transitions", id=key))
+        return next(node.hint for node in nodes if isinstance(node, CodeText) and node.label == "When")
+
+    edit(document, "text", path="guard/when", base="x < 1", text="")
+    assert hint("A/0") == "always"
+    edit(document, "text", path="guard/after", base="", text="2")
+    assert hint("A/0") == ""

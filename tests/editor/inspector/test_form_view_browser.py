@@ -29,7 +29,7 @@ def test_what_is_typed_after_a_double_click_is_the_guard(
     label(page, LOOK).dblclick()
     page.keyboard.press("Control+a")
     page.keyboard.type(text, delay=key_ms)
-    expect(guard(page)).to_have_text(text)
+    expect(page.locator("input.guard-field")).to_have_value(text)
     line.release()
     saved = save(page, project / "forward" / "player.yaml")
     assert saved == before.replace(
@@ -70,6 +70,36 @@ def test_the_key_that_saves_takes_the_last_letters(editor: str, page: Page, proj
         assert f"when: perception.ball_seen and state_time > {count}," in save(
             page, project / "forward" / "player.yaml"
         )
+
+
+@pytest.mark.parametrize(
+    ("typed", "guarded"),
+    [
+        ("after 20 s", "after: 20"),
+        ("perception.ball_seen after 500 ms", "when: perception.ball_seen, after: 0.5"),
+        ("perception.ball_seen or after 2 s", "when: perception.ball_seen or after 2 s"),
+    ],
+)
+def test_a_time_typed_into_the_guard_becomes_the_time(
+    editor: str, page: Page, project: Path, typed: str, guarded: str
+) -> None:
+    open_player(page, editor)
+    select_transition(page, LOOK)
+    guard(page).click()
+    page.keyboard.press("Control+a")
+    page.keyboard.type(typed)
+    # While one types, the text stays in the field.
+    expect(guard(page)).to_have_text(typed)
+    page.keyboard.press("Enter")
+    time = page.get_by_label("After (seconds in this state)")
+    if "after:" in guarded:
+        expect(time).to_have_value(guarded.partition("after: ")[2])
+        expect(guard(page)).not_to_contain_text("after")
+        expect(guard(page)).not_to_contain_text("always")
+    else:
+        expect(time).to_have_value("")
+        expect(page.get_by_label("Inspector").locator(".field-message.error")).to_be_visible()
+    assert f"{{to: FollowBall, {guarded}, doc: ball seen}}" in save(page, project / "forward" / "player.yaml")
 
 
 def test_two_people_in_one_field_get_both_edits(editor: str, page: Page, other: Page) -> None:

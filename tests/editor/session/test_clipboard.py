@@ -10,7 +10,18 @@ from hypothesis import strategies as st
 from tests.editor.session.conftest import open_design
 from vicode.editor.session import DocumentSession, EditResult, apply_edit, clipboard
 from vicode.editor.view import ItemRef
-from vicode.model.design import CommonSection, Design, Guard, State, Transition, Use
+from vicode.model.design import (
+    Assign,
+    Code,
+    CommonSection,
+    Declaration,
+    Design,
+    Guard,
+    RunCode,
+    State,
+    Transition,
+    Use,
+)
 from vicode.store import read_design
 
 DESIGN = Design(
@@ -93,6 +104,51 @@ def test_paste_reports_missing_components() -> None:
     text = "states:\n  D: {requires: [wheels]}\nuses: {wheels: Wheels}\n"
     assert "Wheels" in paste(other, text).note
     assert other.design.uses == ()
+
+
+def test_paste_brings_the_declarations_that_it_needs() -> None:
+    source = replace(
+        DESIGN,
+        parameters=(Declaration(name="speed", initial="limit / 2"), Declaration(name="unused")),
+        outputs=(Declaration(name="near", type="bool"),),
+        variables=(Declaration(name="tries", type="int"), Declaration(name="limit")),
+        states=(
+            replace(
+                DESIGN.states[0],
+                actions=(Assign(values=(("near", "speed > 3"),)),),
+                enter=(RunCode(code=Code(texts=(("python", "self.tries += 1"),))),),
+            ),
+            *DESIGN.states[1:],
+        ),
+    )
+    text = clipboard.copy_as_text(source, items(states="A"))
+    document = open_design(Design(component="Player", initial="S", states=(State(name="S"),)))
+    outcome = paste(document, text)
+    assert outcome.note == ("Also added: component head, parameter speed, output near, variable tries, variable limit")
+    assert [(section, each) for section, each in document.design.declarations()] == [
+        ("parameters", source.parameters[0]),
+        ("outputs", source.outputs[0]),
+        *(("variables", each) for each in source.variables),
+    ]
+    # The second time nothing is missing; one step takes all of it back.
+    assert paste(document, text, x=500).note == ""
+    document.undo()
+    document.undo()
+    assert list(document.design.declarations()) == []
+    assert document.design.uses == ()
+
+
+def test_a_declared_name_keeps_its_meaning_and_transitions_bring_theirs() -> None:
+    own = Declaration(name="tries", initial="7")
+    source = replace(
+        DESIGN,
+        variables=(Declaration(name="tries", type="int"), Declaration(name="limit")),
+        states=(State(name="A", transitions=(Transition(to="A", guard=Guard(when="tries > limit")),)),),
+    )
+    document = open_design(replace(DESIGN, variables=(own,)))
+    outcome = paste(document, clipboard.copy_as_text(source, items(transitions="A/0")), "B")
+    assert outcome.note == "Also added: variable limit"
+    assert document.design.variables == (own, source.variables[1])
 
 
 def test_transitions_are_pasted_into_the_selected_states(document: DocumentSession) -> None:

@@ -104,6 +104,30 @@ def test_connect_to_another_state_itself_and_a_new_state(document: DocumentSessi
     assert arrows(document) == [(COMMON, "A"), ("A", "B"), ("A", "A"), ("B", "A"), ("B", "B"), ("B", "State")]
 
 
+def test_the_guard_of_a_new_transition_is_part_of_its_creation(document: DocumentSession) -> None:
+    gesture = {"kind": "connect", "source": "B", "target": "A", "guard": "x < 0.5 after 500 ms"}
+    apply_gesture(document, gesture)
+    apply_gesture(document, {**gesture, "target": None, "name": "Echo", "guard": "20 s"})
+    guards = [each.guard for each in document.design.states[1].transitions if isinstance(each, Transition)]
+    assert guards == [Guard(when="x < 0.5", after="0.5"), Guard(after="20")]
+    document.undo()
+    document.undo()
+    assert document.design == DESIGN
+
+
+def test_a_guard_is_typed_over_the_one_that_its_user_saw(document: DocumentSession) -> None:
+    gesture = {"kind": "guard", "id": "A/0", "base": "x"}
+    apply_gesture(document, {**gesture, "text": "x < 0.5 after 2 s", "base": ""})
+    first = document.design.states[0].transitions[0]
+    assert first.guard == Guard(when="x < 0.5", after="2")
+    # Another user has changed it meanwhile: both edits are kept.
+    apply_gesture(document, {**gesture, "text": "x < 0.55 after 2 s", "base": "x < 0.5 after 2 s"})
+    apply_gesture(document, {**gesture, "text": "not x < 0.5 after 2 s", "base": "x < 0.5 after 2 s"})
+    first = document.design.states[0].transitions[0]
+    assert first.guard == Guard(when="not x < 0.55", after="2")
+    assert apply_gesture(document, {**gesture, "id": "A/9", "text": "y"}).error
+
+
 def test_disable_toggles_all_given_items(document: DocumentSession) -> None:
     items = [{"of": "states", "id": "B"}, {"of": "transitions", "id": "A/1/then/0"}, {"of": "components", "id": "head"}]
     apply_gesture(document, {"kind": "disable", "items": items[:1]})

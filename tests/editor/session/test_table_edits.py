@@ -93,6 +93,17 @@ def test_a_cell_is_edited_and_undone(document: DocumentSession, row: str, column
     assert document.design == DESIGN
 
 
+def test_times_in_cells_are_read_as_people_write_them(document: DocumentSession) -> None:
+    write(document, "transitions/A/0", "after", "500 ms")
+    write(document, "transitions/A/1/else/0", "when", "x > 1 after 2 s")
+    cells = rows(document)
+    assert cells["transitions/A/0"]["cells"]["after"] == "0.5"
+    assert (cells["transitions/A/1/else/0"]["cells"]["when"], cells["transitions/A/1/else/0"]["cells"]["after"]) == (
+        "x > 1",
+        "2",
+    )
+
+
 def test_adding_a_modulation_keeps_existing_arguments(document: DocumentSession) -> None:
     write(document, "states/A", "modulates", "head legs")
     calls = document.design.states[0].modulates

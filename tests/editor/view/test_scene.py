@@ -46,6 +46,7 @@ def test_transitions_are_numbered_in_the_order_they_are_tested() -> None:
         ("A/1", "A", "B", "a and b and { code }", 3, 3, "code"),
     ]
     assert scene["rev"] == 7
+    assert [item["guard"] for item in scene["transitions"]] == ["fallen", "after 5 s", "", "a and b"]
 
 
 def test_disabled_items_are_marked() -> None:
@@ -76,7 +77,7 @@ def test_findings_mark_the_smallest_item() -> None:
     )
     scene = make_scene(PROJECT, DESIGN, (finding, elsewhere), 0)
     marked = {item["id"]: item["messages"] for item in (*scene["transitions"], *scene["states"]) if item["severity"]}
-    assert marked == {"A/0/then/0": ["'sen' is not declared"]}
+    assert marked == {"A/0/then/0": ["error: 'sen' is not declared"]}
 
 
 def test_a_diff_lists_changed_and_removed_items() -> None:

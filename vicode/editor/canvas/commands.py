@@ -58,7 +58,7 @@ CANVAS_COMMANDS = (
     CanvasCommand("new-target", "Add transition to new state", _CREATE, ("N",), menus=("states", "common")),
     CanvasCommand("connect", "Connect to…", _CREATE, ("T",), menus=("states", "components", "common")),
     CanvasCommand("finish-connection", "Finish connection", _CREATE, ("Enter",)),
-    CanvasCommand("open-guard", "Edit guard", _MODIFY, ("Enter",), menus=("transitions",)),
+    CanvasCommand("open-guard", "Edit guard", _MODIFY, ("F2", "Enter"), menus=("transitions",)),
     CanvasCommand("open-design", "Open design", _MODIFY, ("Enter",), menus=("components",)),
     CanvasCommand("open-note", "Edit note", _MODIFY, ("Enter",), menus=("notes",)),
     CanvasCommand("open-common", "Edit common transitions and actions", _MODIFY, ("Enter",), menus=("common",)),
@@ -122,11 +122,11 @@ CANVAS_COMMANDS = (
 GESTURE_HELP = (
     (
         "Double-click",
-        "new state; on a state or a frame's title: rename; on a transition: edit guard; on a component: open design",
+        "new state; on a state or a frame's title: rename; on a transition: edit its guard; on a component: open design",
     ),
     (
         "Drag from the edge of a state",
-        "new transition; dropped on empty space: also a new state; dropped on a component: link",
+        "new transition, then its guard; dropped on empty space: also a new state; dropped on a component: link",
     ),
     ("Drag an end of a selected transition", "change source or target"),
     ("Drag a label", "move the label; dropped on another label of the same state: change priority"),

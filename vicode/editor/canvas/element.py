@@ -23,6 +23,7 @@ from vicode.editor.js_modules import CANVAS_JS
 from vicode.editor.session.decoding import MalformedEventError
 from vicode.editor.session.gestures import NodePosition
 from vicode.editor.view import ItemRef
+from vicode.model.design import Point
 
 _KINDS = ("states", "transitions", "components", "links", "frames", "notes")
 
@@ -113,6 +114,10 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         """Center one element when the page is mounted, or only scroll to it if the browser restores an earlier view."""
         self._initial_target = (of, identity)
         self._call("scrollToInitial", of, identity)
+
+    def reveal_any(self, points: Sequence[Point]) -> None:
+        """Pan to the first of these points, unless one of them is in view."""
+        self._call("viewport.revealAny", [list(point) for point in points])
 
     def fit(self) -> None:
         self._call("fit")

@@ -161,10 +161,23 @@ class CanvasController:
             sections = [{"name": "trace", "text": self.canvas.heat_words[item]}, *sections]
         self.canvas.show_tooltip(item, sections)
 
+    def apply(self, edit: RequestedEdit) -> EditResult:
+        """Apply an edit, and offer to undo what a single key did."""
+        document, rev = self.context.document, self.context.document.rev
+        result = apply_edit(document, edit)
+        done = texts.describe_done(edit, document.design)
+        if done and not result.error and document.rev != rev:
+            entry_id = document.history.current_id
+            self.context.page.offer_undo(done, lambda: self._undo_entry(entry_id))
+        return result
+
+    def _undo_entry(self, entry_id: int) -> None:
+        if error := self.context.document.undo_entry(entry_id):
+            self.context.show_toast(error, "warning")
+
     def _edit(self, gesture: RequestedEdit, rev: int) -> None:
         rebased = self._rebase(gesture, rev)
-        missing = EditResult(error=texts.ITEM_MISSING)
-        self._show_result(apply_edit(self.context.document, rebased) if rebased else missing)
+        self._show_result(self.apply(rebased) if rebased else EditResult(error=texts.ITEM_MISSING))
         if isinstance(gesture, NoteGesture):
             ui.run_javascript(_FOCUS_NOTE)
 

@@ -8,6 +8,7 @@ from nicegui import core, ui
 from vicode.editor.pages.autosave_ui import AutosaveControls
 from vicode.editor.pages.design_view import DesignView
 from vicode.editor.pages.docs_preview import docs_command
+from vicode.editor.pages.line_command import LineCommand
 from vicode.editor.pages.navigation import Navigator
 from vicode.editor.pages.outside_edit_notices import OutsideEditNotices
 from vicode.editor.pages.page_commands import PageCommands
@@ -114,6 +115,7 @@ class DesignEditor:
         parts = (findings, self.navigator, self.autosave, self.tour)
         self.commands = self._commands((new, *(command for part in parts for command in part.commands())))
         window.palette.commands = self.commands
+        window.palette.interpret = LineCommand(context).interpret
         window.palette.current = SearchTarget(project=workspace.key, component=component)
         self.navigator.select_initial(address.selected, self.view.canvas_controller)
         canvas.on_ready = self.build_panels

@@ -13,9 +13,10 @@ from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.texts import SAVED, not_saved
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import DiskConflictError, DocumentSession, apply_edit, code_sync
+from vicode.editor.session import DiskConflictError, DocumentSession, code_sync
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.gestures import DisableGesture
+from vicode.editor.view.changed_places import find_changed_places
 
 T = TypeVar("T")
 
@@ -58,10 +59,17 @@ class PageCommands:
 
     def undo(self) -> None:
         """Undo the last edit of this user; show an error if another user changed the same since."""
-        self._show_error(self.context.document.undo())
+        self._change_and_show(self.context.document.undo)
 
     def redo(self) -> None:
-        self._show_error(self.context.document.redo())
+        self._change_and_show(self.context.document.redo)
+
+    def _change_and_show(self, change: Callable[[], str]) -> None:
+        """Undo or redo, and pan to what it changed if that is not in view."""
+        canvas = self.canvas_controller
+        before = canvas.scene
+        self._show_error(change())
+        canvas.canvas.reveal_any(find_changed_places(before, canvas.scene))
 
     def generate_code(self) -> None:
         """Save, show the changes of the generated files, and write them."""
@@ -72,7 +80,7 @@ class PageCommands:
 
     def toggle_disabled(self) -> None:
         """Disable the selected states and transitions, or enable them if all are disabled."""
-        self._show_error(apply_edit(self.context.document, DisableGesture(items=self.context.selected)).error)
+        self._show_error(self.canvas_controller.apply(DisableGesture(items=self.context.selected)).error)
 
     def toggle_links(self) -> None:
         self.links_shown = not self.links_shown

@@ -3,6 +3,19 @@
 Labels of single widgets stay where the widget is built; texts of panels are in `vicode.editor.panels.texts`.
 """
 
+from collections.abc import Sequence
+
+from vicode.editor.panels.texts import pluralize
+from vicode.editor.session.edits import RequestedEdit
+from vicode.editor.session.gestures import DisableGesture, NoteGesture, StateFlagGesture
+from vicode.editor.session.transition_gestures import ReorderGesture
+from vicode.editor.view import ItemRef
+from vicode.model.decision_keys import parse_transition_key
+from vicode.model.design import Design
+from vicode.model.traversal import find_decision
+
+_MAX_NAMED = 4
+
 NO_DESIGNS_TITLE = "No designs yet"
 NO_DESIGNS_HELP = "A design is a state machine in a YAML file."
 NO_DESIGNS_IN_PROJECT = "No designs yet. Create one from a template."
@@ -25,6 +38,8 @@ ONLY_PROJECT_COMPONENTS = "Only other components of this project can be added"
 NO_CONFLICT = "No conflict to resolve"
 LAYOUT_OUTDATED = "The design changed. Run the layout again."
 SAVED_WITH_ERRORS = "Saved, but the file cannot be opened as a design yet"
+LINE_UNREADABLE = "This line cannot be read"
+LINE_EXISTS = "These states and transitions exist already"
 NO_ERRORS_IN_FILE = "No errors. Save to open the design."
 
 
@@ -82,3 +97,44 @@ def layout_running(states: str, limit_s: float) -> str:
 
 def sample_failed(reason: str) -> str:
     return f"The sample was not copied to the folder 'forward': {reason}"
+
+
+def create_line(states: Sequence[str], transitions: int) -> str:
+    """What a line of states and transitions creates, such as "Create Drive, Pour and 2 transitions"."""
+    more = [f"{len(states) - _MAX_NAMED} more states"] if len(states) > _MAX_NAMED else []
+    counted = [pluralize(transitions, "transition")] if transitions else []
+    *first, last = [*states[:_MAX_NAMED], *more, *counted]
+    return f"Create {', '.join(first)} and {last}" if first else f"Create {last}"
+
+
+def describe_done(edit: RequestedEdit, design: Design) -> str:
+    """What an edit by a single key did, such as "Kick is final"; "" for edits that show themselves."""
+    match edit:
+        case DisableGesture(items=items):
+            verb = "Disabled" if any(_is_disabled(design, item) for item in items) else "Enabled"
+            return f"{verb} {items[0].id if len(items) == 1 and items[0].kind == 'states' else _counted(items)}"
+        case StateFlagGesture(mark="initial", id=name):
+            return f"{name} is the initial state"
+        case StateFlagGesture(id=name):
+            state = design.state(name)
+            return f"{name} is {'final' if state is not None and state.final else 'no longer final'}"
+        case ReorderGesture(by=int()):
+            return "Changed the order of transitions"
+        case NoteGesture():
+            return "Added a note"
+        case _:
+            return ""
+
+
+def _counted(items: Sequence[ItemRef]) -> str:
+    named = [each for each in items if each.kind in ("states", "transitions")]
+    kinds = {each.kind for each in named}
+    return pluralize(len(named), str(kinds.pop()).removesuffix("s") if len(kinds) == 1 else "item")
+
+
+def _is_disabled(design: Design, item: ItemRef) -> bool:
+    if item.kind == "transitions":
+        located = find_decision(design, parse_transition_key(item.id))
+        return located is not None and located.decision.disabled
+    state = design.state(item.id) if item.kind == "states" else None
+    return state is not None and state.disabled

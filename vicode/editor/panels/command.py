@@ -16,6 +16,15 @@ class MenuGroup(StrEnum):
     SIMULATE = "Simulate"
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TypedCommand:
+    """A command that the text in the palette describes; without a handler `detail` says why it cannot run."""
+
+    label: str
+    detail: str
+    handler: CommandHandler | None = None
+
+
 @dataclass(frozen=True, slots=True)
 class Command:
     """A command; `keys` are written "Ctrl+Shift+Z" (Ctrl is Cmd on a Mac).

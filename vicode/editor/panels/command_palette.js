@@ -12,7 +12,7 @@ export default {
             v-model="text" @input="sendQuery" @keydown="onKeyDown">
         </div>
         <ul ref="list" class="palette-list" role="listbox" :id="$.uid + '-list'" aria-label="Results">
-          <li v-for="(hit, index) in hits" :key="index" :id="optionId(index)" role="option" class="palette-hit"
+          <li v-for="(hit, index) in hits" :key="index" :id="optionId(index)" role="option" class="palette-hit" :class="{ refused: hit.refused }"
             :aria-selected="index === at" @mousemove="at = index" @click="choose(index, shown)">
             <i class="q-icon material-icons" aria-hidden="true">{{ hit.icon }}</i>
             <span class="palette-title"><template v-for="part in hit.parts"><mark v-if="part.found">{{ part.text }}</mark><template v-else>{{ part.text }}</template></template></span>
@@ -39,9 +39,9 @@ export default {
     removeEventListener("vicode-command", this.onCommand);
   },
   methods: {
-    open() {
+    open(text = "") {
       if (this.$refs.box.open) return this.$refs.field.select();
-      this.text = "";
+      this.text = text;
       this.opening += 1;
       this.$refs.box.showModal();
       this.$refs.field.focus();
@@ -84,6 +84,7 @@ export default {
     },
     /** The server repeats the search: the first result of the text in the field may not be shown yet. */
     choose(index, text) {
+      if (text === this.shown && this.hits[index]?.refused) return;
       this.$refs.box.close();
       this.$emit("choose", { text, opening: this.opening, index });
     },

@@ -6,7 +6,7 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.panels.command import Command
+from vicode.editor.panels.command import Command, TypedCommand
 from vicode.editor.panels.texts import NO_RESULTS, pluralize
 from vicode.editor.session.search_index import (
     SearchIndex,
@@ -46,6 +46,8 @@ class CommandPalette(ui.element, component="command_palette.js"):
         self.commands: Sequence[Command] = ()
         self.current: SearchTarget | None = None
         """The open design, None on the home page."""
+        self.interpret: Callable[[str], TypedCommand | None] = lambda _text: None
+        """The command that a text describes by itself; it is listed first."""
         self._items: list[SearchItem] = []
         self._last_result: tuple[str, tuple[SearchMatch, ...]] = ("", ())
         self._opening_id: object = None
@@ -68,14 +70,22 @@ class CommandPalette(ui.element, component="command_palette.js"):
     def _on_query(self, event: GenericEventArguments) -> None:
         self._reload_items(event)
         text = _text(event)
-        matches = self._find(text)
-        count = pluralize(len(matches), "result") if matches else NO_RESULTS
-        self.run_method("answer", {"text": text, "hits": [_hit(match) for match in matches], "words": count})
+        typed, matches = self.interpret(text), self._find(text)
+        hits = [*([_typed_hit(typed)] if typed else []), *(_hit(match) for match in matches)]
+        count = pluralize(len(hits), "result") if hits else NO_RESULTS
+        self.run_method("answer", {"text": text, "hits": hits, "words": count})
 
     def _on_choose(self, event: GenericEventArguments) -> None:
         self._reload_items(event)
         matches = self._find(_text(event))
         index = event.args.get("index")
+        typed = self.interpret(_text(event))
+        if typed is not None and index == 0:
+            # The text stays, to be corrected.
+            _ = typed.handler() if typed.handler else self.run_method("open", _text(event))
+            return
+        if typed is not None and isinstance(index, int):
+            index -= 1
         if not isinstance(index, int) or not 0 <= index < len(matches):
             return
         item = matches[index].item
@@ -105,6 +115,12 @@ def _command_item(command: Command) -> SearchItem:
         command=command.name,
         keys=", ".join(command.keys),
     )
+
+
+def _typed_hit(typed: TypedCommand) -> dict[str, Any]:
+    parts = [{"text": typed.label, "found": False}]
+    common = {"kind": str(SearchKind.COMMAND), "parts": parts, "detail": typed.detail, "where": "", "keys": ""}
+    return {**common, "icon": "add" if typed.handler else "error_outline", "refused": typed.handler is None}
 
 
 def _hit(match: SearchMatch) -> dict[str, Any]:

@@ -16,9 +16,11 @@ from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import number_text
 from vicode.editor.session.field_merge import SentValues
 from vicode.editor.session.item_paths import TrackedItem
-from vicode.findings import DesignPath, Finding
+from vicode.findings import DesignPath, Finding, Severity, worst_severity
 from vicode.model.design import Design
 from vicode.model.paths import describe_path
+
+_SEVERITIES = " ".join(Severity)
 
 ReadValue = Callable[[Design], Any]
 WriteValue = Callable[[Design, Any], Design]
@@ -219,9 +221,10 @@ class Field:
         if message.text != text:
             message.set_text(text)
             message.set_visibility(bool(text))
+        worst = "error" if self.error else worst_severity((*findings, *self.other_findings())) or "note"
         is_wrong = bool(self.error or messages)
-        self.element.classes(add="has-finding" if is_wrong else None, remove=None if is_wrong else "has-finding")
-        message.classes(add=None if is_wrong else "is-info", remove="is-info" if is_wrong else None)
+        self.element.classes(add=f"has-finding {worst}" if is_wrong else None, remove=f"has-finding {_SEVERITIES}")
+        message.classes(add=str(worst), remove=_SEVERITIES)
 
 
 def findings_at(path: DesignPath, findings: Iterable[Finding]) -> list[Finding]:

@@ -12,12 +12,13 @@ from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.finding_list import filter_findings, group_by_severity
 from vicode.editor.session.fixes import is_fixable
 from vicode.editor.view import item_label
+from vicode.editor.view.unfinished import is_unfinished
 from vicode.findings import Finding, Severity
 
 _ICONS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "info"}
 _MAX_SHOWN = 200
-_Row = tuple[Finding, str, bool, bool]
-"""A finding, the label of its item, whether it is the first of that item, and whether it is the current one."""
+_Row = tuple[Finding, str, bool, bool, bool]
+"""A finding, the label of its item, and whether it is the first of that item, the current one, on an unfinished one."""
 
 
 class FindingsPanel:
@@ -42,7 +43,7 @@ class FindingsPanel:
     def refresh(self) -> None:
         findings = self.context.document.findings
         matching = filter_findings(findings, self.filter.value or "", self.hidden_severities)
-        shown = (findings, matching, self.navigator.current)
+        shown = (findings, matching, self.navigator.current, self.context.document.shared.unfinished_states)
         if shown == self.shown:
             return
         self.shown = shown
@@ -69,19 +70,22 @@ class FindingsPanel:
         self.more.set_visibility(hidden_count > 0)
 
     def _rows_of(self, matching: tuple[Finding, ...]) -> Iterator[_Row]:
+        unfinished = self.context.document.shared.unfinished_states
         for _severity, findings in group_by_severity(matching):
             before = ""
             for finding in findings:
                 label = item_label(self.context.design, finding.subject.path) if finding.subject else ""
-                yield finding, label, label != before, finding == self.navigator.current
+                is_current = finding == self.navigator.current
+                yield finding, label, label != before, is_current, is_unfinished(finding, unfinished)
                 before = label
 
     def _build(self, row_: _Row) -> ui.element:
-        finding, label, is_first, is_current = row_
+        finding, label, is_first, is_current, is_gray = row_
         severity = finding.severity
         here = " is-current" if is_current else ""
         with ui.element("div").classes(f"finding-row{here}").props('role="listitem"') as element:
-            with ui.element("button").classes(f"finding {severity}").props('type="button"') as row:
+            gray = " is-unfinished" if is_gray else ""
+            with ui.element("button").classes(f"finding {severity}{gray}").props('type="button"') as row:
                 ui.icon(_ICONS[severity]).props('aria-hidden="true"')
                 ui.label(f"{severity} {finding.rule.code}").classes("finding-code mono")
                 ui.label(label).classes("finding-thing" + ("" if is_first else " is-same"))
@@ -92,7 +96,8 @@ class FindingsPanel:
                     else ""
                 )
                 ui.label(line + finding.message).classes("finding-message")
-                ui.label(finding.fix).classes("finding-hint")
+                notes = (f"note: {note.message}" for note in finding.notes)
+                ui.label(" · ".join(part for part in (finding.fix, *notes) if part)).classes("finding-hint")
             row.on("click", lambda: self.navigator.select_finding(finding))
             if is_fixable(finding):
                 fix_button(self.context, finding, f"Fix: {finding.message}")

@@ -46,7 +46,7 @@ STEPS = (
     TourStep(
         title="Add a transition",
         text="Select a state and drag from one of its round handles to another state. "
-        "Or press T, then choose the target.",
+        "Or press T, then choose the target. Type the guard on the line, or nothing, then press Enter.",
         target=".design-view",
         completed_by="transition-added",
     ),

@@ -190,7 +190,7 @@ def _to_grid(value: float) -> float:
 
 
 def _select_inserted(joined: InsertResult) -> EditResult:
-    note = texts.missing_components(dict.fromkeys(joined.missing))
+    note = texts.paste_note(joined.added, dict.fromkeys(joined.missing))
     inserted: tuple[tuple[ItemKind, tuple[str, ...]], ...] = (
         ("states", joined.states),
         ("frames", joined.frames),

@@ -17,6 +17,7 @@ from vicode.editor.session.positions import keep_positions
 from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
 from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import Scene, diff_scenes, make_scene
+from vicode.editor.view.unfinished import unfinished_states
 from vicode.findings import Finding
 from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Design
@@ -117,8 +118,15 @@ class SharedDocument:
         key = (project, self.findings, self.rev, marked)
         if self._drawn is None or not _is_same(self._drawn[0], key):
             design = self.history.current.design
-            self._drawn = (key, make_scene(project, design, self.findings, self.rev, changed_outside=marked))
+            marks = {"changed_outside": marked, "unfinished": self.unfinished_states}
+            self._drawn = (key, make_scene(project, design, self.findings, self.rev, **marks))
         return self._drawn[1]
+
+    @property
+    def unfinished_states(self) -> frozenset[str]:
+        """The states that were added since the design was opened and have no transition yet."""
+        opened = next(iter(self.history.entries.values()))
+        return unfinished_states(opened.design, self.history.current.design)
 
     def forms(self, project: Project) -> Forms:
         """The forms of all items, cached for all windows."""

@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar, Protocol
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.view import ItemRef
-from vicode.model.design import Design, Point, State
+from vicode.model.design import Design, Guard, Point, State
 from vicode.model.edits import add_state, add_transition, unique_name
 from vicode.model.names import is_valid_state_name
 
@@ -58,7 +58,13 @@ def apply_edit(document: DocumentSession, edit: RequestedEdit) -> EditResult:
 
 
 def create_state(
-    document: DocumentSession, at: Point, wanted: str = "", source: str = "", *, select: bool = True
+    document: DocumentSession,
+    at: Point,
+    wanted: str = "",
+    source: str = "",
+    guard: Guard | None = None,
+    *,
+    select: bool = True,
 ) -> EditResult:
     """Add a state, and a transition from `source` to it if given. It gets a free name if the wanted one is invalid."""
     names = {state.name for state in document.design.states}
@@ -67,7 +73,7 @@ def create_state(
 
     def change(design: Design) -> Design:
         grown = add_state(design, State(name=name, at=at))
-        return add_transition(grown, source, name) if source else grown
+        return add_transition(grown, source, name, guard) if source else grown
 
     document.edit(texts.add_state(name), change, coalesce_key=creation_key(document, name))
     if document.design.state(name) is None:

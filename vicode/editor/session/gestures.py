@@ -20,7 +20,13 @@ from vicode.editor.session.edits import (
     require_state,
     state_name_error,
 )
-from vicode.editor.session.transition_gestures import ConnectGesture, LabelGesture, ReconnectGesture, ReorderGesture
+from vicode.editor.session.transition_gestures import (
+    ConnectGesture,
+    GuardGesture,
+    LabelGesture,
+    ReconnectGesture,
+    ReorderGesture,
+)
 from vicode.editor.view import ItemKind, ItemRef
 from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Design, DiagramNote, Point
@@ -265,6 +271,7 @@ EDIT_GESTURES: tuple[type[RequestedEdit], ...] = (
     LinkGesture,
     StateFlagGesture,
     ConnectGesture,
+    GuardGesture,
     ReconnectGesture,
     ReorderGesture,
     LabelGesture,

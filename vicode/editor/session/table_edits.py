@@ -27,6 +27,7 @@ from vicode.model.edits import (
     unique_name,
     update_state,
 )
+from vicode.model.guard_text import settle_guard
 from vicode.model.traversal import find_decision
 
 MAX_CELL_LENGTH = 20_000
@@ -244,8 +245,8 @@ def _set_in_decision(document: DocumentSession, key: str, column: str, value: st
         changed = replace(decision, doc=value)
     else:
         text = value.strip()
-        guard = decision.guard
-        changed = replace(decision, guard=replace(guard, when=text) if column == "when" else replace(guard, after=text))
+        guard = replace(decision.guard, when=text) if column == "when" else replace(decision.guard, after=text)
+        changed = replace(decision, guard=settle_guard(guard, document.design.time_unit))
     document.edit(texts.edit_cell(column), lambda design: replace_decision(design, path, changed))
     return EditResult()
 

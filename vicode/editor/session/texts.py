@@ -10,7 +10,7 @@ from vicode.model.names import name_from_text
 
 MAX_NAME_LENGTH = 80
 _MAX_QUOTED_LENGTH = 40
-_COLUMNS = {"name": "target", "doc": "description"}
+_COLUMNS = {"name": "target", "when": "guard", "doc": "description"}
 
 # Labels of the undo history.
 
@@ -200,8 +200,9 @@ def cell_changed(value: str) -> str:
     return f"the cell has changed to '{value[:60]}': press Enter again to overwrite it"
 
 
-def missing_components(names: Collection[str]) -> str:
-    return f"Not in this project: {', '.join(names)}" if names else ""
+def paste_note(added: Collection[str], missing: Collection[str]) -> str:
+    parts = (("Also added", added), ("Not in this project", missing))
+    return ". ".join(f"{what}: {', '.join(names)}" for what, names in parts if names)
 
 
 # Numbers.

@@ -14,11 +14,13 @@ from vicode.editor.session.edits import (
     create_state,
     require_state,
 )
+from vicode.editor.session.forms.text_merge import merge_texts
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.decision_keys import parse_transition_key, transition_key
-from vicode.model.design import COMMON, Design, Point, Transition
+from vicode.model.design import COMMON, Design, Guard, Point, Transition
 from vicode.model.edits import add_transition, decisions_path, remove_decisions, reorder_decision, replace_decision
+from vicode.model.guard_text import change_guard, write_guard
 from vicode.model.traversal import LocatedDecision, find_decision, iter_decisions
 
 _MAX_LABEL_OFFSET = 2_000
@@ -26,7 +28,10 @@ _MAX_LABEL_OFFSET = 2_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConnectGesture:
-    """Add a transition. Without a target, create a state (see `CreateGesture`) first. The source may be `@common`."""
+    """Add a transition. Without a target, create a state (see `CreateGesture`) first. The source may be `@common`.
+
+    `guard` is what the user typed, such as "distance < 0.5 after 2 s".
+    """
 
     kind: ClassVar = "connect"
     source: StateName
@@ -34,16 +39,37 @@ class ConnectGesture:
     x: float | None = None
     y: float | None = None
     name: str = ""
+    guard: str = ""
     select: bool = True
 
     def apply(self, document: DocumentSession) -> EditResult:
         source, target = _require_source(document, self.source), self.target
+        guard = change_guard(Guard(), self.guard, document.design.time_unit)
         if target is None:
             at = canvas_point(self.x or 0, self.y or 0)
-            return create_state(document, at, self.name, source, select=self.select)
+            return create_state(document, at, self.name, source, guard, select=self.select)
         require_state(document, target)
-        document.edit(texts.connect(source, target), lambda design: add_transition(design, source, target))
+        document.edit(texts.connect(source, target), lambda design: add_transition(design, source, target, guard))
         return _select_last_transition(document, source)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GuardGesture:
+    """The user typed the expression and the time of a guard, over the text `base`. Its code stays."""
+
+    kind: ClassVar = "guard"
+    id: TransitionKey
+    text: str
+    base: str
+
+    def apply(self, document: DocumentSession) -> EditResult:
+        located = _require_decision(document, self.id)
+        decision, unit = located.decision, document.design.time_unit
+        now = write_guard(decision.guard, unit)
+        typed = self.text if now is None else merge_texts(self.base, self.text, now)
+        changed = replace(decision, guard=change_guard(decision.guard, typed, unit))
+        document.edit(texts.edit_cell("when"), lambda design: replace_decision(design, located.path, changed))
+        return EditResult()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

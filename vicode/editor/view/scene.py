@@ -11,8 +11,9 @@ from vicode.diagram.transition_labels import guard_kind, short_transition_label,
 from vicode.editor.view.selection import ItemRef, item_at_path
 from vicode.findings import Finding, Severity, worst_severity
 from vicode.model.decision_keys import transition_key
-from vicode.model.design import COMMON, Call, Design, DiagramNote, State, Transition
+from vicode.model.design import COMMON, Call, Design, DiagramNote, Guard, State, Transition
 from vicode.model.disabled import disabled_states, is_enabled
+from vicode.model.guard_text import write_guard
 from vicode.model.project import Project
 from vicode.model.traversal import LocatedDecision, iter_transitions
 
@@ -27,6 +28,7 @@ def make_scene(
     rev: int,
     *,
     changed_outside: Collection[str] = (),
+    unfinished: Collection[str] = (),
 ) -> Scene:
     """The scene as {"rev", "component", "doc", "common"}, and lists of states, transitions, components, links, frames
     and notes.
@@ -46,6 +48,7 @@ def make_scene(
                 **_state(design, state, by_item),
                 **_at(layout.states[state.name]),
                 "outside": state.name in changed_outside,
+                "unfinished": state.name in unfinished,
             }
             for state in design.states
         ],
@@ -91,12 +94,18 @@ def _at(point: tuple[float, float]) -> dict[str, float]:
     return {"x": point[0], "y": point[1]}
 
 
+def finding_messages(findings: Iterable[Finding]) -> list[str]:
+    """The messages, each with its own severity."""
+    return [f"{finding.severity}: {finding.message}" for finding in findings]
+
+
 def _marks(by_item: _Findings, item: ItemRef) -> dict[str, Any]:
     findings = by_item.get(item)
     if findings is None:
-        return {"severity": None, "messages": []}
+        return {"severity": None, "count": 0, "messages": []}
     severity: Severity | None = worst_severity(findings)
-    return {"severity": str(severity) if severity else None, "messages": [finding.message for finding in findings]}
+    count = sum(finding.severity is severity for finding in findings)
+    return {"severity": str(severity) if severity else None, "count": count, "messages": finding_messages(findings)}
 
 
 def _state(design: Design, state: State, by_item: _Findings) -> dict[str, Any]:
@@ -132,6 +141,7 @@ def _transitions(design: Design, transitions: list[LocatedDecision], by_item: _F
             "source": "@common" if located.source == COMMON else located.source,
             "target": transition.to,
             "label": short_transition_label(located, unit),
+            "guard": _guard_text(transition.guard, unit),
             "order": orders[located.source],
             "of": counts[located.source],
             "disabled": not is_enabled(located, off),
@@ -140,6 +150,11 @@ def _transitions(design: Design, transitions: list[LocatedDecision], by_item: _F
             "doc": "\n".join(part for part in (transition_label(located, unit), transition.doc) if part),
             **_marks(by_item, ItemRef(kind="transitions", id=key)),
         }
+
+
+def _guard_text(guard: Guard, unit: str) -> str | None:
+    """The guard as it is edited on the label; None if it is edited in the form, as code."""
+    return None if guard.code is not None and not guard.when and not guard.after else write_guard(guard, unit)
 
 
 def _links(design: Design) -> Iterable[dict[str, str]]:

@@ -4,6 +4,7 @@ from collections import defaultdict
 from collections.abc import Iterable
 from typing import Any, cast, get_args
 
+from vicode.editor.view.scene import finding_messages
 from vicode.editor.view.selection import ItemKind, ItemRef, item_at_path
 from vicode.findings import DesignPath, Finding, worst_severity
 from vicode.model.decision_keys import transition_key
@@ -74,7 +75,7 @@ def _row(item: ItemRef, kind: str, cells: dict[str, Any], found: dict[ItemRef, l
         "lead": "",
         "cells": cells,
         "severity": str(severity) if severity else None,
-        "messages": [finding.message for finding in found.get(item, ())],
+        "messages": finding_messages(found.get(item, ())),
     }
 
 

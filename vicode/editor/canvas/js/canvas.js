@@ -4,6 +4,7 @@ import { Commands } from "./commands.js";
 import { bounds, nodeRect } from "./geometry.js";
 import { FrameScheduler } from "./frame_scheduler.js";
 import { PointerGestures } from "./gestures.js";
+import { GuardField } from "./guard_field.js";
 import { Handles } from "./handles.js";
 import { Keyboard } from "./keyboard.js";
 import { LEGIBLE_ZOOM, LevelOfDetail } from "./level_of_detail.js";
@@ -86,7 +87,6 @@ class Canvas {
   /** Selection by Python; ignored if the user has changed the selection since the one that Python acknowledges by `seq`. */
   select(items, seq = this.clientSeq) {
     if (seq === this.clientSeq) this.selection.set(items.map(({ of, id }) => keyOf(of, id)), { quiet: true });
-    this.keyboard.release();
   }
 
   centre(of, id) {
@@ -168,10 +168,10 @@ class Canvas {
     else this.preview.clear({ stay });
   }
 
-  /** Sends one gesture to Python. */
-  report(kind, payload) {
+  /** Sends one gesture to Python; `rev` is the revision in which it was made. */
+  report(kind, payload, rev = this.scene.rev) {
     if (kind !== "move") this.nudge.reset();
-    this.emit("gesture", { kind, ...payload, ...announceOpening(this.host, kind, payload), rev: this.scene.rev });
+    this.emit("gesture", { kind, ...payload, ...announceOpening(this.host, kind, payload), rev });
   }
 
   /** Moves nodes to `positions` (by key); `how` is the command, for the name of the edit. */
@@ -292,6 +292,7 @@ class Canvas {
     this.commands = new Commands(this, this.table);
     this.menu = new Menu(this);
     this.rename = new InlineRename(this);
+    this.guard = new GuardField(this);
     this.preview = new LayoutPreview(this);
     this.insets = new Insets(this);
     this.tooltip = new Tooltip(this);
@@ -301,7 +302,7 @@ class Canvas {
     this.message = html("div", { class: "message", role: "status" });
     this.empty = html("div", { class: "empty", hidden: true, text: EMPTY });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
-    const above = [this.empty, this.message, this.rename.input, corner, this.tooltip.element, this.menu.element];
+    const above = [this.empty, this.message, this.rename.input, this.guard.input, corner, this.tooltip.element, this.menu.element];
     this.stage.append(this.dots, ...this.levelOfDetail.elements, ...this.presence.elements, this.insets.element, ...above);
     this.keyboard = new Keyboard(this);
     this.nudge = new Nudge(this);
@@ -335,7 +336,7 @@ class Canvas {
     this.#placeDots(x, y, k);
     this.toolbar.show(k);
     this.minimap.viewChanged();
-    this.rename.viewChanged();
+    for (const field of [this.rename, this.guard]) field.viewChanged();
     this.insets.place();
     this.presence.viewChanged();
     this.levelOfDetail.viewChanged();
@@ -375,7 +376,7 @@ class Canvas {
       this.cull();
       this.handles.refresh();
       this.insets.place();
-      this.rename.viewChanged();
+      for (const field of [this.rename, this.guard]) field.viewChanged();
       this.presence.draw();
     });
   }

@@ -6,6 +6,8 @@ import { nearestInDirection, tabOrder } from "./keyboard_navigation.js";
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const PAN = 60;
+// The groups of commands that change the design, or begin to.
+const EDITS = ["Create", "Modify"];
 
 export class Commands {
   constructor(canvas, table) {
@@ -16,8 +18,19 @@ export class Commands {
 
   /** Runs the first available command with this shortcut; returns false if there is none. */
   runShortcut(chord) {
-    const command = this.table.find(({ name, keys }) => keys.includes(chord) && this.can(name));
+    const command = this.find(chord);
     return command ? this.run(command.name, chord) : false;
+  }
+
+  /** Returns the first available command with this shortcut. */
+  find(chord) {
+    return this.table.find(({ name, keys }) => keys.includes(chord) && this.can(name));
+  }
+
+  /** Whether a command changes the design by a single letter or sign. */
+  isEdit(name) {
+    const command = this.table.find((each) => each.name === name);
+    return Boolean(command) && EDITS.includes(command.group) && command.keys.some((key) => key.length === 1);
   }
 
   run(name, chord = "") {
@@ -73,7 +86,7 @@ function modifyHandlers(canvas) {
   const reorder = (by) => canvas.report("reorder", { id: single().id, by });
   const mark = (name) => canvas.report("mark", { mark: name, id: single().id });
   return {
-    "open-guard": { can: is("transitions"), run: open },
+    "open-guard": { can: is("transitions"), run: () => canvas.guard.start(selection.single()) || open() },
     "open-design": { can: is("components"), run: open },
     "open-note": { can: is("notes"), run: open },
     "open-common": { can: is("common"), run: open },

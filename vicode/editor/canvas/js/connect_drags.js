@@ -49,12 +49,12 @@ export class ConnectDrag {
     if (!this.#from()) this.canvas.gestures.cancel();
   }
 
-  /** Reports the transition or link between the two nodes. */
+  /** Reports the link between the two nodes, or asks for the guard of their transition. */
   connectTo(target) {
     const source = this.#from();
     if (!source || !canJoin(source, target)) return;
     if (source.of !== "components" && target.of === "states") {
-      this.canvas.report("connect", { source: source.id, target: target.id, x: null, y: null });
+      this.canvas.guard.startNew(source, target, { source: source.id, target: target.id });
       return;
     }
     const [state, component] = source.of === "states" ? [source, target] : [target, source];

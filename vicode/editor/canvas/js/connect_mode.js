@@ -1,5 +1,4 @@
 // Connecting without holding a button: a click on the target ends it, or keys choose a target and Enter confirms.
-import { ConnectDrag } from "./connect_drags.js";
 import { nearestInDirection } from "./keyboard_navigation.js";
 import { chooseTarget, confirmTarget } from "./strings.js";
 
@@ -35,13 +34,11 @@ export class ConnectMode {
     this.gesture.end();
   }
 
-  /** Connects to the node chosen by keys, or to the start node if none is chosen; returns whether something is created. */
+  /** Connects to the node chosen by keys, or to the start node if none is chosen. */
   finish() {
     const target = this.canvas.scene.nodes.get(this.aimed ?? this.from);
     this.gesture.cancel();
-    if (!target || !this.gesture.accepts(target)) return false;
-    this.gesture.connectTo(target);
-    return this.gesture instanceof ConnectDrag;
+    if (target && this.gesture.accepts(target)) this.gesture.connectTo(target);
   }
 
   cancel() {

@@ -78,8 +78,8 @@ export class PointerGestures {
   finishConnect() {
     const { connectMode } = this;
     this.connectMode = null;
-    if (connectMode.finish()) this.canvas.keyboard.hold();
     this.canvas.showMessage("");
+    connectMode.finish();
     this.canvas.afterGesture();
   }
 
@@ -224,6 +224,7 @@ export class PointerGestures {
     const { canvas } = this;
     const element = hit.key && canvas.scene.find(hit.key);
     if (["states", "frames"].includes(element?.of)) canvas.rename.start(hit.key);
+    else if (canvas.guard.start(hit.key)) return;
     else if (element) canvas.report("open", { item: { of: element.of, id: element.id } });
     else {
       const { x, y } = this.#where(event).world;

@@ -12,14 +12,14 @@ export class InlineRename {
     this.draft = null;
     this.input = html("input", { class: "rename", type: "text", spellcheck: "false", hidden: true, "aria-label": NAME });
     this.input.addEventListener("keydown", (event) => this.#down(event));
-    this.input.addEventListener("blur", () => this.#close({ keep: true, select: false }));
+    this.input.addEventListener("blur", () => this.keep());
     for (const name of ["pointerdown", "keyup", "wheel"]) this.input.addEventListener(name, (event) => event.stopPropagation());
   }
 
   start(key) {
     const node = this.canvas.scene.nameOf(key);
     if (!node) return;
-    this.#close({ keep: true, select: false });
+    this.keep();
     this.canvas.reveal(key);
     this.key = key;
     this.#open(nameOf(node));
@@ -30,7 +30,7 @@ export class InlineRename {
    * is open before the next key press arrives: creating the state first would take a message to the server and back.
    */
   startNew({ x, y, source = null }) {
-    this.#close({ keep: true, select: false });
+    this.keep();
     const { canvas } = this;
     const place = { x, y, ...NEW_STATE };
     this.draft = { place, source, preview: new ConnectionPreview(canvas, { line: Boolean(source), box: true }) };
@@ -40,7 +40,7 @@ export class InlineRename {
 
   /** Asks for the title of a new frame around states. */
   startFrame(nodes) {
-    this.#close({ keep: true, select: false });
+    this.keep();
     const { canvas } = this;
     const area = frameRect(nodes);
     this.draft = { place: titlePlace(area), states: nodes.map(({ id }) => id), preview: new FramePreview(canvas, area) };
@@ -95,6 +95,11 @@ export class InlineRename {
     });
   }
 
+  /** Applies what is typed; the user has turned to something else. */
+  keep() {
+    this.#close({ keep: true, select: false });
+  }
+
   #down(event) {
     // The page handles saving; the typed name is applied first, so that it is saved too.
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") return this.#leave(true);
@@ -106,7 +111,7 @@ export class InlineRename {
 
   #leave(keep) {
     this.#close({ keep, select: true });
-    this.canvas.stage.focus({ preventScroll: true });
+    if (!this.canvas.guard.isOpen) this.canvas.stage.focus({ preventScroll: true });
   }
 
   /** `select`: selects a new state; not if the user has turned to something else. */
@@ -116,19 +121,30 @@ export class InlineRename {
     const name = this.input.value.trim();
     this.key = this.draft = null;
     this.input.hidden = true;
-    if (draft) this.#create(draft, keep ? name : "", select);
+    if (draft) this.#create(draft, keep ? name : "", { select, asksGuard: keep && select });
     else this.#rename(key, keep ? name : "");
   }
 
   /** Without a name Python chooses one. */
-  #create({ place: { x, y }, source, states, preview }, name, select) {
+  #create({ place, source, states, preview }, name, { select, asksGuard }) {
     const { canvas } = this;
+    const [from, { x, y }] = [canvas.scene.nodes.get(source), place];
     preview.close();
     if (states) return canvas.report("frame", { states, title: name });
-    const from = canvas.scene.nodes.get(source);
-    if (from) canvas.report("connect", { source: from.id, target: null, x, y, name, select });
-    else canvas.report("create", { x, y, name, select });
+    if (from) return this.#connect(from, place, name, { select, asksGuard });
+    canvas.report("create", { x, y, name, select });
     if (name) canvas.showCreated({ id: name, name, x, y }, select);
+  }
+
+  /** Creates a transition to the state of this name, or to a new one. */
+  #connect(from, place, name, { select, asksGuard }) {
+    const { canvas } = this;
+    const known = canvas.scene.nodes.get(keyOf("states", name));
+    const { x, y } = place;
+    const connection = known ? { source: from.id, target: known.id } : { source: from.id, target: null, x, y, name };
+    if (name && !known) canvas.showCreated({ id: name, name, x, y }, select);
+    if (asksGuard) canvas.guard.startNew(from, canvas.scene.nodes.get(keyOf("states", name)) ?? place, connection);
+    else canvas.report("connect", { ...connection, guard: "", select });
   }
 
   #rename(key, name) {

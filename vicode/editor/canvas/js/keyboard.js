@@ -1,12 +1,15 @@
 // Converts key events to shortcuts such as "Ctrl+Shift+Z" and runs their commands. Other keys are left to the page.
 
+import { Typing } from "./typing.js";
+
+// The page runs a command, such as saving, or shows something else: what is typed belongs to the design before that.
+const SENDS_TEXT = ["vicode-send-text", "vicode-leave", "beforeunload"];
 const MODIFIER_ORDER = ["Ctrl", "Alt", "Shift"];
-const MAX_HOLD_MS = 3000;
 
 export class Keyboard {
   constructor(canvas) {
     this.canvas = canvas;
-    this.held = null;
+    this.typing = new Typing();
     const { stage } = canvas;
     this.onPageKey = (event) => this.#pageKey(event);
     stage.addEventListener("keydown", (event) => this.#down(event));
@@ -16,25 +19,18 @@ export class Keyboard {
     stage.addEventListener("pointerdown", () => stage.classList.remove("keys"), { capture: true });
     stage.addEventListener("blur", () => this.#space(false));
     document.addEventListener("keydown", this.onPageKey);
+    this.onSendText = () => [canvas.rename, canvas.guard].forEach((field) => field.keep());
+    for (const name of SENDS_TEXT) addEventListener(name, this.onSendText);
+    this.onCommand = (event) => canvas.commands.isEdit(event.detail) && this.typing.continues() && event.preventDefault();
+    addEventListener("vicode-command", this.onCommand);
     if (document.activeElement === document.body) stage.focus({ preventScroll: true });
   }
 
   dispose() {
     document.removeEventListener("keydown", this.onPageKey);
-  }
-
-  /** Holds keys until Python has selected what a gesture created: they are for that, and not for the old selection. */
-  hold() {
-    const held = (this.held = []);
-    setTimeout(() => this.held === held && this.release(), MAX_HOLD_MS);
-  }
-
-  release() {
-    const held = this.held ?? [];
-    this.held = null;
-    for (const { key, code, shiftKey } of held) {
-      this.canvas.stage.dispatchEvent(new KeyboardEvent("keydown", { key, code, shiftKey, bubbles: true, composed: true, cancelable: true }));
-    }
+    for (const name of SENDS_TEXT) removeEventListener(name, this.onSendText);
+    removeEventListener("vicode-command", this.onCommand);
+    this.typing.dispose();
   }
 
   /** Keys pressed while no element of the page has the focus are handled by the canvas. */
@@ -54,9 +50,9 @@ export class Keyboard {
   #take(event) {
     const { gestures, commands } = this.canvas;
     const chord = chordOf(event);
-    if (this.held && !event.ctrlKey && !event.altKey && !event.metaKey) return this.held.push(event);
     if (chord === "Space") return this.#space(true);
     if (gestures.connectMode && /^[\p{L}\p{N}_]$/u.test(event.key) && !/Ctrl|Alt/.test(chord)) return gestures.connectMode.aimByName(event.key);
+    if (commands.isEdit(commands.find(chord)?.name) && this.typing.continues()) return true;
     return commands.runShortcut(chord);
   }
 

@@ -118,15 +118,16 @@ function markRow(marks, y) {
   return row;
 }
 
-/** Badge with the number of findings. Error: octagon. Warning: triangle. Note: disc. */
+/** Badge with the number of findings of the worst severity; gray on what is being drawn. Error: octagon. Warning: triangle. Note: disc. */
 export function badge(data, x, y) {
   const shape = {
     error: "M-4.2 -10H4.2L10 -4.2V4.2L4.2 10H-4.2L-10 4.2V-4.2Z",
     warning: "M0 -11L11.5 9H-11.5Z",
     note: "M-9.5 0a9.5 9.5 0 1 0 19 0a9.5 9.5 0 1 0 -19 0Z",
   }[data.severity];
-  const count = data.messages?.length ?? 0;
-  const group = svg("g", { class: `badge ${data.severity}`, "aria-hidden": "true" });
+  const count = data.count ?? data.messages?.length ?? 0;
+  const isUnfinished = data.unfinished && data.severity !== "error";
+  const group = svg("g", { class: `badge ${data.severity}${isUnfinished ? " unfinished" : ""}`, "aria-hidden": "true" });
   group.append(svg("path", { d: shape }));
   group.append(svg("text", { y: data.severity === "warning" ? 2.5 : 0, text: count > 9 ? "9+" : count > 0 ? String(count) : "!" }));
   return translateElement(group, x, y);
@@ -150,4 +151,5 @@ function describe(node) {
   return [stateName(data.name), ...facts.filter(Boolean)].join(", ");
 }
 
-export const findingMessages = (data) => (data.severity ? (data.messages ?? []).map((text) => `${data.severity}: ${text}`) : []);
+/** The messages, each with its severity. */
+export const findingMessages = (data) => (data.severity ? data.messages ?? [] : []);

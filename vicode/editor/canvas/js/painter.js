@@ -36,7 +36,7 @@ export class Painter {
     this.scene = scene;
     this.router = router;
     this.items = new Map();
-    const names = ["selected", "active", "taken", "breakpoint", "drop", "held", "lit", "hover", ...HEAT.map((color) => `heat-${color}`)];
+    const names = ["selected", "active", "taken", "breakpoint", "drop", "held", "lit", "member", "hover", ...HEAT.map((color) => `heat-${color}`)];
     this.marks = new Map(names.map((name) => [name, new Set()]));
     this.layers = Object.fromEntries(LAYER_STACK.flat().map((name) => [name, layer(name, isInset)]));
     this.hitAreas = LAYER_STACK.map(() => svg("rect", { class: "ground" }));

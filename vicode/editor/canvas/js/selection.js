@@ -1,4 +1,5 @@
 // The selected elements, the hovered element, and the highlight that follows from them.
+import { keyOf } from "./scene.js";
 
 const MAX_HIGHLIGHTED = 40;
 
@@ -82,5 +83,7 @@ export class Selection {
       for (const { key: edgeKey, source, target } of edges) for (const part of [edgeKey, source, target]) lit.add(part);
     }
     this.painter.mark("lit", lit);
+    const frames = [...this.keys].map((key) => this.scene.frames.get(key)).filter(Boolean);
+    this.painter.mark("member", frames.flatMap(({ data }) => data.states.map((name) => keyOf("states", name))));
   }
 }

@@ -1,6 +1,6 @@
 // The texts that the canvas shows or that screen readers speak. Labels of commands come from Python's table.
 
-export const EMPTY = "No states yet.\nDouble-click, or press S, to add the first one.";
+export const EMPTY = "No states yet.\nDouble-click, or press S, to add the first one.\nOr press Ctrl+K and type a line: Idle -order-> Drive -20 s-> Idle";
 
 export const STAGE_ROLE = "state machine canvas";
 export const DIAGRAM = "Diagram";
@@ -31,6 +31,8 @@ export const OPEN_DESIGN = "Open design";
 export const insetName = (alias, component) => `Inside ${alias}: state machine ${component}`;
 export const MENU = "Menu";
 export const NAME = "Name";
+export const GUARD = "Guard";
+export const GUARD_HINT = "guard, or 20 s";
 export const VIEW = "View";
 export const SELECT_SEVERAL = "Select several";
 export const ZOOM_IN = "Zoom in (+)";

@@ -100,4 +100,11 @@ export class Viewport {
     const dy = push(rect.y, rect.y + rect.h, seen.y, seen.y + seen.h);
     if (dx || dy) this.panBy(-dx * this.k, -dy * this.k);
   }
+
+  /** Pans to the first of these points, unless one of them is in view. */
+  revealAny(points) {
+    const seen = this.visibleRect();
+    const isSeen = ([x, y]) => x > seen.x && x < seen.x + seen.w && y > seen.y && y < seen.y + seen.h;
+    if (points.length && !points.some(isSeen)) this.centreOn(...points[0]);
+  }
 }

@@ -19,7 +19,9 @@ export function createCodeAssist(options, emit) {
   const extensions = [marks.extension, lines.extension, attributesFor(options)];
   if (options.completes) extensions.push(completion.extension);
   if (options.isExpression) extensions.push(expressionLanguage());
-  if (options.hint) extensions.push(CM.placeholder(options.hint));
+  const hint = new CM.Compartment();
+  const hintOf = (text) => (text ? CM.placeholder(text) : []);
+  extensions.push(hint.of(hintOf(options.hint)));
   let view = null;
   return {
     extensions,
@@ -29,6 +31,7 @@ export function createCodeAssist(options, emit) {
       if (options.isExpression) view.setTabFocusMode(true);
       if (options.isExpression) addExpressionKeys(view, { isSingle: options.isSingle });
     },
+    showHint: (text) => view?.dispatch({ effects: hint.reconfigure(hintOf(text)) }),
     showMarks: (text, list) => view && marks.show(view, text, list),
     highlightLines: (first, last, reveal) => view && lines.show(view, first, last, reveal),
     setLineStyles: (list) => view && lines.style(view, list),

@@ -63,6 +63,9 @@ export const CodeEditor = {
     "field.server"() {
       this.showMarks();
     },
+    "node.hint"(hint) {
+      this.assist.showHint(hint);
+    },
     "$q.dark.isActive"(isDark) {
       this.view.dispatch({ effects: this.theme.reconfigure(this.themeOf(isDark)) });
     },

@@ -19,8 +19,10 @@ const textField = (template, kindOf) => ({
     marks() {
       return marksAt(this.store, this.path);
     },
-    isWrong() {
-      return Boolean(this.field.error || this.marks.some((mark) => mark.severity !== "info"));
+    /** The worst severity of the messages; "" if they are not about the text. */
+    worst() {
+      if (this.field.error) return "error";
+      return ["error", "warning", "note"].find((severity) => this.marks.some((mark) => mark.severity === severity)) ?? "";
     },
     corrections() {
       return this.node.is_code || this.field.kind === "name" ? WITHOUT_CORRECTIONS : {};
@@ -47,7 +49,7 @@ const textField = (template, kindOf) => ({
 export const TextField = textField(
   `<div class="field nicegui-column" :data-path="path">
     <q-input ref="input" outlined dense stack-label :label="node.label" :placeholder="node.hint" :model-value="field.local"
-      :type="node.is_long ? 'textarea' : 'text'" :autogrow="node.is_long" :class="{ mono: node.is_code, 'has-finding': isWrong }"
+      :type="node.is_long ? 'textarea' : 'text'" :autogrow="node.is_long" :class="[{ mono: node.is_code, 'has-finding': worst }, worst]"
       v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @blur="store.blur(field)" />
     <messages :marks="marks" :error="field.error" />
     <div v-if="node.help" class="empty">{{ node.help }}</div>
@@ -57,7 +59,7 @@ export const TextField = textField(
 
 export const NameField = textField(
   `<div class="field nicegui-column" :data-path="path">
-    <q-input ref="input" outlined dense stack-label class="mono" :class="{ 'has-finding': isWrong }" :label="node.label" maxlength="80" :model-value="field.local"
+    <q-input ref="input" outlined dense stack-label class="mono" :class="[{ 'has-finding': worst }, worst]" :label="node.label" maxlength="80" :model-value="field.local"
       v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @blur="store.blur(field)" @keydown.enter="store.commit(field)" />
     <messages :marks="marks" :error="field.error" />
   </div>`,

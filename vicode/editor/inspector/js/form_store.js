@@ -4,6 +4,8 @@ import { cardsIn, placed, textsOf, withPending } from "./form_data.js";
 import { SyncedText } from "./synced_text.js";
 
 const SEND_MS = 200;
+// The fields in which Python looks for times when their user leaves them.
+const READS_TIMES = /^guard\/(when|after)$/;
 
 export const keyOf = ({ of, id }) => `${of}/${id}`;
 
@@ -34,6 +36,7 @@ export class FormStore {
     this.forms = new Map();
     this.items = new Map();
     this.timers = new Map();
+    this.unsettled = new Set();
     this.view = reactive({ key: null, number: 0, nodes: [], lists: {}, marks: {}, openSections: [], language: "" });
   }
 
@@ -90,6 +93,7 @@ export class FormStore {
 
   type(field, text) {
     field.type(text);
+    if (READS_TIMES.test(this.#find(field)[1])) this.unsettled.add(field);
     this.#sendSoon(field);
   }
 
@@ -102,6 +106,7 @@ export class FormStore {
   /** Its user has left a field. */
   blur(field) {
     this.#send(field, true);
+    this.#settle(field);
     field.blur();
     const [item] = this.#find(field);
     if (item) this.request("focus", { item: item.ref, path: null });
@@ -142,6 +147,12 @@ export class FormStore {
   /** Sends all typed texts now. */
   sendAll() {
     for (const { fields } of this.items.values()) for (const field of fields.values()) this.#send(field, true);
+    for (const field of this.unsettled) this.#settle(field);
+  }
+
+  #settle(field) {
+    const [item, path] = this.#find(field);
+    if (this.unsettled.delete(field) && item) this.#emitEdit("settle", item.ref, { path });
   }
 
   #emitEdit(kind, item, fields) {

@@ -9,7 +9,7 @@ export const Messages = {
   template: `
     <div v-if="error || marks.length" class="field-messages nicegui-column" role="status">
       <div v-if="error" class="field-finding">{{ sentence(error) }}</div>
-      <div v-for="mark in marks" class="field-finding" :class="{ 'is-info': mark.severity === 'info' }">{{ mark.message }}</div>
+      <div v-for="mark in marks" class="field-finding" :class="mark.severity">{{ mark.message }}</div>
     </div>`,
   methods: { sentence },
 };

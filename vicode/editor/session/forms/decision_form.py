@@ -34,8 +34,9 @@ def decision_form(project: Project, design: Design, source: str, decision: Decis
     if isinstance(decision, Transition):
         nodes.append(Choice(path=("to",), label="To", value=decision.to, options="states"))
     guard = decision.guard
+    hint = "" if guard.after or guard.code else "always"
     nodes += [
-        CodeText(path=("guard", "when"), label="When", value=guard.when, language="expression", hint="always"),
+        CodeText(path=("guard", "when"), label="When", value=guard.when, language="expression", hint=hint),
         TextField(path=("guard", "after"), label=f"After ({unit} in this state)", value=guard.after, is_code=True),
     ]
     if guard.code is None:

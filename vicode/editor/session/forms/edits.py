@@ -12,7 +12,11 @@ from vicode.editor.session.forms.form_places import FormPlace, FormResult, find_
 from vicode.editor.session.forms.presses import PRESSES, FormAction
 from vicode.editor.session.forms.text_merge import merge_texts
 from vicode.editor.session.gestures import RenameGesture
+from vicode.editor.session.item_paths import change_item
 from vicode.editor.view import ItemRef
+from vicode.model.design import Guard
+from vicode.model.guard_text import settle_guard
+from vicode.model.paths import describe_path
 
 
 class FormEdit(Protocol):
@@ -171,6 +175,31 @@ class ButtonEdit:
         return PRESSES[self.action](self, document, owner)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SettleEdit:
+    """The user has finished typing into the expression or the time of a guard: times move to where they belong."""
+
+    kind: ClassVar = "settle"
+    id: int
+    rev: int
+    item: ItemRef
+    path: str
+
+    def apply(self, document: DocumentSession) -> FormResult:
+        place = find_place(document, self.item, self.path, self.rev)
+        guard = getattr(place.owner_in(document.design), "guard", None) if place is not None else None
+        if place is None or not isinstance(guard, Guard):
+            return FormResult(error=texts.ITEM_MISSING)
+        settled = settle_guard(guard, document.design.time_unit)
+        if settled is not guard:
+            document.edit(
+                f"edit {describe_path(place.file_path)}",
+                lambda design: change_item(design, (*place.owner, "guard"), lambda _guard: settled),
+                coalesce_key="/".join(map(str, place.file_path)),
+            )
+        return FormResult()
+
+
 FORM_EDITS: Mapping[str, type[FormEdit]] = {
-    each.kind: each for each in (TextEdit, NameEdit, ChoiceEdit, ChoicesEdit, CheckEdit, ButtonEdit)
+    each.kind: each for each in (TextEdit, NameEdit, ChoiceEdit, ChoicesEdit, CheckEdit, ButtonEdit, SettleEdit)
 }

@@ -62,7 +62,7 @@ function drawLead(cell, row) {
   if (!row.severity) return;
   const sign = span(`sign ${row.severity}`, SIGNS[row.severity] ?? "●");
   sign.setAttribute("role", "img");
-  sign.setAttribute("aria-label", `${row.severity}: ${row.messages.join("; ")}`);
+  sign.setAttribute("aria-label", row.messages.join("; "));
   cell.append(sign);
 }
 
