@@ -189,7 +189,7 @@ def test_a_guard_without_a_time_is_not_edited_again(document: DocumentSession) -
 
 def test_always_is_shown_only_where_nothing_else_is_required(document: DocumentSession) -> None:
     def hint(key: str) -> str:
-        nodes = item_form(Project(name="p"), document.design, ItemRef(kind="transitions", id=key))
+        nodes = item_form(Project(name="p"), document.design, ItemRef(kind="transitions", id=key), ListIds())
         return next(node.hint for node in nodes if isinstance(node, CodeText) and node.label == "When")
 
     edit(document, "text", path="guard/when", base="x < 1", text="")

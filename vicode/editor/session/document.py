@@ -90,7 +90,6 @@ class SharedDocument:
     """Called after every change with the session that made it."""
     _drawn: tuple[tuple[object, ...], Scene] | None = field(init=False, default=None)
     _forms: FormWriter = field(init=False, default_factory=FormWriter)
-    _written_forms: tuple[tuple[Project, int], Forms] | None = field(init=False, default=None)
     _recent_designs: dict[int, Design] = field(init=False, default_factory=dict)
     _differences: deque[tuple[Scene, Scene, dict[str, Any]]] = field(
         init=False, default_factory=lambda: deque(maxlen=8)
@@ -129,13 +128,7 @@ class SharedDocument:
         return unfinished_states(opened.design, self.history.current.design)
 
     def forms(self, project: Project) -> Forms:
-        """The forms of all items, cached for all windows."""
-        if self._written_forms is None or not (
-            self._written_forms[0][0] is project and self._written_forms[0][1] == self.rev
-        ):
-            forms = self._forms.write(project, self.history.current.design, self.list_ids)
-            self._written_forms = ((project, self.rev), forms)
-        return self._written_forms[1]
+        return self._forms.write(project, self.history.current.design, self.list_ids)
 
     def form_lists(self, project: Project) -> FormLists:
         """What the forms share."""

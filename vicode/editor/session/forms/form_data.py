@@ -30,8 +30,15 @@ class FormWriter:
     _decisions: dict[str, tuple[Decision, str]] = field(default_factory=dict)
     _owners: dict[str, tuple[tuple[object, ...], str]] = field(default_factory=dict)
     _lists: tuple[tuple[object, ...], FormLists] = ((), {})
+    _written: tuple[Project, Design, Forms] | None = None
 
     def write(self, project: Project, design: Design, ids: ListIds) -> Forms:
+        """The forms of all items, cached for all windows."""
+        if self._written is None or self._written[0] is not project or self._written[1] is not design:
+            self._written = (project, design, self._write(project, design, ids))
+        return self._written[2]
+
+    def _write(self, project: Project, design: Design, ids: ListIds) -> Forms:
         # All that forms depend on besides their item.
         inputs = (project.languages, design.time_unit, uses_xabsl(project, design))
         if inputs != self._inputs:
