@@ -93,9 +93,9 @@ def add_guard_with_new_input(page: Page, name: str, guard: str) -> None:
     inspector.locator(".decision").first.click()
     page.get_by_label("When", exact=True).click()
     page.keyboard.type(guard, delay=30)
-    expect(inspector.locator(".field-message")).to_contain_text(f"'{guard.split()[0]}' is not declared")
+    expect(inspector.locator(".field-message")).to_contain_text(f"'{guard.split(maxsplit=1)[0]}' is not declared")
     inspector.get_by_role("button", name="Fix").click()
-    page.get_by_role("menuitem", name=f"Create input {guard.split()[0]} ").click()
+    page.get_by_role("menuitem", name=f"Create input {guard.split(maxsplit=1)[0]} ").click()
     expect(page.get_by_label("When", exact=True)).to_have_text(f"sensors.{guard}")
 
 
