@@ -95,6 +95,7 @@ def test_a_layout_that_takes_long_is_called_off(editor: str, page: Page, project
 def test_among_many_states_a_target_is_found_by_typing(editor: str, page: Page, project: Path) -> None:
     write_text(project / "forward" / "ring.yaml", save_design(ring_design(80, chords=0), ""))
     page.goto(editor + "design/forward/Ring", timeout=60_000)
+    page.get_by_role("button", name="Common transitions and actions").click()
     find = page.get_by_label("Transition to")
     find.click()
     find.press_sequentially("State77")

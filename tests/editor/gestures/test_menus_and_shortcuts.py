@@ -120,7 +120,7 @@ def test_a_component_is_used_by_keys_and_by_dragging_its_design(sketch: EditorDr
     field = sketch.page.get_by_label("Component", exact=True)
     expect(field).to_be_focused()
     field.fill("searchb")
-    expect(sketch.page.locator(".choice")).to_have_count(1)
+    expect(sketch.page.get_by_role("dialog").locator(".choice")).to_have_count(1)
     field.press("Enter")
     expect(sketch.element("component", "search_ball")).to_be_visible()
     sketch.expect_selection("components/search_ball")

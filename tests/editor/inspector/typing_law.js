@@ -40,7 +40,8 @@ function run(seed, people, stored, SyncedText, mergeTexts) {
       field.type(writer.type(field.local, writer.words[writer.typed], writer.typed));
       writer.typed += 1;
     } else if (choice < 0.55) {
-      const edit = field.takeEdit(writer.id + 1);
+      // Now and then the user leaves the field or saves.
+      const edit = field.takeEdit(writer.id + 1, random() < 0.2);
       if (edit) up.push({ id: (writer.id += 1), ...edit });
     } else if (choice < 0.8 && up.length) {
       const { id, base, text } = up.shift();
@@ -48,7 +49,7 @@ function run(seed, people, stored, SyncedText, mergeTexts) {
         down.push({ id, own: "", error: "refused" });
         continue;
       }
-      design = store(store(base) === design ? text : mergeTexts(base, text, design));
+      design = store(refuses(base) || store(base) === design ? text : mergeTexts(base, text, design));
       for (const each of writers) each.down.push({ text: design });
       down.push({ id, own: store(text) });
     } else if (down.length) {

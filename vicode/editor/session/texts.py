@@ -210,7 +210,6 @@ def paste_note(added: Collection[str], missing: Collection[str]) -> str:
 FREQUENCY_TOO_LOW = "enter a frequency above 0 Hz"
 INVALID_RANGE = "enter the minimum and the maximum, such as 0, 9000"
 RANGE_REVERSED = "enter the minimum before the maximum"
-ASSIGNMENT_MISSING = "write a line such as count = 0, or remove this action"
 INVALID_COUNT = "enter a whole number of robots, such as 1, or leave this empty"
 
 

@@ -57,7 +57,7 @@ export const TextField = textField(
   (node) => node.is_checked && "checked",
 );
 
-export const NameField = textField(
+export const ItemName = textField(
   `<div class="field nicegui-column" :data-path="path">
     <q-input ref="input" outlined dense stack-label class="mono" :class="[{ 'has-finding': worst }, worst]" :label="node.label" maxlength="80" :model-value="field.local"
       v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @blur="store.blur(field)" @keydown.enter="store.commit(field)" />
@@ -95,7 +95,7 @@ export const Choice = valueField(`
     <messages :marks="marks" />
   </div>`);
 
-export const Choices = valueField(`
+export const MultiChoice = valueField(`
   <div class="field nicegui-column" :data-path="path">
     <q-select outlined dense options-dense stack-label multiple use-chips :class="{ 'has-finding': marks.length }" :label="node.label" :options="options" :model-value="value"
       @update:model-value="(chosen) => store.choose('choose-several', path, chosen ?? [], { base: value })" />

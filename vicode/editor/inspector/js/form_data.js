@@ -5,7 +5,7 @@ const partsOf = (node) => [node.texts, node.nodes, node.cards].filter(Boolean);
 /** The texts of a form by their paths. */
 export function textsOf(nodes, texts = new Map()) {
   for (const node of nodes) {
-    if (["TextField", "NameField", "CodeText"].includes(node.is)) texts.set(node.path.join("/"), node.value ?? "");
+    if (["TextField", "ItemName", "CodeText"].includes(node.is)) texts.set(node.path.join("/"), node.value ?? "");
     for (const part of partsOf(node)) textsOf(part, texts);
   }
   return texts;

@@ -2,7 +2,7 @@
 import { Cards } from "./cards.js";
 import { CodeText, Languages } from "./code_text.js";
 import { Decisions } from "./decisions.js";
-import { Check, Choice, Choices, Colors, NameField, TextField } from "./fields.js";
+import { Check, Choice, MultiChoice, Colors, ItemName, TextField } from "./fields.js";
 import { marksAt } from "./messages.js";
 
 const Title = {
@@ -69,7 +69,7 @@ const Section = {
 };
 
 const KINDS = {
-  TextField, NameField, Choice, Choices, Check, Colors, CodeText, Languages, Title, Notice, Heading, Button, Decisions, Cards, Row, Section,
+  TextField, ItemName, Choice, MultiChoice, Check, Colors, CodeText, Languages, Title, Notice, Heading, Button, Decisions, Cards, Row, Section,
 };
 
 /** The nodes of a form, or of a part of it. */

@@ -94,7 +94,8 @@ def pairs(name: str, label: str, *, is_required: bool = False) -> FormField:
     """The field of assignments or arguments: lines `name = expression`."""
 
     def validate(text: str) -> str:
-        return texts.ASSIGNMENT_MISSING if is_required and not text.strip() else find_error(text)
+        is_missing = is_required and not text.strip()
+        return "write a line such as count = 0, or remove this action" if is_missing else find_error(text)
 
     return FormField(
         label=label,

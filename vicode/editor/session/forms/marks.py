@@ -9,7 +9,7 @@ from vicode.editor.session.fixes import is_fixable
 from vicode.editor.session.forms.form_data import item_form
 from vicode.editor.session.forms.form_paths import file_path, item_path, resolve
 from vicode.editor.session.forms.list_ids import ListIds
-from vicode.editor.session.forms.nodes import Choices, CodeText, Field, Node, iter_fields
+from vicode.editor.session.forms.nodes import CodeText, Field, MultiChoice, Node, iter_fields
 from vicode.editor.session.lint import LintWarning
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath, Finding
@@ -59,7 +59,7 @@ def note_at(path: DesignPath, text: str) -> dict[str, Any]:
 
 
 def _marks(node: Field, path: DesignPath, findings: Sequence[Finding], lint: Lint) -> Iterable[CodeMark]:
-    if isinstance(node, Choices):
+    if isinstance(node, MultiChoice):
         return mark_text(", ".join(node.value), path, findings)
     if isinstance(node, CodeText) and node.language == "pairs":
         # Findings about the call itself have no field of their own.

@@ -47,7 +47,7 @@ class TextField:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class NameField:
+class ItemName:
     """The name of the item, which is applied when the user presses Enter or leaves the field."""
 
     path: DesignPath
@@ -73,7 +73,7 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Choices:
+class MultiChoice:
     """A choice of several options of a shared list, in the order in which they were chosen."""
 
     path: DesignPath
@@ -227,7 +227,7 @@ class Section:
     is_set: bool = False
 
 
-Field = TextField | NameField | Choice | Choices | CodeText
+Field = TextField | ItemName | Choice | MultiChoice | CodeText
 """A part of a form with a value that can have messages."""
 Node = Field | Title | Notice | Colors | Check | Languages | Heading | Decisions | Button | Cards | Row | Section
 """A part of a form."""
@@ -244,7 +244,7 @@ def iter_fields(nodes: Iterable[Node]) -> Iterator[Field]:
             case Cards():
                 for card in node.cards:
                     yield from iter_fields(card.nodes)
-            case TextField() | NameField() | Choice() | Choices() | CodeText():
+            case TextField() | ItemName() | Choice() | MultiChoice() | CodeText():
                 yield node
             case _:
                 pass

@@ -8,10 +8,10 @@ from vicode.editor.session.forms.fields import initial_field, known_field
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import (
     Check,
-    Choices,
     Colors,
     Heading,
-    NameField,
+    ItemName,
+    MultiChoice,
     Node,
     Notice,
     Row,
@@ -34,7 +34,7 @@ def state_form(project: Project, design: Design, state: State, ids: ListIds) -> 
     owner: DesignPath = ("states", state.name)
     return (
         Title(text="State", name=state.name, is_hidden=True),
-        NameField(path=("name",), label="State", value=state.name),
+        ItemName(path=("name",), label="State", value=state.name),
         Notice(path=OUTSIDE),
         TextField(path=("doc",), label="Description", value=state.doc, is_long=True),
         Row(nodes=(_initial(design, state), _check(state, "final"))),
@@ -45,7 +45,7 @@ def state_form(project: Project, design: Design, state: State, ids: ListIds) -> 
         Heading(text="Transitions", hint="the first whose guard holds is taken"),
         decisions_list(design, ("transitions",), state.transitions),
         Heading(text="Requires", hint="updated before this state runs"),
-        Choices(path=("requires",), label="Components", value=state.requires, options="uses"),
+        MultiChoice(path=("requires",), label="Components", value=state.requires, options="uses"),
         _enter_and_leave(project, state, ids),
         _more(project, design, state),
     )
