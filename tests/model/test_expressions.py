@@ -158,6 +158,12 @@ def test_shape_of_trees() -> None:
     assert [node.value for node in walk(tree) if isinstance(node, Number)] == [1, 3, 4]
 
 
+@pytest.mark.parametrize("text", ["ready or after 2 s", "ready or 500 ms", "after TIMEOUT or ready"])
+def test_a_time_in_an_expression_is_explained(text: str) -> None:
+    (mistake,) = parse_expression(text, SCOPE).diagnostics
+    assert (mistake.rule.code, mistake.fix) == ("E301", "a time belongs to 'after'; it cannot be part of an expression")
+
+
 @pytest.mark.parametrize(
     "text", ["(" * 300, "-" * 9000 + "1", "1+" * 4000 + "1", "x" * 20_000, "a\0b", "not " * 500 + "ready"]
 )

@@ -122,7 +122,7 @@ CANVAS_COMMANDS = (
 GESTURE_HELP = (
     (
         "Double-click",
-        "new state; on a state or a frame's title: rename; on a transition: edit its guard; on a component: open it",
+        "new state; on a state or a frame's title: rename; on a transition: edit guard; on a component: open design",
     ),
     (
         "Drag from the edge of a state",

@@ -201,12 +201,11 @@ def cell_changed(value: str) -> str:
 
 
 def paste_note(added: Collection[str], missing: Collection[str]) -> str:
-    parts = (("Also added", added), ("Not in this project", missing))
+    parts = {"Also added": added, "Not in this project": missing}.items()
     return ". ".join(f"{what}: {', '.join(names)}" for what, names in parts if names)
 
 
 # Numbers.
-
 FREQUENCY_TOO_LOW = "enter a frequency above 0 Hz"
 INVALID_RANGE = "enter the minimum and the maximum, such as 0, 9000"
 RANGE_REVERSED = "enter the minimum before the maximum"

@@ -4,6 +4,7 @@ The syntax is parsed with the Python parser and then restricted to a subset. Not
 """
 
 import ast
+import re
 import sys
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,6 +16,9 @@ from vicode.model.expressions.tree import Expr
 from vicode.model.python_parser import parse_single_expression
 
 MAX_LENGTH = 10_000
+_FIX = "use a single expression, such as ball_seen and x < 40"
+_TIME_FIX = "a time belongs to 'after'; it cannot be part of an expression"
+_TIME = re.compile(r"\bafter\s+[\w.]|\d\s*(ms|s|min)\b")
 _MAX_DEPTH, _FRAMES_PER_LEVEL = 1000, 16
 
 
@@ -77,7 +81,8 @@ def _parse_syntax(text: str) -> tuple[ast.expr | None, ExpressionDiagnostic | No
         parsed = parse_single_expression(copy.strip())
     except SyntaxError as error:
         start = lead + max(0, min((error.offset or 1) - 1, len(text) - lead - 1))
-        return None, _not_an_expression(_format_syntax_error(error.msg), (start, min(start + 1, len(text))))
+        fix = _TIME_FIX if _TIME.search(text) else _FIX
+        return None, _not_an_expression(_format_syntax_error(error.msg), (start, min(start + 1, len(text))), fix)
     except (ValueError, RecursionError, MemoryError):
         return None, _not_an_expression("the expression is nested too deeply", (0, len(text)))
     # Each level has at least one character.
@@ -92,9 +97,7 @@ def _format_syntax_error(message: str) -> str:
     return (first + rest).replace("invalid syntax. Perhaps you forgot a comma?", "invalid syntax")
 
 
-def _not_an_expression(
-    message: str, span: Span, fix: str = "use a single expression, such as ball_seen and x < 40"
-) -> ExpressionDiagnostic:
+def _not_an_expression(message: str, span: Span, fix: str = _FIX) -> ExpressionDiagnostic:
     return ExpressionDiagnostic(rule=get_rule("E301"), message=message, fix=fix, span=span)
 
 
