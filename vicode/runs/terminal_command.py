@@ -19,7 +19,7 @@ class NotRepeatableError(Exception):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TerminalCommand:
-    """A command line; many inputs are the text of a file beside it."""
+    """A command line; with many inputs, also the text of the file that it reads them from."""
 
     command: str
     inputs_file: str = ""

@@ -1,7 +1,7 @@
 """A run whose inputs change at given times, as `vicode run --set` makes them.
 
 The component and the world of such a run are attributes of a module written for it: its text is `MODULE_TEXT`, and
-`DATA_FILE` beside it says what to run.
+`DATA_FILE` in the same folder describes the run.
 """
 
 from __future__ import annotations
