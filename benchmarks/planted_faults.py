@@ -8,7 +8,7 @@ computed once. A fault is noticed by
 - samples: the inputs that `conform` chooses for the designs of `designs/`,
 - designs: inputs chosen for the designs of tests/conformance/cases, which use every construct of the language,
 - cases: the inputs written in these cases, and random designs, as tests/conformance compares them,
-- tests (with --tests): the test files of `TESTS`, which must pass without faults. One that fails counts; a process
+- tests (with --tests): the unit tests of `TESTS`, which must pass without faults. One that fails counts; a process
   that ends in another way, or takes too long, does not.
 
 A fault of a generator that leaves the code of a design as it is cannot be noticed there, and is not run. If that is so

@@ -7,13 +7,15 @@ import operator
 from collections.abc import Callable
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from vicode.bica import arithmetic
 
 LIBM = ctypes.CDLL(ctypes.util.find_library("m"))
-NUMBERS = st.one_of(st.floats(), st.integers(-(2**53), 2**53), st.sampled_from([0, 0.0, -0.0, math.inf, -math.inf]))
+NUMBERS = st.one_of(
+    st.floats(), st.integers(-(2**53), 2**53), st.sampled_from([0, 0.0, -0.0, math.nan, math.inf, -math.inf])
+)
 
 
 def same(a: float, b: float) -> bool:
@@ -102,6 +104,9 @@ def test_ints_are_limited(x: int) -> None:
 
 
 @given(a=NUMBERS, b=NUMBERS, c=NUMBERS)
+@example(a=math.nan, b=1.0, c=2.0)
+@example(a=1.0, b=math.nan, c=2.0)
+@example(a=0.0, b=-0.0, c=0.0)
 def test_least_and_greatest_keep_the_written_rule(a: float, b: float, c: float) -> None:
     least = b if b < a else a  # noqa: FURB136 - this is the rule
     greatest = b if b > a else a  # noqa: FURB136
