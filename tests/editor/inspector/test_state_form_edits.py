@@ -7,7 +7,7 @@ import pytest
 
 from tests.editor.inspector.test_form_edits import edit
 from tests.editor.session.conftest import open_design
-from vicode.editor.session import DocumentSession
+from vicode.editor.session import DocumentSession, texts
 from vicode.editor.session.decoding import MalformedEventError
 from vicode.editor.session.forms.action_form import adders
 from vicode.editor.session.forms.form_data import FormWriter, item_form
@@ -342,3 +342,13 @@ def test_findings_stand_at_their_fields(document: DocumentSession) -> None:
         assert mark["path"] == field
         text = shown[field] if isinstance(shown[field], str) else ""
         assert text[mark["start"] : mark["end"]] == words
+
+
+def test_a_new_modulation_is_typed_into_before_the_browser_knows_its_revision(document: DocumentSession) -> None:
+    rev = document.rev
+    add = {"action": "add-card", "path": "modulates", "adds": "modulation", "card": "kicker", "to": "kicker"}
+    edit(document, "press", A, rev=rev, **add)
+    path = "modulates/kicker/arguments"
+    assert edit(document, "text", A, path=path, base="", text="s", rev=rev).error != texts.ITEM_MISSING
+    assert edit(document, "text", A, path=path, base="s", text="speed = 1", rev=rev).error == ""
+    assert state(document).modulates[-1] == Call(alias="kicker", arguments=(("speed", "1"),))

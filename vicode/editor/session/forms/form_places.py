@@ -107,5 +107,8 @@ def rebase_owner(document: DocumentSession, path: DesignPath, rev: int) -> Desig
     # Step by step: an item that was both renamed and moved would not be recognized.
     for number in range(rev + 1, document.rev + 1):
         before, design = design, document.shared.design_at(number)
+        if rebased is not None and item_at(before, rebased) is None:
+            # The browser added it; the edit that did so came before this one.
+            continue
         rebased = rebase_path(rebased, before, design) if rebased is not None else None
     return rebased if rebased is not None and item_at(document.design, rebased) is not None else None
