@@ -228,7 +228,7 @@ GENERATOR_FAULTS = (
         XABSL,
     ),
     Fault(
-        "vicode/simulation/host.py",
+        "vicode/simulation/stubs.py",
         "a parameter resets the others",
         "modulate(**{**now, **new})",
         "modulate(**new)",
