@@ -210,7 +210,11 @@ def _has_ended(parent: int) -> bool:
 
 
 def _end(config: LaunchConfig, code: int) -> None:
-    """End everything; the editor, which would remove the files, may be gone."""
+    """End everything; the editor, which would remove the files, may be gone.
+
+    A second signal must not interrupt this: it can arrive while a module is being imported.
+    """
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
     import shutil
 
     _kill_descendants()

@@ -1,5 +1,7 @@
 """User code that fails, hangs, prints too much or exits is reported with its location and cannot affect the editor."""
 
+import json
+import os
 import subprocess
 import sys
 import time
@@ -10,7 +12,7 @@ import pytest
 from tests.editor.simulation.lamp_project import LAMP, prepare_lamp, simulate, write_lamps
 from vicode.editor.view.activation import code_error_view
 from vicode.runs import NotReadyError, RunStatus, Simulation
-from vicode.simulation import StopConditions
+from vicode.simulation import StopConditions, launcher
 
 DESIGN = """
 vicode: 1
@@ -249,6 +251,27 @@ asyncio.run(main())
         time.sleep(0.05)
     assert not Path(f"/proc/{pid}").exists() or "Z" in state_of(pid)
     assert not Path(generated).exists()
+
+
+def test_a_signal_while_the_launcher_ends_leaves_no_files(tmp_path: Path) -> None:
+    """The program can see the end of its pipe before the launcher is told that the editor has ended."""
+    modules, files = tmp_path / "modules", tmp_path / "files"
+    modules.mkdir()
+    (files / "below").mkdir(parents=True)
+    (modules / "fnmatch.py").write_text(
+        "import os, signal, sys\n"
+        "os.kill(os.getpid(), signal.SIGTERM)\n"
+        f"sys.path.remove({str(modules)!r})\n"
+        "del sys.modules['fnmatch']\n"
+        "import fnmatch\n",
+        encoding="utf-8",
+    )
+    config = {"command": ["/bin/true"], "is_isolated": False, "readable": [], "writable": [], "root": ""}
+    command = [sys.executable, launcher.__file__, json.dumps(config | {"temporary": str(files)})]
+    environment = os.environ | {"PYTHONPATH": str(modules)}
+    ended = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60, check=False)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert not files.exists()
 
 
 def state_of(pid: int) -> str:
