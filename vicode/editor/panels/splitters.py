@@ -6,6 +6,8 @@ from nicegui import ui
 _SPLITTER_SCRIPT = """
 <script>
 (() => {
+  // A selector body:has(.dock) would compute the style of the whole page anew after each change of it.
+  document.documentElement.classList.add("has-dock");
   const SPLITTERS = {
     side: {
       at: "clientX", least: 280, most: () => Math.min(1200, innerWidth - 480),
