@@ -53,7 +53,7 @@ def main(port: int, scene_file: Path, theme: str) -> None:
                 canvas.apply({"rev": event.args["rev"] + 1, **changes})
 
         canvas = Canvas(
-            lambda _gesture, _rev: None,
+            lambda _report: None,
             on_malformed=lambda reason: gestures.append({"kind": "malformed", "reason": reason}),
         )
         canvas.on("gesture", record)

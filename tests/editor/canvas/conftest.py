@@ -43,11 +43,11 @@ class CanvasDriver:
         self.clear_gestures()
 
     def clear_gestures(self) -> None:
-        """Delete the received gestures; a marker gesture makes sure that no earlier one is still on its way."""
+        """Delete the received gestures; a marker, which the canvas refuses, makes sure that no earlier one is still on its way."""
         canvas = "getElement(document.querySelector('.vicode-canvas').id.slice(1))"
         self._request("/clear", b"")
-        self.page.evaluate(f"{canvas}.$emit('gesture', {{kind: 'command', name: 'marker', rev: 0}})")
-        self.wait_for_gesture("command", name="marker")
+        self.page.evaluate(f"{canvas}.$emit('gesture', {{kind: 'marker', rev: 0}})")
+        self.wait_for_gesture("marker")
         self._request("/clear", b"")
 
     def at(self, of: str, identity: str, right: float = 0, down: float = 0) -> Point:
@@ -79,11 +79,11 @@ class CanvasDriver:
             self.page.keyboard.press(key)
 
     def wait_for_gesture(self, kind: str, **fields: Any) -> dict[str, Any]:
-        """Wait until the newest gesture of a kind has these fields; return it without its kind and revision."""
+        """Wait until the newest gesture of a kind has these fields; return it without its kind and numbers."""
         end = time.monotonic() + 10
         while time.monotonic() < end:
             if found := self.gestures(kind):
-                newest = {name: value for name, value in found[-1].items() if name not in {"kind", "rev"}}
+                newest = {name: value for name, value in found[-1].items() if name not in {"kind", "rev", "seq"}}
                 if newest.items() >= fields.items():
                     return newest
             time.sleep(0.02)

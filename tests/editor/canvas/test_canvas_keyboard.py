@@ -88,6 +88,23 @@ def test_keys_after_a_connection_are_for_it(canvas: CanvasDriver) -> None:
     expect(canvas.page.locator(".stage")).to_be_focused()
 
 
+def test_an_earlier_answer_does_not_change_the_selection_of_a_new_state(canvas: CanvasDriver) -> None:
+    canvas.click(canvas.at("states", "GiveUp"))
+    canvas.wait_for_gesture("select")
+    canvas.press("n")
+    canvas.page.keyboard.type("Resign")
+    canvas.press("Enter")
+    # Python has not heard of the new state yet.
+    canvas.call("select", [{"of": "states", "id": "FollowBall"}])
+    canvas.call("apply", {"rev": 9})
+    canvas.page.wait_for_selector('.vicode-canvas[data-rev="9"]')
+    assert canvas.selection() == {"states/Resign"}
+    canvas.press("Enter")
+    canvas.wait_for_gesture("connect", name="Resign")
+    canvas.call("select", [{"of": "states", "id": "GiveUp"}])
+    canvas.wait_for("vicode.selection()[0].id === 'GiveUp'")
+
+
 @pytest.mark.parametrize("end", ["Enter", "Tab"])
 def test_a_new_transition_is_named_and_guarded_by_keys(canvas: CanvasDriver, end: str) -> None:
     canvas.click(canvas.at("states", "GiveUp"))

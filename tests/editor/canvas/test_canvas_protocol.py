@@ -8,13 +8,13 @@ import pytest
 
 from tests.editor.canvas.run_js import JS
 from vicode.editor.canvas import element
-from vicode.editor.canvas.protocol import GESTURES, decode_gesture
+from vicode.editor.canvas.protocol import GESTURES, GestureReport, decode_gesture
 from vicode.editor.session.decoding import MalformedEventError
 from vicode.editor.session.gestures import MoveGesture, NodePosition
 from vicode.editor.session.transition_gestures import LabelGesture
 
 NODE = {"of": "states", "id": "Kick", "x": 10, "y": 20.5}
-MOVE: dict[str, Any] = {"kind": "move", "rev": 3, "items": [NODE], "how": "drag"}
+MOVE: dict[str, Any] = {"kind": "move", "rev": 3, "seq": 2, "items": [NODE], "how": "drag"}
 
 
 def test_javascript_reports_exactly_the_declared_gestures() -> None:
@@ -37,27 +37,28 @@ def test_the_element_calls_existing_methods_of_the_canvas() -> None:
 
 def test_a_gesture_is_decoded() -> None:
     node = NodePosition(kind="states", id="Kick", x=10, y=20.5)
-    assert decode_gesture(MOVE) == (MoveGesture(items=(node,), how="drag"), 3)
-    reset = {"kind": "label", "rev": 1, "id": "A/0", "at": None}
-    assert decode_gesture(reset) == (LabelGesture(id="A/0", at=None), 1)
-    nudge = {"kind": "label", "rev": 1, "id": "A/0", "at": [0.5, -12], "by": "nudge"}
-    assert decode_gesture(nudge) == (LabelGesture(id="A/0", at=(0.5, -12), by="nudge"), 1)
+    assert decode_gesture(MOVE) == GestureReport(MoveGesture(items=(node,), how="drag"), 3, 2)
+    reset = {"kind": "label", "rev": 1, "seq": 0, "id": "A/0", "at": None}
+    assert decode_gesture(reset) == GestureReport(LabelGesture(id="A/0", at=None), 1, 0)
+    nudge = {"kind": "label", "rev": 1, "seq": 0, "id": "A/0", "at": [0.5, -12], "by": "nudge"}
+    assert decode_gesture(nudge) == GestureReport(LabelGesture(id="A/0", at=(0.5, -12), by="nudge"), 1, 0)
 
 
 @pytest.mark.parametrize(
     ("payload", "reason"),
     [
         (None, "a gesture must be an object"),
-        ({"kind": "fly", "rev": 3}, "unknown kind of event: 'fly'"),
-        ({"kind": ["move"], "rev": 3}, "unknown kind of event"),
+        ({"kind": "fly", "rev": 3, "seq": 2}, "unknown kind of event: 'fly'"),
+        ({"kind": ["move"], "rev": 3, "seq": 2}, "unknown kind of event"),
         ({**MOVE, "by": 1}, r"move: unknown fields \['by'\]"),
-        ({"kind": "move", "rev": 3}, r"move: missing fields \['items'\]"),
+        ({"kind": "move", "rev": 3, "seq": 2}, r"move: missing fields \['items'\]"),
         ({**MOVE, "rev": "3"}, "rev: expected int, got '3'"),
+        ({**MOVE, "seq": None}, "seq: expected int, got None"),
         ({**MOVE, "items": NODE}, "move.items: not a list"),
         ({**MOVE, "items": [{**NODE, "x": True}]}, "move.items.x: expected a finite number, got True"),
         ({**MOVE, "items": [{**NODE, "x": float("nan")}]}, "move.items.x: expected a finite number, got nan"),
         ({**MOVE, "items": [{**NODE, "of": "roads"}]}, "move.items.of: expected one of states, .*, got 'roads'"),
-        ({"kind": "label", "rev": 1, "id": "A/0", "at": [1]}, "label.at: 2 values expected"),
+        ({"kind": "label", "rev": 1, "seq": 0, "id": "A/0", "at": [1]}, "label.at: 2 values expected"),
     ],
 )
 def test_malformed_gestures_are_refused(payload: object, reason: str) -> None:

@@ -32,7 +32,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
     """Interactive diagram of a state machine.
 
     Args:
-        on_gesture: called with every gesture and the revision of its scene; may be a coroutine function.
+        on_gesture: called with every gesture; may be a coroutine function.
         on_pointer: called with the pointer position (None: outside the canvas) while other users are shown.
         on_malformed: called with the reason when the browser sent a malformed gesture, which is ignored.
     """
@@ -83,6 +83,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         if not self._is_mounted:
             self._embed_scene()
         self._call("load", self._full_scene())
+        self._send_selection()
 
     def apply(self, changes: SceneChanges) -> None:
         if self._scene is None:
@@ -268,13 +269,14 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
 
     async def _handle_gesture(self, event: GenericEventArguments) -> None:
         try:
-            gesture, rev = decode_gesture(event.args)
+            report = decode_gesture(event.args)
         except MalformedEventError as error:
             self._on_malformed(str(error))
             return
-        if isinstance(gesture, SelectGesture):
-            self._selected, self._acked_seq = list(gesture.items), gesture.client_seq
-        answer = self._on_gesture(gesture, rev)
+        self._acked_seq = report.seq
+        if isinstance(report.gesture, SelectGesture):
+            self._selected = list(report.gesture.items)
+        answer = self._on_gesture(report)
         if isawaitable(answer):
             await answer
 

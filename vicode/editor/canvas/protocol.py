@@ -30,8 +30,6 @@ class SelectGesture:
 
     kind: ClassVar = "select"
     items: tuple[ItemRef, ...]
-    client_seq: int
-    """Number of selections reported so far, including this one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -130,12 +128,24 @@ Gesture = PageGesture | RequestedEdit
 GESTURES: Mapping[str, type[Gesture]] = {gesture.kind: gesture for gesture in (*get_args(PageGesture), *EDIT_GESTURES)}
 """The gestures that the canvas may report, by kind: those that the page handles, and edits of the design."""
 
-OnGesture = Callable[[Gesture, int], Awaitable[None] | None]
+
+@dataclass(frozen=True, slots=True)
+class GestureReport:
+    """A gesture from the browser."""
+
+    gesture: Gesture
+    rev: int
+    """Revision of the scene in which it was made."""
+    seq: int
+    """Number of selections that the user has made so far, including one by this gesture."""
+
+
+OnGesture = Callable[[GestureReport], Awaitable[None] | None]
 OnPointer = Callable[[tuple[float, float] | None], None]
 
 
-def decode_gesture(payload: object) -> tuple[Gesture, int]:
-    """Decode a gesture from the browser, and the revision of the scene in which it was made.
+def decode_gesture(payload: object) -> GestureReport:
+    """Decode a gesture from the browser.
 
     Raises:
         MalformedEventError: The kind is unknown, or the fields do not match its declaration.
@@ -143,8 +153,8 @@ def decode_gesture(payload: object) -> tuple[Gesture, int]:
     if not isinstance(payload, dict):
         raise MalformedEventError("a gesture must be an object")
     fields = dict(payload)
-    rev = decode(fields.pop("rev", None), int, "rev")
-    return decode_event(fields, GESTURES), rev
+    rev, seq = (decode(fields.pop(name, None), int, name) for name in ("rev", "seq"))
+    return GestureReport(decode_event(fields, GESTURES), rev, seq)
 
 
 def item_json(item: ItemRef) -> dict[str, str]:

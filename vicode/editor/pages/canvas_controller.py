@@ -11,7 +11,7 @@ from vicode.editor.canvas.commands import CANVAS_COMMANDS, CommandGroup
 from vicode.editor.canvas.protocol import (
     CommandGesture,
     CopyGesture,
-    Gesture,
+    GestureReport,
     InsideGesture,
     OpenGesture,
     PasteGesture,
@@ -118,12 +118,13 @@ class CanvasController:
             item.kind == "transitions" and self.context.document.has_decision(item.id)
         )
 
-    def _on_gesture(self, gesture: Gesture, rev: int) -> None:
+    def _on_gesture(self, report: GestureReport) -> None:
+        gesture, rev = report.gesture, report.rev
+        self.context.selection_seq = report.seq
         match gesture:
             case SelectGesture():
                 # The click may have committed a name that was being typed: the item may have a new name.
                 rebased = self._rebase(gesture, rev)
-                self.context.selection_seq = gesture.client_seq
                 self.context.select(*(rebased.items if rebased else ()))
             case OpenGesture():
                 self._open(gesture.item, is_open=gesture.is_open)

@@ -24,6 +24,7 @@ import { keyOf, Scene } from "./scene.js";
 import { Selection } from "./selection.js";
 import { DIAGRAM, EMPTY, STAGE_ROLE, namesOnly, stageName } from "./strings.js";
 import { html } from "./svg.js";
+import { testInterface } from "./test_interface.js";
 import { awaitFonts, onFontsLoaded } from "./text_metrics.js";
 import { Theme } from "./theme.js";
 import { Toolbar } from "./toolbar.js";
@@ -53,7 +54,7 @@ class Canvas {
     this.painter = new Painter(this.scene, this.router);
     this.#build();
     this.#wire();
-    host.vicode = this.#testApi();
+    host.vicode = testInterface(this);
   }
 
   load(view) {
@@ -168,10 +169,10 @@ class Canvas {
     else this.preview.clear({ stay });
   }
 
-  /** Sends one gesture to Python; `rev` is the revision in which it was made. */
+  /** Sends one gesture to Python; `rev` is the revision in which it was made, `seq` counts the selections before it. */
   report(kind, payload, rev = this.scene.rev) {
     if (kind !== "move") this.nudge.reset();
-    this.emit("gesture", { kind, ...payload, ...announceOpening(this.host, kind, payload), rev });
+    this.emit("gesture", { kind, ...payload, ...announceOpening(this.host, kind, payload), rev, seq: this.clientSeq });
   }
 
   /** Moves nodes to `positions` (by key); `how` is the command, for the name of the edit. */
@@ -220,7 +221,7 @@ class Canvas {
     this.handles.refresh();
     const [items, seq] = [this.selection.items(), quiet ? this.clientSeq : ++this.clientSeq];
     if (!quiet) announce(this.host, "vicode-select", { items, seq });
-    if (!quiet) this.report("select", { items, client_seq: seq });
+    if (!quiet) this.report("select", { items });
     this.levelOfDetail.selectionChanged();
   }
 
@@ -251,11 +252,16 @@ class Canvas {
     else this.viewport.reveal(nodeRect(place));
   }
 
-  /** Draws a state whose creation was just reported; Python sends its data, or the whole scene if there is no such state. */
+  /**
+   * Draws a state whose creation is reported next; Python sends its data, or the whole scene if it refuses the state.
+   * Answers to what was reported before do not change its selection.
+   */
   showCreated(state, select) {
     if (this.scene.nodes.has(keyOf("states", state.id))) return;
     this.apply({ rev: this.scene.rev, upsert: { states: [state] } });
-    if (select) this.selection.set([keyOf("states", state.id)], { quiet: true });
+    if (!select) return;
+    this.clientSeq += 1;
+    this.selection.set([keyOf("states", state.id)], { quiet: true });
   }
 
   showMessage(text) {
@@ -379,22 +385,5 @@ class Canvas {
       for (const field of [this.rename, this.guard]) field.viewChanged();
       this.presence.draw();
     });
-  }
-
-  #testApi() {
-    const frame = ({ x, y, w, h }) => ({ x, y, w, h });
-    return {
-      positions: () => Object.fromEntries([...this.scene.nodes.values()].map((node) => [`${node.of}/${node.id}`, frame(node)])),
-      selection: () => this.selection.items(),
-      view: () => ({ x: this.viewport.x, y: this.viewport.y, k: this.viewport.k, far: this.isOverview, resting: this.viewport.isIdle }),
-      setView: (view) => this.viewport.set(view),
-      screen: (of, id) => {
-        const element = this.scene.find(keyOf(of, id));
-        const at = this.viewport.toScreen(this.scene.nameOf(element.key) ?? this.router.route(element).at);
-        const box = this.stage.getBoundingClientRect();
-        return { x: at.x + box.left, y: at.y + box.top };
-      },
-      mounted: () => this.painter.items.size,
-    };
   }
 }

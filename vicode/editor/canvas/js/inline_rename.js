@@ -132,8 +132,8 @@ export class InlineRename {
     preview.close();
     if (states) return canvas.report("frame", { states, title: name });
     if (from) return this.#connect(from, place, name, { select, asksGuard });
-    canvas.report("create", { x, y, name, select });
     if (name) canvas.showCreated({ id: name, name, x, y }, select);
+    canvas.report("create", { x, y, name, select });
   }
 
   /** Creates a transition to the state of this name, or to a new one. */
