@@ -147,7 +147,12 @@ def test_escape_moves_the_focus_from_a_field_to_the_canvas(sketch: EditorDriver)
 
 
 def test_what_a_single_key_did_is_said_and_undone(sketch: EditorDriver) -> None:
-    for key, done in (("d", "Disabled Go"),):
+    for key, done in (
+        ("d", "Disabled Go"),
+        ("i", "Go is the initial state"),
+        ("f", "Go is final"),
+        ("m", "Added a note"),
+    ):
         sketch.select("Go")
         sketch.press(key)
         bar = sketch.page.locator(".undo-bar")

@@ -11,6 +11,7 @@ import { Wheel } from "./wheel.js";
 
 const THRESHOLD = { mouse: 4, pen: 6, touch: 9 };
 const DOUBLE_MS = 400;
+const NO_CLICK = { key: "", time: 0 };
 const BORDER = 28;
 
 export class PointerGestures {
@@ -22,7 +23,7 @@ export class PointerGestures {
     this.isAdditive = false;
     this.drawsFrame = false;
     this.menuAt = null;
-    this.lastClick = { key: "", time: 0 };
+    this.lastClick = NO_CLICK;
     this.spaceHeld = false;
     this.pointer = null;
     new Wheel(canvas);
@@ -31,6 +32,8 @@ export class PointerGestures {
     listen("pointermove", (event) => this.#move(event));
     listen("pointerup", (event) => this.#up(event));
     listen("pointercancel", () => this.cancel());
+    // Click, key, click: the second click begins anew.
+    listen("keydown", () => (this.lastClick = NO_CLICK));
     listen("pointerleave", () => this.#hover(null));
     listen("contextmenu", (event) => this.#menu(event));
     listen("dragover", (event) => event.preventDefault());
@@ -49,7 +52,7 @@ export class PointerGestures {
     this.drag = null;
     this.connectMode = null;
     this.drawsFrame = false;
-    this.lastClick = { key: "", time: 0 };
+    this.lastClick = NO_CLICK;
     this.touch.clear();
     this.canvas.showMessage("");
     this.canvas.afterGesture();
@@ -214,7 +217,7 @@ export class PointerGestures {
     if (event.button !== 0 || this.spaceHeld || hit.handle || hit.end) return;
     const adds = this.#adds(event);
     const double = hit.key === this.lastClick.key && event.timeStamp - this.lastClick.time < DOUBLE_MS;
-    this.lastClick = double ? { key: "", time: 0 } : { key: hit.key, time: event.timeStamp };
+    this.lastClick = double ? NO_CLICK : { key: hit.key, time: event.timeStamp };
     if (adds && before) selection.toggle(hit.key);
     else if (!adds) selection.set(hit.key ? [hit.key] : []);
     if (double && !adds) this.#doubleClick(event, hit);
