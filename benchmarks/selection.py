@@ -1,4 +1,4 @@
-"""How long a click on a state takes until its form can be typed into, beside a text field that a click on a bare page fills.
+"""How long a click on a state takes until its form is there, beside a field that a click on a bare page fills.
 
 `python -m benchmarks.selection [--rounds N] [--states N …] [--latency MS …]`; all in one browser, in turn.
 """
@@ -29,7 +29,9 @@ _OBSERVE = """([find, name]) => new Promise((done) => {
   requestAnimationFrame(look);
 })"""
 _FORM = ".inspector input"
-_BARE = """<button style="position: fixed; inset: 0; height: 50px">item</button><form style="margin-top: 60px"></form><script>
+_BARE = """<button style="position: fixed; inset: 0; height: 50px">item</button>
+<form style="margin-top: 60px"></form>
+<script>
 let count = 0;
 document.querySelector("button").onclick = () => {
   document.forms[0].innerHTML = `<label>Name <input value="Item${++count}"></label>`;
@@ -50,7 +52,7 @@ def main() -> None:
             for latency_ms in options.latency:
                 times = list(zip(*_measure(browser, states, latency_ms, options.rounds), strict=True))
                 bare, form = (median(each) for each in times)
-                print(f"{states:5} states, {latency_ms:4} ms: {form:5.0f} ms, bare page {bare:3.0f} ms", file=sys.stdout)
+                print(f"{states:5} states, {latency_ms:4} ms: {form:5.0f} ms, bare page {bare:3.0f} ms")
 
 
 def _launch(playwright: Playwright) -> Browser:

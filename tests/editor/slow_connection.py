@@ -11,6 +11,7 @@ class SlowConnection:
     def __init__(self, page: Page) -> None:
         self.is_held = False
         self.waiting: list[tuple[WebSocketRoute, str | bytes]] = []
+        self._open: list[WebSocketRoute] = []
         page.route_web_socket("**/*", self._connect)
 
     def hold(self) -> None:
@@ -29,6 +30,14 @@ class SlowConnection:
             page.wait_for_timeout(20)
         self._send(found[0] + 1)
 
+    def cut(self) -> None:
+        """Close the connection; what waits is lost, and the page connects again."""
+        self.is_held = False
+        self.waiting.clear()
+        for route in self._open:
+            route.close(code=1001)
+        self._open.clear()
+
     def _send(self, count: int) -> None:
         for route, message in self.waiting[:count]:
             route.send(message)
@@ -36,6 +45,7 @@ class SlowConnection:
 
     def _connect(self, route: WebSocketRoute) -> None:
         server = route.connect_to_server()
+        self._open.append(route)
 
         def pass_on(message: str | bytes) -> None:
             if self.is_held:

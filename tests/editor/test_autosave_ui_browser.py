@@ -1,7 +1,10 @@
 """Nothing is lost: a killed server, a file changed under unsaved work, saving by itself, and the history as a list."""
 
+import socket
+from collections.abc import Callable
 from pathlib import Path
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.editor.conftest import started_editor
@@ -41,6 +44,63 @@ def test_unsaved_work_survives_a_killed_server(
         expect(page.get_by_text("Unsaved changes")).to_be_visible()
         expect(page.get_by_text("Recover the unsaved changes")).to_have_count(0)
         page.goto("about:blank")
+
+
+def _select_description(page: Page) -> None:
+    page.get_by_role("textbox", name="Description").press("ControlOrMeta+A")
+
+
+def _add_code(page: Page) -> None:
+    # The ids of the actions that stay are not their indices any more.
+    page.get_by_role("button", name="Remove: 1 Set").click()
+    page.get_by_role("button", name="Add to enter: Code").click()
+
+
+@pytest.mark.parametrize(
+    ("start", "waits_for_journal"), [(_select_description, True), (_select_description, False), (_add_code, True)]
+)
+def test_who_types_while_the_server_is_killed_loses_no_letter(
+    page: Page,
+    project: Path,
+    tmp_path: Path,
+    console_errors: list[str],
+    start: Callable[[Page], None],
+    waits_for_journal: bool,
+) -> None:
+    options = ("--no-tour", "--port", str(_free_port()))
+    typed = "the_ball_is_near_and_nobody_of_the_other_team_is_between_it_and_the_goal"
+    with started_editor(project, tmp_path / "storage", options) as url:
+        open_player(page, url)
+        select_state(page, "Kick")
+        start(page)
+        page.keyboard.type(typed[:20], delay=20)
+        if waits_for_journal:
+            _wait_for_journal(page, tmp_path / "storage" / "state", typed[:12])
+    page.keyboard.type(typed[20:50], delay=20)
+    opened_ms = page.evaluate("performance.timeOrigin")
+    with started_editor(project, tmp_path / "storage", options):
+        page.keyboard.type(typed[50:])
+        page.wait_for_function(f"performance.timeOrigin > {opened_ms}")
+        page.wait_for_selector(".vicode-canvas[data-ready]")
+        expect(page.get_by_text("Unsaved changes")).to_be_visible()
+        expect(page.get_by_role("dialog")).to_have_count(0)
+        # The server has it, and nothing is typed a second time.
+        page.wait_for_timeout(300)
+        page.reload()
+        page.wait_for_selector(".vicode-canvas[data-ready]")
+        expect(page.get_by_text("Unsaved changes")).to_be_visible()
+        page.keyboard.press("ControlOrMeta+S")
+        expect(page.locator(".saved")).to_have_text("Saved")
+        saved = (project / "forward" / "player.yaml").read_text()
+        assert saved.count("the_ball") == saved.count(typed) == 1
+        page.goto("about:blank")
+    console_errors.clear()
+
+
+def _free_port() -> int:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return int(free.getsockname()[1])
 
 
 def _wait_for_journal(page: Page, state: Path, text: str) -> None:

@@ -43,7 +43,7 @@ class CanvasDriver:
         self.clear_gestures()
 
     def clear_gestures(self) -> None:
-        """Delete the received gestures; a marker, which the canvas refuses, makes sure that no earlier one is still on its way."""
+        """Delete the received gestures; a marker, which the canvas refuses, makes sure that none is on its way."""
         canvas = "getElement(document.querySelector('.vicode-canvas').id.slice(1))"
         self._request("/clear", b"")
         self.page.evaluate(f"{canvas}.$emit('gesture', {{kind: 'marker', rev: 0}})")

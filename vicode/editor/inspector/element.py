@@ -1,5 +1,6 @@
 """Python side of the forms. It keeps what they show, so that an element that mounts late or again receives it."""
 
+import secrets
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
@@ -13,6 +14,9 @@ from vicode.editor.session.forms.edits import FORM_EDITS, FormEdit
 from vicode.editor.session.forms.form_data import diff_forms
 from vicode.editor.view import ItemRef
 
+_SERVER = secrets.token_hex(8)
+"""Identifies this run of the server."""
+
 
 class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
     """The form of the selected item, drawn by the browser.
@@ -21,6 +25,7 @@ class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
         on_edit: called with every edit; answers its id, the own text and an error.
         on_event: called with all other events.
         on_malformed: called with the reason when the browser sent a malformed event, which is ignored.
+        on_ready: called before the forms are sent; whether the browser has typed texts that the server may not have.
     """
 
     def __init__(
@@ -28,9 +33,11 @@ class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
         on_edit: Callable[[FormEdit], Mapping[str, object]],
         on_event: Callable[[FormEvent], None],
         on_malformed: Callable[[str], None],
+        on_ready: Callable[[bool], None],
     ) -> None:
         super().__init__()
         self._on_edit, self._on_event, self._on_malformed = on_edit, on_event, on_malformed
+        self._on_ready = on_ready
         self._data: dict[str, Any] = {
             "rev": -1,
             "forms": {},
@@ -38,6 +45,7 @@ class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
             "lists": {},
             "language": "",
             "open_sections": [],
+            "server": _SERVER,
         }
         self._selection: tuple[list[dict[str, str]], int] = ([], 0)
         self._opened: ItemRef | None = None
@@ -97,7 +105,8 @@ class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
             return
         self._on_event(decoded)
 
-    def _handle_ready(self) -> None:
+    def _handle_ready(self, event: GenericEventArguments) -> None:
+        self._on_ready(event.args.get("is_continued") is True)
         self._is_mounted = True
         self._call("load", self._data)
         self._call("select", *self._selection)

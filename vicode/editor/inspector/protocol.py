@@ -82,7 +82,18 @@ class ToggleSection:
     is_open: bool
 
 
-FormEvent = FocusField | SelectItem | CompleteText | OpenCode | ListFixes | ApplyFix | ShowLanguage | ToggleSection
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LostText:
+    """A text that was typed before the server was started again, for which the item has no field any more."""
+
+    kind: ClassVar = "lost-text"
+    item: ItemRef
+    text: str
+
+
+FormEvent = (
+    FocusField | SelectItem | CompleteText | OpenCode | ListFixes | ApplyFix | ShowLanguage | ToggleSection | LostText
+)
 _EVENTS: tuple[type[FormEvent], ...] = (
     FocusField,
     SelectItem,
@@ -92,6 +103,7 @@ _EVENTS: tuple[type[FormEvent], ...] = (
     ApplyFix,
     ShowLanguage,
     ToggleSection,
+    LostText,
 )
 FORM_EVENTS: Mapping[str, type[FormEvent]] = {event.kind: event for event in _EVENTS}
 """The events by kind."""

@@ -9,6 +9,7 @@ from vicode.editor.pages import texts
 from vicode.editor.panels.code_choices import ask_to_resolve_code
 from vicode.editor.panels.command import Command, MenuGroup
 from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
+from vicode.editor.panels.texts import recovered
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.autosave import AutosaveService
 
@@ -45,6 +46,14 @@ class AutosaveControls:
     def __init__(self, context: WindowContext, autosave: AutosaveService | None) -> None:
         self.context, self.autosave = context, autosave
         self.shown_notice = context.document.shared.notice
+
+    def recover(self) -> None:
+        """Recover the unsaved work on the design of this window."""
+        context = self.context
+        for lost in self.autosave.recoverable(context.workspace) if self.autosave is not None else ():
+            if self.autosave is not None and lost.component == context.design.component:
+                overruled = self.autosave.recover(context.workspace, lost, context.document.user_id)
+                context.show_toast(recovered(lost.component, overruled), "info")
 
     def offer_recovery(self) -> None:
         if self.autosave is not None:

@@ -1,7 +1,7 @@
 """What a window shows of one design: header, diagram and table, panels. Replaced as a whole when it shows another."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from nicegui import core, ui
 
@@ -58,6 +58,7 @@ class Window:
     overlay: ui.element
     starts_tour: bool
     external_editor: ExternalEditor
+    offered_recovery: set[Workspace] = field(default_factory=set)
 
     @property
     def user(self) -> User:
@@ -149,6 +150,14 @@ class DesignEditor:
 
     def offer_undo(self, text: str, undo: Callable[[], object]) -> None:
         self.window.undo_bar.show(text, undo, is_brief=True)
+
+    def recover_work(self, is_continued: bool) -> None:
+        if is_continued:
+            self.autosave.recover()
+        workspace = self.context.workspace
+        if workspace not in self.window.offered_recovery:
+            self.window.offered_recovery.add(workspace)
+            self.autosave.offer_recovery()
 
     def _ask_new(self) -> None:
         self.window.dialogs.ask_new(self.context.workspace)

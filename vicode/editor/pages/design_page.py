@@ -81,7 +81,6 @@ class DesignPage:
         with head:
             self._header = Header(self._editor.context, commands)
         self._show(self._editor)
-        self._editor.autosave.offer_recovery()
         register_shortcuts(commands)
         self._follow_browser()
         ui.timer(1.0, self._follow_disk)
@@ -116,8 +115,6 @@ class DesignPage:
             self._show(editor)
             # After the diagram was sent, while the browser draws it.
             ui.timer(_PANELS_DELAY_S, editor.build_panels, once=True)
-            if opened.workspace is not before.workspace:
-                editor.autosave.offer_recovery()
 
     def _on_connect(self) -> None:
         self._editor.presence.join()

@@ -11,6 +11,7 @@ from vicode.editor.inspector.protocol import (
     FocusField,
     FormEvent,
     ListFixes,
+    LostText,
     OpenCode,
     SelectItem,
     ShowLanguage,
@@ -51,11 +52,16 @@ class ItemForms:
         self._shown: tuple[Design, Forms] = (context.design, {})
         self._edited: tuple[ItemRef, str] | None = None
         """The item and the path of the field with the focus."""
-        self.view = FormView(self._edit, self._handle, self._on_malformed)
+        self.view = FormView(self._edit, self._handle, self._on_malformed, self._prepare)
         context.linter.changes.subscribe(lambda: None if self.view.is_deleted else self.refresh())
 
     def _on_malformed(self, reason: str) -> None:
         self.context.show_toast(texts.invalid_event(reason), "warning")
+
+    def _prepare(self, is_continued: bool) -> None:
+        """The browser goes on typing over what a killed server has left."""
+        self.context.page.recover_work(is_continued)
+        self.refresh()
 
     def refresh(self) -> None:
         """Send what has changed, and the selection."""
@@ -178,6 +184,8 @@ class ItemForms:
                 context.code_language = language
             case ToggleSection(key=key, is_open=is_open):
                 (context.open_sections.add if is_open else context.open_sections.discard)(key)
+            case LostText(item=item, text=text):
+                context.show_toast(texts.typed_text_lost(item.id, text), "warning")
             case _:
                 self._handle_fixes(event)
 

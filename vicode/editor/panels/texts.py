@@ -223,6 +223,10 @@ def recovered(component: str, overruled: int) -> str:
     return f"Recovered the changes to {component}{rest}"
 
 
+def typed_text_lost(item: str, text: str) -> str:
+    return f"The editor was started again. This text was typed for {item}, whose field has changed: {text}"
+
+
 def not_recovered(reason: str) -> str:
     return f"Could not recover: {reason}"
 

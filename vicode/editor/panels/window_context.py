@@ -29,6 +29,9 @@ class PageServices(Protocol):
     def offer_undo(self, text: str, undo: Callable[[], object]) -> None:
         """Show a message about a change of files, with an undo button."""
 
+    def recover_work(self, is_continued: bool) -> None:
+        """Offer unsaved work that a killed server has left; recover that of the design if its user was typing then."""
+
 
 @dataclass(eq=False, kw_only=True)
 class WindowContext:

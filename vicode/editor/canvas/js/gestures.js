@@ -219,6 +219,7 @@ export class PointerGestures {
     const double = hit.key === this.lastClick.key && event.timeStamp - this.lastClick.time < DOUBLE_MS;
     this.lastClick = double ? NO_CLICK : { key: hit.key, time: event.timeStamp };
     if (adds && before) selection.toggle(hit.key);
+    else if (before) selection.choose([hit.key]);
     else if (!adds) selection.set(hit.key ? [hit.key] : []);
     if (double && !adds) this.#doubleClick(event, hit);
   }

@@ -23,6 +23,12 @@ export class Selection {
     this.canvas.selectionChanged(quiet);
   }
 
+  /** Sets what the user clicks: also if it is selected already, as Python may be about to select something else. */
+  choose(keys) {
+    if (keys.length !== this.keys.size || !keys.every((key) => this.keys.has(key))) this.set(keys);
+    else this.canvas.selectionChanged(false);
+  }
+
   toggle(key) {
     const keys = new Set(this.keys);
     if (!keys.delete(key)) keys.add(key);

@@ -40,7 +40,7 @@ export const CodeText = {
     </div>`,
   data() {
     const path = this.node.path.join("/");
-    return { path, field: this.store.field(path, this.node.value, this.node.is_checked && "checked"), isLarge: false };
+    return { path, field: this.store.field(path, this.node), isLarge: false };
   },
   computed: {
     marks() {

@@ -5,15 +5,15 @@ import { findChange } from "./text_merge.js";
 
 const WITHOUT_CORRECTIONS = { autocapitalize: "off", spellcheck: "false", autocomplete: "off" };
 
-/** A field with a text; `kind` is that of its `SyncedText`. */
-const textField = (template, kindOf) => ({
+/** A field with a text. */
+const textField = (template) => ({
   props: { node: Object },
   inject: ["store"],
   components: { Messages },
   template,
   data() {
     const path = this.node.path.join("/");
-    return { path, field: this.store.field(path, this.node.value, kindOf(this.node)) };
+    return { path, field: this.store.field(path, this.node) };
   },
   computed: {
     marks() {
@@ -54,7 +54,6 @@ export const TextField = textField(
     <messages :marks="marks" :error="field.error" />
     <div v-if="node.help" class="empty">{{ node.help }}</div>
   </div>`,
-  (node) => node.is_checked && "checked",
 );
 
 export const ItemName = textField(
@@ -63,7 +62,6 @@ export const ItemName = textField(
       v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @blur="store.blur(field)" @keydown.enter="store.commit(field)" />
     <messages :marks="marks" :error="field.error" />
   </div>`,
-  () => "name",
 );
 
 const valueField = (template, members = {}) => ({

@@ -1,7 +1,7 @@
 // What the inspector knows: the forms of all items, the texts of their fields, and the edits on their way.
 import { nextTick, reactive } from "vue";
-import { cardsIn, placed, textsOf, withPending } from "./form_data.js";
-import { SyncedText } from "./synced_text.js";
+import { cardsIn, placed, placeOf, syncedText, textNodes, withPending } from "./form_data.js";
+import { TypedLog } from "./typed_log.js";
 
 const SEND_MS = 200;
 // The fields in which Python looks for times when their user leaves them.
@@ -37,13 +37,30 @@ export class FormStore {
     this.items = new Map();
     this.timers = new Map();
     this.unsettled = new Set();
+    this.typed = new TypedLog();
     this.view = reactive({ key: null, number: 0, nodes: [], lists: {}, marks: {}, openSections: [], language: "" });
   }
 
-  load({ rev, forms, lists, marks, open_sections: openSections, language }) {
+  load({ rev, forms, lists, marks, open_sections: openSections, language, server }) {
     this.forms.clear();
     Object.assign(this.view, { marks: {}, lists: {}, openSections, language });
     this.update({ rev, forms, lists, marks, moved: {}, acks: [] });
+    for (const typed of this.typed.take(server)) this.#restore(typed);
+  }
+
+  /** Types a text again that the server may have lost. */
+  #restore({ item, place, steps, text }) {
+    const nodes = JSON.parse(this.forms.get(keyOf(item)) ?? "[]");
+    const [path, node] = [...textNodes(nodes)].find(([path]) => placeOf(nodes, path) === place) ?? [];
+    const now = node && (node.value ?? "");
+    if (now === text) return;
+    if (steps.includes(now)) this.type(this.#field(this.#item(keyOf(item)), path, node), text);
+    else this.request("lost-text", { item, text });
+  }
+
+  #note(field) {
+    const [item, path] = this.#find(field);
+    if (item) this.typed.note(field, () => ({ item: item.ref, place: placeOf(this.#nodesOf(item), path) }));
   }
 
   /** Applies changes of the design; `acks` answers edits. */
@@ -79,20 +96,27 @@ export class FormStore {
 
   /** The shown item. */
   get shown() {
-    const { key } = this.view;
+    return this.#item(this.view.key);
+  }
+
+  #item(key) {
     if (!this.items.has(key)) this.items.set(key, new ShownItem(key, (this.itemCount += 1)));
     return this.items.get(key);
   }
 
   /** The field at a path of the shown item. */
-  field(path, value, kind) {
-    const { fields } = this.shown;
-    if (!fields.has(path)) fields.set(path, reactive(new SyncedText(value, kind)));
+  field(path, node) {
+    return this.#field(this.shown, path, node);
+  }
+
+  #field({ fields }, path, node) {
+    if (!fields.has(path)) fields.set(path, reactive(syncedText(node)));
     return fields.get(path);
   }
 
   type(field, text) {
     field.type(text);
+    this.#note(field);
     if (READS_TIMES.test(this.#find(field)[1])) this.unsettled.add(field);
     this.#sendSoon(field);
   }
@@ -185,6 +209,7 @@ export class FormStore {
       for (const field of item.fields.values()) {
         if (!field.sent.some((edit) => edit.id === id)) continue;
         field.acknowledge(id, own, error);
+        this.#note(field);
         this.#sendSoon(field);
         return;
       }
@@ -282,17 +307,21 @@ export class FormStore {
     const cards = cardsIn(nodes);
     item.pending = item.pending.filter(({ list, card }) => !cards.has(`${list}/${card.id}`));
     const isPending = (path) => item.pending.some(({ list, card }) => path.startsWith(`${list}/${card.id}/`));
-    const texts = textsOf(nodes);
+    const texts = textNodes(nodes);
     for (const [path, field] of item.fields) {
-      if (texts.has(path)) field.receive(texts.get(path));
+      if (texts.has(path)) field.receive(texts.get(path).value ?? "");
       else if (!field.isDirty && !isPending(path)) item.fields.delete(path);
+      this.#note(field);
     }
   }
 
   #draw() {
-    const form = this.forms.get(this.view.key);
-    this.view.nodes = form ? withPending(JSON.parse(form), this.shown.pending) : [];
-    this.view.number = form ? this.shown.number : -1;
+    this.view.nodes = this.hasForm ? this.#nodesOf(this.shown) : [];
+    this.view.number = this.hasForm ? this.shown.number : -1;
+  }
+
+  #nodesOf({ key, pending }) {
+    return withPending(JSON.parse(this.forms.get(key) ?? "[]"), pending);
   }
 
   async focusField(root, path) {

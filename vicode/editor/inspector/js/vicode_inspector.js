@@ -22,7 +22,7 @@ export default {
     document.addEventListener("vicode-select", this.onSelect);
     document.addEventListener("vicode-open", this.onOpen);
     for (const event of SENDS_TEXT) addEventListener(event, this.onLeave);
-    this.$emit("ready", {});
+    this.$emit("ready", { is_continued: !this.store.typed.isEmpty });
   },
   unmounted() {
     document.removeEventListener("vicode-select", this.onSelect);
