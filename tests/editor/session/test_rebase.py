@@ -1,5 +1,7 @@
 """Selections and gestures are rebased onto newer designs."""
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 
@@ -37,6 +39,9 @@ OLD = Design(
     [
         ("states", "A", rename_state(OLD, "A", "Z"), "Z"),
         ("states", "B", remove_states(OLD, ["B"]), None),
+        ("states", "C", replace(OLD, states=(*OLD.states, State(name="C"))), "C"),
+        ("states", "C", OLD, "C"),
+        ("states", "C", rename_state(OLD, "A", "Z"), None),
         ("components", "head", rename_use(OLD, "head", "neck"), "neck"),
         ("links", "requires/A/head", rename_use(rename_state(OLD, "A", "Z"), "head", "neck"), "requires/Z/neck"),
         ("transitions", "A/0", rename_state(OLD, "A", "Z"), "Z/0"),

@@ -14,12 +14,16 @@ _G = TypeVar("_G")
 
 
 def rebase_selection(item: ItemRef, old: Design, new: Design) -> ItemRef | None:
-    """The same item in a newer design; None if it no longer exists."""
+    """The same item in a newer design; None if it no longer exists.
+
+    The browser draws a state that it creates before it has the design with it: that is a state of the newer design.
+    """
     if old == new:
         return item
     match item.kind:
         case "states":
-            name = renamed_state(item.id, old, new)
+            is_created = old.state(item.id) is None and new.state(item.id) is not None
+            name = item.id if is_created else renamed_state(item.id, old, new)
             return ItemRef(kind="states", id=name) if name else None
         case "components":
             alias = renamed_use(item.id, old, new)
