@@ -31,7 +31,7 @@ class SlowConnection:
         self._send(found[0] + 1)
 
     def cut(self) -> None:
-        """Close the connection; what waits is lost, and the page connects again."""
+        """Close the connection, if there is one; what waits is lost, and the page connects again."""
         self.is_held = False
         self.waiting.clear()
         for route in self._open:
@@ -45,9 +45,10 @@ class SlowConnection:
 
     def _connect(self, route: WebSocketRoute) -> None:
         server = route.connect_to_server()
-        self._open.append(route)
 
         def pass_on(message: str | bytes) -> None:
+            if route not in self._open:
+                self._open.append(route)
             if self.is_held:
                 self.waiting.append((route, message))
             else:

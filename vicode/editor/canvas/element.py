@@ -21,6 +21,7 @@ from vicode.editor.canvas.protocol import (
 )
 from vicode.editor.js_modules import CANVAS_JS
 from vicode.editor.session.decoding import MalformedEventError
+from vicode.editor.session.delivery import Inbox
 from vicode.editor.session.gestures import NodePosition
 from vicode.editor.view import ItemRef
 from vicode.model.design import Point
@@ -42,9 +43,11 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         on_gesture: OnGesture,
         on_pointer: OnPointer = lambda _position: None,
         on_malformed: Callable[[str], None] = lambda _reason: None,
+        inbox: Inbox | None = None,
     ) -> None:
         super().__init__()
         self._on_malformed = on_malformed
+        self._inbox = inbox or Inbox(lambda _number: None)
         # Passed as a property and not by a call after mounting, so that the first key press finds the commands.
         self._props["commands"] = commands_json()
         self._on_gesture, self._on_pointer = on_gesture, on_pointer
@@ -268,6 +271,8 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             self._send_presence()
 
     async def _handle_gesture(self, event: GenericEventArguments) -> None:
+        if not self._inbox.take(event.args):
+            return
         try:
             report = decode_gesture(event.args)
         except MalformedEventError as error:

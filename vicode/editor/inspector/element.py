@@ -10,6 +10,7 @@ from nicegui.events import GenericEventArguments
 from vicode.editor.inspector.protocol import FORM_EVENTS, FormEvent
 from vicode.editor.js_modules import INSPECTOR_JS
 from vicode.editor.session.decoding import MalformedEventError, decode_event
+from vicode.editor.session.delivery import Inbox
 from vicode.editor.session.forms.edits import FORM_EDITS, FormEdit
 from vicode.editor.session.forms.form_data import diff_forms
 from vicode.editor.view import ItemRef
@@ -25,6 +26,7 @@ class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
         on_edit: called with every edit; answers its id, the own text and an error.
         on_event: called with all other events.
         on_malformed: called with the reason when the browser sent a malformed event, which is ignored.
+        inbox: takes each edit and event once.
         on_ready: called before the forms are sent; whether the browser has typed texts that the server may not have.
     """
 
@@ -34,10 +36,11 @@ class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
         on_event: Callable[[FormEvent], None],
         on_malformed: Callable[[str], None],
         on_ready: Callable[[bool], None],
+        inbox: Inbox,
     ) -> None:
         super().__init__()
         self._on_edit, self._on_event, self._on_malformed = on_edit, on_event, on_malformed
-        self._on_ready = on_ready
+        self._on_ready, self._inbox = on_ready, inbox
         self._data: dict[str, Any] = {
             "rev": -1,
             "forms": {},
@@ -90,6 +93,8 @@ class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
             self.run_method(method, *arguments)
 
     def _apply_edit(self, event: GenericEventArguments) -> None:
+        if not self._inbox.take(event.args):
+            return
         try:
             edit = decode_event(event.args, FORM_EDITS)
         except MalformedEventError as error:
@@ -98,6 +103,8 @@ class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
         self._call("update", {"acks": [{"id": edit.id, **self._on_edit(edit)}]})
 
     def _handle_request(self, event: GenericEventArguments) -> None:
+        if not self._inbox.take(event.args):
+            return
         try:
             decoded = decode_event(event.args, FORM_EVENTS)
         except MalformedEventError as error:

@@ -6,6 +6,7 @@ from nicegui import ui
 
 from vicode.editor.code import CodeAssist
 from vicode.editor.pages import texts
+from vicode.editor.pages.delivery import open_inbox
 from vicode.editor.pages.navigation import HOME
 from vicode.editor.pages.shortcuts import register_shortcuts
 from vicode.editor.pages.theme import Theme, apply_theme
@@ -52,7 +53,7 @@ class BrokenPage:
             ui.element("div").classes("spacer")
             primary_button("Save", self.save, icon="save")
         save = Command("save", "Save", self.save, MenuGroup.DESIGN, keys=("Ctrl+S",), while_typing=True)
-        register_shortcuts((save,))
+        register_shortcuts((save,), open_inbox())
         self._open()
         self.editor.on_value_change(self._check)
 

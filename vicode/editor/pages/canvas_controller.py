@@ -59,7 +59,7 @@ class CanvasController:
         self.context = context
         self.on_preview: Callable[..., None] = lambda **_answer: None
         self.page_commands: Mapping[str, Callable[[], object]] = {}
-        self.canvas = Canvas(self._on_gesture, self._share_pointer, self._on_malformed)
+        self.canvas = Canvas(self._on_gesture, self._share_pointer, self._on_malformed, context.inbox)
         self.canvas.classes("canvas")
         self.inside_views = InsideViews(context, self.canvas)
         self.design = context.design

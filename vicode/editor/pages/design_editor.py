@@ -30,6 +30,7 @@ from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DocumentSession, User, UserDirectory, Workspace
 from vicode.editor.session.autosave import AutosaveService
+from vicode.editor.session.delivery import Inbox
 from vicode.editor.session.external_editor import ExternalEditor
 from vicode.editor.session.search_index import SearchTarget
 from vicode.editor.view import ItemRef
@@ -58,6 +59,7 @@ class Window:
     overlay: ui.element
     starts_tour: bool
     external_editor: ExternalEditor
+    inbox: Inbox
     offered_recovery: set[Workspace] = field(default_factory=set)
 
     @property
@@ -96,6 +98,7 @@ class DesignEditor:
             document=session,
             client=ui.context.client,
             page=self,
+            inbox=window.inbox,
             open_sections=window.users.open_sections(window.user_id),
             code_editors=window.code_editors,
             external_editor=window.external_editor,

@@ -9,6 +9,7 @@ from urllib.parse import quote
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
+from vicode.editor.pages.delivery import open_inbox
 from vicode.editor.pages.design_editor import DesignEditor, OpenedDesign, Window
 from vicode.editor.pages.navigation import HOME
 from vicode.editor.pages.shortcuts import register_shortcuts
@@ -75,13 +76,14 @@ class DesignPage:
             overlay=ui.element("div"),
             starts_tour=starts_tour,
             external_editor=library.external_editor,
+            inbox=open_inbox(),
         )
         self._editor = DesignEditor(self._window, opened)
         commands = [replace(each, handler=partial(self._run_command, each.name)) for each in self._editor.commands]
         with head:
             self._header = Header(self._editor.context, commands)
         self._show(self._editor)
-        register_shortcuts(commands)
+        register_shortcuts(commands, self._window.inbox)
         self._follow_browser()
         ui.timer(1.0, self._follow_disk)
 

@@ -12,6 +12,7 @@ from vicode.diagram.palettes import css_variable_palette
 from vicode.diagram.render import render_diagram
 from vicode.diagram.svg import write_svg
 from vicode.editor.pages import texts
+from vicode.editor.pages.delivery import open_inbox
 from vicode.editor.pages.shortcuts import register_shortcuts
 from vicode.editor.pages.theme import Theme, apply_theme
 from vicode.editor.panels.cards import broken_card, design_card, hand_written_row
@@ -62,7 +63,7 @@ class HomePage:
             self.body = ui.element("main").classes("home-body")
         self.undo = UndoBar()
         self.dialogs = DesignDialogs(show_toast=show_toast, offer_undo=self.undo.show)
-        register_shortcuts(self.commands)
+        register_shortcuts(self.commands, open_inbox())
         self._refresh()
         self._offer_restore(removed)
         ui.timer(1.0, self._follow_disk)

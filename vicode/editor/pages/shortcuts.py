@@ -2,13 +2,15 @@
 
 import inspect
 import json
-from collections.abc import Coroutine, Sequence
+from collections.abc import Callable, Coroutine, Sequence
 from pathlib import Path
 
 from nicegui import ui
+from nicegui.events import GenericEventArguments
 
 from vicode.editor.pages.form_input_preservation import preserve_form_input
 from vicode.editor.panels.command import Command, CommandHandler
+from vicode.editor.session.delivery import Inbox
 
 ESCAPE_ATTRIBUTE = "data-escape-clicks"
 """Attribute of a button that Escape clicks while the button is visible, independent of the focus."""
@@ -62,8 +64,7 @@ document.addEventListener("keydown", (event) => {
   // A command that the browser can start alone cancels the event.
   if (!dispatchEvent(new CustomEvent("vicode-command", { detail: command.name, cancelable: true }))) return;
   pendingCommands += 1;
-  // The page is visible before its connection is open; commands wait for the connection.
-  const send = () => (window.did_handshake ? emitEvent("command-" + command.name) : setTimeout(send, 10));
+  const send = () => window.deliver((fields) => emitEvent("command-" + command.name, fields), {});
   // Fields send typed text after a pause. Send it now, before the command.
   dispatchEvent(new Event("vicode-send-text"));
   queueMicrotask(send);
@@ -78,7 +79,7 @@ for (const event of ["vicode-send-text", "vicode-leave", "beforeunload"]) addEve
 """
 
 
-def register_shortcuts(commands: Sequence[Command]) -> None:
+def register_shortcuts(commands: Sequence[Command], inbox: Inbox) -> None:
     """Run each command when one of its keys is pressed."""
     shortcuts = {}
     for command in commands:
@@ -87,14 +88,16 @@ def register_shortcuts(commands: Sequence[Command]) -> None:
         for keys in command.keys:
             shortcuts[keys] = {"name": command.name, "typing": command.while_typing}
         if command.keys:
-            ui.on(f"command-{command.name}", _reporting_end(command.handler))
+            ui.on(f"command-{command.name}", _reporting_end(command.handler, inbox))
     preserve_form_input()
     ui.add_body_html(f"<script>\n{_TYPE_AHEAD.read_text(encoding='utf-8')}</script>")
     ui.add_body_html(_SHORTCUT_SCRIPT.replace("COMMANDS", json.dumps(shortcuts)).replace("ESCAPE", ESCAPE_ATTRIBUTE))
 
 
-def _reporting_end(handler: CommandHandler) -> CommandHandler:
-    def handle() -> object:
+def _reporting_end(handler: CommandHandler, inbox: Inbox) -> Callable[[GenericEventArguments], object]:
+    def handle(event: GenericEventArguments) -> object:
+        if not inbox.take(event.args):
+            return None
         result = handler()
         if inspect.iscoroutine(result):
             return _finish(result)

@@ -52,7 +52,7 @@ class ItemForms:
         self._shown: tuple[Design, Forms] = (context.design, {})
         self._edited: tuple[ItemRef, str] | None = None
         """The item and the path of the field with the focus."""
-        self.view = FormView(self._edit, self._handle, self._on_malformed, self._prepare)
+        self.view = FormView(self._edit, self._handle, self._on_malformed, self._prepare, context.inbox)
         context.linter.changes.subscribe(lambda: None if self.view.is_deleted else self.refresh())
 
     def _on_malformed(self, reason: str) -> None:

@@ -10,6 +10,7 @@ from vicode.editor.panels.code_editor import CodeEditorFactory
 from vicode.editor.panels.code_linter import CodeLinter
 from vicode.editor.panels.toasts import show_toast
 from vicode.editor.session import DocumentSession, PresenceRoom, Workspace
+from vicode.editor.session.delivery import Inbox
 from vicode.editor.session.external_editor import ExternalEditor
 from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import ItemRef
@@ -42,6 +43,7 @@ class WindowContext:
     client: Client
     """The client of this window. Handlers use it after an edit, as their own button may be deleted by then."""
     page: PageServices
+    inbox: Inbox
     external_editor: ExternalEditor = field(default_factory=ExternalEditor)
     selected: tuple[ItemRef, ...] = ()
     selection_seq: int = 0

@@ -6,7 +6,7 @@ export default {
   template: `<div class="vicode-canvas"></div>`,
   mounted() {
     // A press blurs a text field, which reports its text at the end of the current task; the press must be reported after it.
-    const emit = (event, payload) => queueMicrotask(() => this.$emit(event, payload));
+    const emit = (event, payload) => queueMicrotask(() => this.send(event, payload));
     this.canvas = mountCanvas(this.$el, emit, this.commands);
     const scene = takeScene(this.scene);
     if (scene) this.canvas.load(scene);
@@ -16,6 +16,12 @@ export default {
     this.canvas.dispose();
   },
   methods: {
+    /** Gestures arrive once each, also if the connection is lost; a page that is only a canvas does without. */
+    send(event, payload) {
+      const send = (fields) => this.$emit(event, fields);
+      if (event === "gesture" && window.deliver) window.deliver(send, payload);
+      else send(payload);
+    },
     /** Calls a method of the canvas, or of one of its parts: `call("presence.show", others)`. */
     call(path, ...args) {
       const [method, part] = path.split(".").reverse();

@@ -13,7 +13,7 @@ export default {
       <form-nodes :nodes="store.view.nodes" />
     </div>`,
   beforeCreate() {
-    this.store = new FormStore((event, payload) => this.$emit(event, payload));
+    this.store = new FormStore((event, payload) => window.deliver((each) => this.$emit(event, each), payload));
   },
   mounted() {
     this.onSelect = ({ detail }) => this.showSelected(detail.items, detail.seq);
