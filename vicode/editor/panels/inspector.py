@@ -4,10 +4,8 @@ from nicegui import ui
 
 from vicode.editor.panels.design_panel import design_panel
 from vicode.editor.panels.form import Form, RemovedTexts, Rows
-from vicode.editor.panels.frame_panel import frame_panel
 from vicode.editor.panels.item_forms import ItemForms
 from vicode.editor.panels.multi_selection_panel import multi_selection_panel
-from vicode.editor.panels.note_panel import note_panel
 from vicode.editor.panels.use_panel import link_panel, use_panel
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.forms.form_data import has_form
@@ -61,17 +59,13 @@ class Inspector:
             # Drawn by the browser.
             return None
         match context.single_selection:
-            case ItemRef(kind="states"):
+            case ItemRef(kind="states" | "frames" | "notes"):
                 return None
             case ItemRef(kind="components", id=alias):
                 use, project = context.design.use(alias), context.workspace.project
                 interface = project.interface(use.component) if use else None
                 is_designed = use is not None and project.design(use.component) is not None
                 return use and (use.component, interface if is_designed else interface is not None)
-            case ItemRef(kind="frames", id=name):
-                return "frame" if context.design.frame(name) is not None else None
-            case ItemRef(kind="notes", id=name):
-                return ("note", name) if any(note.name == name for note in context.design.notes) else None
             case _:
                 return context.selected or "design"
 
@@ -87,9 +81,5 @@ class Inspector:
                 use_panel(form, alias)
             case ItemRef(kind="links", id=key):
                 link_panel(context, key)
-            case ItemRef(kind="frames", id=name):
-                frame_panel(form, name)
-            case ItemRef(kind="notes", id=name):
-                note_panel(form, name)
             case _:
                 design_panel(form)

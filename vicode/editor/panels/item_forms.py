@@ -36,10 +36,12 @@ from vicode.editor.session.forms.state_form import OUTSIDE
 from vicode.editor.session.item_paths import item_at
 from vicode.editor.session.rebase import rebase_selection
 from vicode.editor.session.texts import ITEM_MISSING
-from vicode.editor.view import ItemRef, item_at_path
+from vicode.editor.view import ItemKind, ItemRef, item_at_path
 from vicode.findings import DesignPath
 from vicode.model.design import Call, Design
 
+_MOVING_KINDS: Mapping[str, ItemKind] = {"states": "states", "transitions": "transitions", "frames": "frames"}
+"""The kinds of items whose names or places can change."""
 _MAX_TEXT_LENGTH = 200_000
 
 
@@ -97,9 +99,9 @@ class ItemForms:
         moved = {}
         for key, text in before.items():
             kind, _slash, id_ = key.partition("/")
-            if forms.get(key) == text or kind == "common":
+            if forms.get(key) == text or kind not in _MOVING_KINDS:
                 continue
-            item = ItemRef(kind="transitions" if kind == "transitions" else "states", id=id_)
+            item = ItemRef(kind=_MOVING_KINDS[kind], id=id_)
             now = rebase_selection(item, design, self.context.design)
             if now is not None and now != item:
                 moved[key] = f"{now.kind}/{now.id}"
@@ -196,8 +198,8 @@ class ItemForms:
     def _path_in_file(self, item: ItemRef, path: str) -> DesignPath:
         """The path in the file of a field; empty if it no longer exists."""
         design, ids, owner = self.context.design, self.context.document.shared.list_ids, item_path(item)
-        steps = resolve(design, ids, owner, parse_path(path))
-        return () if steps is None else file_path(owner, steps)
+        steps = None if owner is None else resolve(design, ids, owner, parse_path(path))
+        return () if owner is None or steps is None else file_path(owner, steps)
 
     def _fixes(self, number: int) -> list[Any]:
         context, findings = self.context, self.context.document.findings
@@ -217,7 +219,7 @@ class ItemForms:
             self.context.design,
             self.context.document.shared.list_ids,
         )
-        owner = item_path(request.item)
+        owner = item_path(request.item) or ()
         steps = resolve(design, ids, owner, parse_path(request.path)) or ()
         match steps[-1:]:
             case ("python",):

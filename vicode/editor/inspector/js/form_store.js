@@ -4,6 +4,8 @@ import { cardsIn, placed, textsOf, withPending } from "./form_data.js";
 import { SyncedText } from "./synced_text.js";
 
 const SEND_MS = 200;
+// The fields that a double-click opens, by the kinds of items.
+const FIRST_PATHS = { common: "doc", notes: "text" };
 // The fields in which Python looks for times when their user leaves them.
 const READS_TIMES = /^guard\/(when|after)$/;
 
@@ -254,7 +256,8 @@ export class FormStore {
 
   /** The field that a double-click opens: that of the guard, or its timer if the guard has nothing else. */
   firstPath() {
-    if (this.shown.ref.of === "common") return "doc";
+    const known = FIRST_PATHS[this.shown.ref.of];
+    if (known) return known;
     const valueAt = (path) => this.view.nodes.find((node) => node.path?.join("/") === path)?.value;
     return valueAt("guard/after") && !valueAt("guard/when") ? "guard/after" : "guard/when";
   }
@@ -298,6 +301,8 @@ export class FormStore {
   async focusField(root, path) {
     await nextTick();
     const field = root.querySelector(`[data-path="${path}"]`);
-    (field?.querySelector(".cm-content, input, textarea") ?? field)?.focus();
+    const input = field?.querySelector(".cm-content, input, textarea") ?? field;
+    input?.focus();
+    if (this.shown.ref.of === "notes") input?.select();
   }
 }

@@ -56,9 +56,9 @@ export default {
       if (!this.store.show(items.length === 1 ? items[0] : null)) return;
       for (let each = this.$el; each && !each.matches(".side"); each = each.parentElement) each.scrollTop = 0;
     },
-    /** Opens the guard of a transition: its timer if it has nothing else. Returns whether its form is here. */
+    /** Opens the first field of an item. Returns whether its form is here. */
     open(item) {
-      if (!["transitions", "common"].includes(item.of)) return false;
+      if (!["transitions", "common", "notes"].includes(item.of)) return false;
       this.showSelected([item], this.seq);
       this.isOpening = !this.store.hasForm;
       if (!this.isOpening) this.focusField(this.store.firstPath());

@@ -79,9 +79,9 @@ class NameEdit:
 
     def apply(self, document: DocumentSession) -> FormResult:
         owner = rebase_owner(document, item_path(self.item), self.rev)
-        if self.item.kind != "states" or not owner:
+        if self.item.kind not in ("states", "frames") or not owner:
             return FormResult(error=texts.ITEM_MISSING)
-        before = ItemRef(kind="states", id=str(owner[1]))
+        before = ItemRef(kind=self.item.kind, id=str(owner[1]))
         result = apply_edit(document, RenameGesture(item=before, name=self.text))
         selection = result.new_selection
         renamed = None if selection is None else (before, selection[0])
@@ -127,7 +127,8 @@ class ChoicesEdit:
             return FormResult(error=texts.ITEM_MISSING)
         kept = [each for each in now if each in self.value or each not in self.base]
         added = [each for each in self.value if each not in self.base and each not in kept]
-        return place.write(document, (*kept, *added))
+        error = place.field.validate((*kept, *added))
+        return FormResult(error=error) if error else place.write(document, (*kept, *added))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -170,7 +171,7 @@ class ButtonEdit:
 
     def apply(self, document: DocumentSession) -> FormResult:
         owner = rebase_owner(document, item_path(self.item), self.rev)
-        if not owner:
+        if owner is None:
             return FormResult(error=texts.ITEM_MISSING)
         return PRESSES[self.action](self, document, owner)
 

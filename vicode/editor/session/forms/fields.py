@@ -15,6 +15,8 @@ from vicode.model.design import (
     Code,
     CommonSection,
     DecisionGroup,
+    DiagramFrame,
+    DiagramNote,
     RunCode,
     State,
     Stay,
@@ -115,15 +117,16 @@ _GUARD: Mapping[DesignPath, FormField] = {
     ("doc",): DESCRIPTION,
     ("disabled",): attribute("disabled", "Disabled (never tested)"),
 }
+_COLOR = replace(
+    attribute("color", "Color"),
+    validate=lambda value: "" if value in ("", *STATE_COLORS) else texts.INVALID_REQUEST,
+)
 _STATE: Mapping[DesignPath, FormField] = {
     ("name",): attribute("name", "State"),
     ("doc",): DESCRIPTION,
     ("final",): attribute("final", "Final", hint="The component is done in this state"),
     ("disabled",): attribute("disabled", "Disabled", hint="Not generated"),
-    ("color",): replace(
-        attribute("color", "Color"),
-        validate=lambda value: "" if value in ("", *STATE_COLORS) else texts.INVALID_REQUEST,
-    ),
+    ("color",): _COLOR,
     ("requires",): attribute("requires", "Components", parse=tuple),
     ("capacity",): count("capacity", "Capacity (robots at once)", "no limit"),
     ("synchronized",): count("synchronized", "Synchronized (robots)", "not synchronized"),
@@ -136,6 +139,14 @@ _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     DecisionGroup: _GUARD,
     State: _STATE,
     CommonSection: {("doc",): attribute("doc", "Description (all states)")},
+    DiagramFrame: {
+        ("color",): _COLOR,
+        ("states",): replace(
+            attribute("states", "States", parse=tuple),
+            validate=lambda names: "" if names else texts.FRAME_NEEDS_STATE,
+        ),
+    },
+    DiagramNote: {("text",): attribute("text", "Text")},
     Assign: {("values",): pairs("values", "name = expression, one per line", is_required=True)},
     Call: {("arguments",): pairs("arguments", "parameter = expression, one per line")},
     RunCode: _CODE,

@@ -6,16 +6,20 @@ from typing import Any
 
 from vicode.editor.session.forms.action_form import adders, parameter_hints
 from vicode.editor.session.forms.decision_form import decision_form
+from vicode.editor.session.forms.diagram_form import frame_form, note_form
+from vicode.editor.session.forms.form_paths import item_path
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import Node, form_json
 from vicode.editor.session.forms.state_form import common_form, state_form, uses_xabsl
+from vicode.editor.session.item_paths import item_at
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.decision_keys import parse_transition_key, transition_key
-from vicode.model.design import COMMON, CommonSection, Decision, Design, State
+from vicode.model.design import COMMON, CommonSection, Decision, Design, DiagramFrame, DiagramNote, State
 from vicode.model.project import Project
 from vicode.model.traversal import find_decision, iter_decisions
 
+_Owner = State | CommonSection | DiagramFrame | DiagramNote
 Forms = dict[str, str]
 """The JSON of the form of each item, by "transitions/Kick/0"."""
 FormLists = dict[str, Any]
@@ -58,13 +62,13 @@ class FormWriter:
 
     def _write_owners(self, project: Project, design: Design, ids: ListIds) -> Forms:
         known, self._owners = self._owners, {}
-        items: list[tuple[str, str, State | CommonSection, DesignPath]] = [
-            ("common", COMMON, design.common, ("common",))
-        ]
+        items: list[tuple[str, str, _Owner, DesignPath]] = [("common", COMMON, design.common, ("common",))]
         items += [("states", state.name, state, ("states", state.name)) for state in design.states]
+        items += [("frames", frame.name, frame, ("frames", frame.name)) for frame in design.frames]
+        items += [("notes", note.name, note, ("notes", note.name)) for note in design.notes]
         for kind, name, owner, path in items:
             key = f"{kind}/{name}"
-            inputs = (owner, name == design.initial, ids.of_owner(path))
+            inputs = (owner, kind == "states" and name == design.initial, ids.of_owner(path))
             before = known.get(key)
             if before is None or before[0][0] is not owner or before[0][1:] != inputs[1:]:
                 form = _owner_form(project, design, owner, ids)
@@ -91,28 +95,30 @@ def item_form(project: Project, design: Design, item: ItemRef, ids: ListIds) -> 
         case ItemRef(kind="transitions", id=key):
             located = find_decision(design, parse_transition_key(key))
             return decision_form(project, design, located.source, located.decision) if located else ()
-        case ItemRef(kind="states", id=name):
-            state = design.state(name)
-            return state_form(project, design, state, ids) if state is not None else ()
-        case ItemRef(kind="common"):
-            return common_form(project, design, ids)
         case _:
-            return ()
+            path = item_path(item)
+            owner = item_at(design, path) if path else None
+            return () if owner is None else _owner_form(project, design, owner, ids)
 
 
-def _owner_form(project: Project, design: Design, owner: State | CommonSection, ids: ListIds) -> tuple[Node, ...]:
-    return state_form(project, design, owner, ids) if isinstance(owner, State) else common_form(project, design, ids)
+def _owner_form(project: Project, design: Design, owner: _Owner, ids: ListIds) -> tuple[Node, ...]:
+    match owner:
+        case State():
+            return state_form(project, design, owner, ids)
+        case CommonSection():
+            return common_form(project, design, ids)
+        case DiagramFrame():
+            return frame_form(owner)
+        case DiagramNote():
+            return note_form(owner)
 
 
 def has_form(design: Design, item: ItemRef) -> bool:
     """Whether the browser draws the form of an item."""
-    match item:
-        case ItemRef(kind="transitions", id=key):
-            return find_decision(design, parse_transition_key(key)) is not None
-        case ItemRef(kind="states", id=name):
-            return design.state(name) is not None
-        case _:
-            return item.kind == "common"
+    if item.kind == "transitions":
+        return find_decision(design, parse_transition_key(item.id)) is not None
+    path = item_path(item)
+    return path is not None and item_at(design, path) is not None
 
 
 def form_lists(project: Project, design: Design) -> FormLists:

@@ -16,17 +16,19 @@ from vicode.model.design import Design
 _KEYS = {"values": "set", "arguments": "with"}
 
 
-def item_path(item: ItemRef) -> DesignPath:
-    """The path of an item in the design; empty if it has no form."""
+def item_path(item: ItemRef) -> DesignPath | None:
+    """The path of an item in the design; None if it has no form."""
     match item:
+        case ItemRef(kind="design"):
+            return ()
         case ItemRef(kind="transitions", id=key):
             return parse_transition_key(key)
-        case ItemRef(kind="states", id=name):
-            return ("states", name)
+        case ItemRef(kind="states" | "frames" | "notes" as section, id=name):
+            return (section, name)
         case ItemRef(kind="common"):
             return ("common",)
         case _:
-            return ()
+            return None
 
 
 def parse_path(path: str) -> DesignPath:
@@ -60,6 +62,9 @@ def file_path(item: DesignPath, steps: Sequence[str | int]) -> DesignPath:
     """The path in the file of a resolved path."""
     if tuple(steps) == ("initial",):
         return ("initial",)
+    if item[:1] == ("frames",):
+        # A frame is a list of states.
+        return (*item, *(step for step in steps if step != "states"))
     if steps[:1] == ("modulates",):
         return (*item, *(step for step in steps if step != "arguments"))
     return (*item, *(_KEYS.get(str(step), step) for step in steps if step != "guard"))

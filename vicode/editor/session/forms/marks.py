@@ -30,7 +30,7 @@ class ItemFields:
 
     @classmethod
     def of(cls, project: Project, design: Design, item: ItemRef, ids: ListIds) -> "ItemFields":
-        nodes, path = item_form(project, design, item, ids), item_path(item)
+        nodes, path = item_form(project, design, item, ids), item_path(item) or ()
         found = {node.path: resolve(design, ids, path, node.path) for node in iter_fields(nodes)}
         paths = {known: file_path(path, steps) for known, steps in found.items() if steps is not None}
         return cls(item=path, nodes=nodes, paths=paths)
