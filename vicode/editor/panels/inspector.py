@@ -1,11 +1,15 @@
 """The inspector: a form for the selected item, or for the design if nothing is selected."""
 
+from collections.abc import Callable
+from functools import partial
+
 from nicegui import ui
 
-from vicode.editor.panels.design_panel import design_panel
 from vicode.editor.panels.form import Form, RemovedTexts, Rows
+from vicode.editor.panels.interface_lists import commands_list, inputs_list
 from vicode.editor.panels.item_forms import ItemForms
 from vicode.editor.panels.multi_selection_panel import multi_selection_panel
+from vicode.editor.panels.project.project_form import project_form
 from vicode.editor.panels.use_panel import link_panel, use_panel
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.forms.form_data import has_form
@@ -36,6 +40,9 @@ class Inspector:
         with ui.element("div").props("data-form") as self._host:
             self._item_forms = ItemForms(context)
             Rows(self._form, self._list_keys, self._build, "inspector")
+        for name, build in (("interfaces", _interfaces), ("project", project_form)):
+            with self._item_forms.view.add_slot(name):
+                Rows(self._form, self._design_keys, partial(_build_part, build))
         self._host.on("keydown.escape", js_handler=_FOCUS_CANVAS)
         context.linter.changes.subscribe(lambda: None if self._host.is_deleted else self.refresh())
 
@@ -52,6 +59,10 @@ class Inspector:
                 context.client.run_javascript(_SCROLL_TO_TOP % self._host.id)
         return [(self._selection_number, self._item_kind())]
 
+    def _design_keys(self) -> list[object]:
+        """The parts of the design's form are built while it is shown."""
+        return [] if self.context.selected else ["design"]
+
     def _item_kind(self) -> object:
         """What a form cannot follow in place; None if the item does not exist."""
         context = self.context
@@ -67,7 +78,7 @@ class Inspector:
                 is_designed = use is not None and project.design(use.component) is not None
                 return use and (use.component, interface if is_designed else interface is not None)
             case _:
-                return context.selected or "design"
+                return context.selected or None
 
     def _build(self, form: Form, _key: object) -> None:
         context = self.context
@@ -82,4 +93,13 @@ class Inspector:
             case ItemRef(kind="links", id=key):
                 link_panel(context, key)
             case _:
-                design_panel(form)
+                pass
+
+
+def _build_part(build: Callable[[Form], None], form: Form, _key: object) -> None:
+    build(form)
+
+
+def _interfaces(form: Form) -> None:
+    inputs_list(form)
+    commands_list(form)

@@ -18,6 +18,7 @@ from vicode.editor.inspector.protocol import (
 )
 from vicode.editor.panels import texts
 from vicode.editor.panels.finding_navigation import apply_fix
+from vicode.editor.panels.name_field import rename_declaration
 from vicode.editor.panels.open_in_editor import open_in_editor
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.completion import (
@@ -28,9 +29,11 @@ from vicode.editor.session.completion import (
 )
 from vicode.editor.session.fixes import find_fixes
 from vicode.editor.session.forms.action_form import component_parameters, settable_declarations
+from vicode.editor.session.forms.declaration_form import declared_symbol
 from vicode.editor.session.forms.edits import FormEdit, NameEdit, TextEdit
 from vicode.editor.session.forms.form_data import Forms, has_form
 from vicode.editor.session.forms.form_paths import file_path, item_path, parse_path, resolve
+from vicode.editor.session.forms.form_places import FormResult
 from vicode.editor.session.forms.marks import ItemFields, marks_of, note_at
 from vicode.editor.session.forms.state_form import OUTSIDE
 from vicode.editor.session.item_paths import item_at
@@ -120,7 +123,7 @@ class ItemForms:
             for finding in findings
             if finding.subject is not None and finding.subject.component == context.design.component
         }
-        selected = context.single_selection
+        selected = self._shown_item()
         marks = {
             f"{item.kind}/{item.id}": marks_of(self._fields(item), findings)
             for item in items
@@ -131,6 +134,10 @@ class ItemForms:
             own = marks_of(fields, findings, context.linter.lints_for)
             marks[f"{selected.kind}/{selected.id}"] = [*own, *self._notices(selected), *self._others_typing(fields)]
         return {key: found for key, found in marks.items() if found}
+
+    def _shown_item(self) -> ItemRef | None:
+        """The item whose form is shown: the design if nothing is selected."""
+        return self.context.single_selection if self.context.selected else ItemRef(kind="design")
 
     def _notices(self, item: ItemRef) -> list[dict[str, Any]]:
         document = self.context.document
@@ -148,7 +155,10 @@ class ItemForms:
 
     def _edit(self, edit: FormEdit) -> Mapping[str, object]:
         context = self.context
-        result = edit.apply(context.document)
+        if isinstance(edit, NameEdit) and edit.item.kind == "design":
+            result = self._rename(edit.path, edit.text.strip())
+        else:
+            result = edit.apply(context.document)
         if result.new_selection is not None:
             context.select(*result.new_selection)
         if result.renamed is not None and result.renamed[0] in context.selected:
@@ -159,6 +169,17 @@ class ItemForms:
             # Fields for texts show their errors themselves.
             context.show_toast(texts.sentence(result.error), "warning")
         return {"own": result.own, "error": result.error}
+
+    def _rename(self, path: str, new: str) -> FormResult:
+        """Rename a declaration of the design; a dialog may ask first, and the name stays until then."""
+        document = self.context.document
+        ids = document.shared.list_ids
+        symbol = declared_symbol(document.design, ids, path)
+        if symbol is None:
+            return FormResult(error=ITEM_MISSING)
+        error = "" if new == symbol.name else rename_declaration(self.context, symbol, new)
+        now = declared_symbol(document.design, ids, path)
+        return FormResult(own=now.name if now else "", error=error)
 
     def _handle(self, event: FormEvent) -> None:
         context = self.context
@@ -199,7 +220,7 @@ class ItemForms:
         """The path in the file of a field; empty if it no longer exists."""
         design, ids, owner = self.context.design, self.context.document.shared.list_ids, item_path(item)
         steps = None if owner is None else resolve(design, ids, owner, parse_path(path))
-        return () if owner is None or steps is None else file_path(owner, steps)
+        return () if owner is None or steps is None else file_path(design, owner, steps)
 
     def _fixes(self, number: int) -> list[Any]:
         context, findings = self.context, self.context.document.findings

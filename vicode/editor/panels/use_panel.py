@@ -5,7 +5,6 @@ from dataclasses import replace
 from nicegui import ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.declarations import format_arguments
 from vicode.editor.panels.fields import Attribute, attribute_binding
 from vicode.editor.panels.form import Form
 from vicode.editor.panels.name_field import name_field, node_renamer
@@ -14,6 +13,7 @@ from vicode.editor.panels.project.project_fields import project_node
 from vicode.editor.panels.widgets import heading, panel_title
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import number_text
+from vicode.editor.session.forms.declaration_form import format_arguments
 from vicode.editor.view import ItemRef
 from vicode.model.design import Declaration, Use
 from vicode.model.edits import remove_link, remove_uses

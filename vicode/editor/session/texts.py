@@ -170,7 +170,6 @@ TREE_ORDER = "a transition in a decision tree can only be reordered within its b
 SELECT_TO_DISABLE = "select states or transitions to disable"
 SELECT_TO_DUPLICATE = "select states or transitions to duplicate"
 SELECT_TO_FRAME = "select the states to draw a frame around"
-FRAME_NEEDS_STATE = "a frame needs at least one state; remove the frame instead"
 FRAME_WITHOUT_TITLE = "a frame needs a title"
 SELECT_TO_PASTE = "select the states to add these transitions to, then paste"
 NOTHING_TO_PASTE = "the clipboard contains no part of a design"

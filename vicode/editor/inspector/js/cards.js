@@ -8,7 +8,14 @@ export const Cards = {
   props: { node: Object },
   inject: ["store"],
   template: `
-    <div v-for="(card, index) in node.cards" :key="card.id" class="card nicegui-column" :data-card="pathOf(card)">
+    <template v-if="node.noun">
+      <div v-for="card in node.cards" :key="card.id" class="declaration" role="group" :aria-label="node.noun + ' ' + card.title" :data-card="pathOf(card)">
+        <form-nodes :nodes="card.nodes.slice(0, -1)" />
+        <q-btn v-bind="small" icon="close" :aria-label="'Remove ' + card.title" @click="remove(card)" />
+        <form-nodes :nodes="card.nodes.slice(-1)" />
+      </div>
+    </template>
+    <div v-else v-for="(card, index) in node.cards" :key="card.id" class="card nicegui-column" :data-card="pathOf(card)">
       <div class="card-head nicegui-row">
         <div class="card-title">{{ card.title }}</div>
         <div class="row-buttons nicegui-row">
@@ -16,13 +23,13 @@ export const Cards = {
             <q-btn v-bind="small" icon="arrow_upward" :disable="index === 0" :aria-label="name('Move up', card, index)" @click="move(card, -1)" />
             <q-btn v-bind="small" icon="arrow_downward" :disable="index === node.cards.length - 1" :aria-label="name('Move down', card, index)" @click="move(card, 1)" />
           </template>
-          <q-btn v-bind="small" icon="close" :aria-label="name('Remove', card, index)" @click="store.press('remove-card', { path: pathOf(card) })" />
+          <q-btn v-bind="small" icon="close" :aria-label="name('Remove', card, index)" @click="remove(card)" />
         </div>
       </div>
       <form-nodes :nodes="card.nodes" />
     </div>
     <div v-if="adders.length" class="adders nicegui-row">
-      <q-btn v-for="adder in adders" flat dense no-caps size="sm" :icon="adder.icon" :label="adder.label" :aria-label="'Add to ' + list + ': ' + adder.label"
+      <q-btn v-for="adder in adders" flat dense no-caps size="sm" :icon="adder.icon" :label="adder.label" :aria-label="nameOf(adder)"
         :disable="adder.options && !optionsOf(adder).length" @click="adder.options || add(adder)">
         <q-menu v-if="adder.options" auto-close no-refocus><q-list>
           <q-item v-for="option in optionsOf(adder)" clickable class="mono" role="menuitem" @click="add(adder, option)"><q-item-section>{{ option }}</q-item-section></q-item>
@@ -42,6 +49,11 @@ export const Cards = {
     name(verb, { title }, index) {
       return this.node.is_ordered ? `${verb}: ${index + 1} ${title}` : `${verb}: ${title}`;
     },
+    nameOf({ label }) {
+      const { noun, owner } = this.node;
+      if (!noun) return `Add to ${this.list}: ${label}`;
+      return owner ? `Add ${label} to ${owner}` : `Add ${noun}`;
+    },
     pathOf(card) {
       return `${this.list}/${card.id}`;
     },
@@ -49,17 +61,24 @@ export const Cards = {
       const options = this.store.view.lists[adder.options];
       return adder.is_unique ? options.filter((option) => !this.node.cards.some(({ id }) => id === option)) : options;
     },
+    remove(card) {
+      this.store.press("remove-card", { path: this.pathOf(card) });
+    },
     move(card, by) {
       this.store.press("move-card", { path: this.pathOf(card), to: String(by) });
     },
     add(adder, alias = "") {
       const id = adder.is_unique ? alias : newId();
-      this.store.addCard(this.node.path, adder, { id, alias, text: adder.nodes[0].value ?? "" });
+      const title = this.node.noun ? this.store.freeName(this.node) : [adder.title, alias].filter(Boolean).join(" ");
+      const text = this.node.noun ? title : (adder.nodes[0].value ?? "");
+      this.store.addCard(this.node.path, adder, { id, alias, title, text });
       nextTick(() => this.edit(`${this.list}/${id}`));
     },
     /** Focuses the first field of a card; its text is selected, to be typed over. */
     edit(path) {
-      const content = document.querySelector(`[data-card="${CSS.escape(path)}"] .cm-content`);
+      const card = document.querySelector(`[data-card="${CSS.escape(path)}"]`);
+      if (this.node.noun) return card?.querySelector("input").select();
+      const content = card?.querySelector(".cm-content");
       const view = content && CM.EditorView.findFromDOM(content);
       if (!view) return;
       view.focus();

@@ -82,7 +82,7 @@ const valueField = (template, members = {}) => ({
       return marksAt(this.store, this.path);
     },
     options() {
-      return [...new Set([...this.store.view.lists[this.node.options], ...[this.value].flat()])];
+      return [...new Set([...this.store.view.lists[this.node.options], ...[this.value].flat()])].filter(Boolean);
     },
   },
   ...members,
@@ -90,9 +90,10 @@ const valueField = (template, members = {}) => ({
 
 export const Choice = valueField(`
   <div class="field nicegui-column" :data-path="path">
-    <q-select outlined dense options-dense stack-label :label="node.label" :options="options" :model-value="value"
-      @update:model-value="(chosen) => store.choose('choose', path, chosen)" />
+    <q-select outlined dense options-dense stack-label :clearable="node.is_clearable" :class="{ 'has-finding': marks.length }" :label="node.label" :options="options"
+      :model-value="value || null" @update:model-value="(chosen) => store.choose('choose', path, chosen ?? '')" />
     <messages :marks="marks" />
+    <div v-if="node.help" class="empty">{{ node.help }}</div>
   </div>`);
 
 export const MultiChoice = valueField(`

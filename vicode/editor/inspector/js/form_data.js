@@ -37,6 +37,7 @@ export function placed(nodes, path, alias) {
   return nodes.map((node) => ({
     ...node,
     ...(node.path ? { path: [...path, ...node.path] } : {}),
+    ...(node.is_local ? { key: path.join("/") } : {}),
     ...(alias && node.language === "pairs" ? { alias } : {}),
     ...(node.texts ? { texts: placed(node.texts, path, alias) } : {}),
     ...(node.nodes ? { nodes: placed(node.nodes, path, alias) } : {}),

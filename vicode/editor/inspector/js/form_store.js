@@ -21,6 +21,7 @@ class ShownItem {
     this.pending = [];
     this.chosen = reactive({});
     this.closed = reactive({});
+    this.opened = reactive({});
   }
 
   get ref() {
@@ -39,7 +40,7 @@ export class FormStore {
     this.items = new Map();
     this.timers = new Map();
     this.unsettled = new Set();
-    this.view = reactive({ key: null, number: 0, nodes: [], lists: {}, marks: {}, openSections: [], language: "" });
+    this.view = reactive({ key: null, number: 0, nodes: [], lists: {}, marks: {}, openSections: [], language: "", slotsVersion: 0 });
   }
 
   load({ rev, forms, lists, marks, open_sections: openSections, language }) {
@@ -137,13 +138,23 @@ export class FormStore {
   }
 
   /** Adds a card at once; the design has it later. */
-  addCard(list, adder, { id, alias, text }) {
+  addCard(list, adder, { id, alias, title, text }) {
     const item = this.shown;
-    const title = [adder.title, alias].filter(Boolean).join(" ");
-    const card = { id, title, nodes: placed(adder.nodes, [...list, id], alias) };
+    const nodes = placed(adder.nodes, [...list, id], alias);
+    if (text) nodes[0].value = text;
+    const card = { id, title, nodes };
     const edit = this.press("add-card", { path: list.join("/"), adds: adder.adds, card: id, to: alias, text });
     item.pending.push({ edit, list: list.join("/"), card });
     this.#draw();
+  }
+
+  /** A name for a new declaration in a list. */
+  freeName({ noun, owner, cards = [] }) {
+    const lists = owner ? [{ cards }] : this.view.nodes.filter((node) => node.noun);
+    const taken = new Set(lists.flatMap((list) => list.cards ?? []).map(({ title }) => title));
+    let name = noun;
+    for (let number = 2; taken.has(name); number += 1) name = `${noun}${number}`;
+    return name;
   }
 
   /** Sends all typed texts now. */
@@ -232,11 +243,16 @@ export class FormStore {
   };
 
   /** A section is open if a user has opened it, for all items, or if one of its fields is set and it was not closed here. */
-  isOpen({ key, is_set: isSet }) {
+  isOpen({ key, is_set: isSet, is_local: isLocal }) {
+    if (isLocal) return Boolean(this.shown.opened[key]);
     return this.view.openSections.includes(key) || Boolean(isSet && !this.shown.closed[key]);
   }
 
-  toggle({ key }, isOpen) {
+  toggle({ key, is_local: isLocal }, isOpen) {
+    if (isLocal) {
+      this.shown.opened[key] = isOpen;
+      return;
+    }
     const others = this.view.openSections.filter((each) => each !== key);
     this.view.openSections = isOpen ? [...others, key] : others;
     this.shown.closed[key] = !isOpen;

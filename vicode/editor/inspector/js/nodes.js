@@ -39,7 +39,7 @@ const Button = {
   inject: ["store"],
   template: `
     <q-btn flat dense no-caps :size="node.is_danger ? undefined : 'sm'" :icon="node.icon" :label="node.label" :color="node.is_danger ? 'negative' : 'primary'"
-      :class="{ remove: node.is_danger }" @click="store.press(node.action)" />`,
+      :class="{ remove: node.is_danger }" @click="store.press(node.action, { path: node.path?.join('/') ?? '' })" />`,
 };
 
 const Row = {
@@ -51,7 +51,7 @@ const Section = {
   props: { node: Object },
   inject: ["store"],
   template: `
-    <q-expansion-item ref="section" class="section nicegui-expansion" dense :duration="0" :label="node.title" :caption="node.caption" :model-value="isOpen" @update:model-value="turn">
+    <q-expansion-item ref="section" class="section nicegui-expansion" :class="{ 'declaration-more': node.is_local }" dense :duration="0" :label="node.title" :caption="node.caption" :model-value="isOpen" @update:model-value="turn">
       <div v-if="isOpen" class="nicegui-expansion-content nicegui-column"><form-nodes :nodes="node.nodes" /></div>
     </q-expansion-item>`,
   computed: {
@@ -68,8 +68,49 @@ const Section = {
   },
 };
 
+const ItemLink = {
+  props: { node: Object },
+  inject: ["store"],
+  template: `
+    <button type="button" class="choice use-row" @click="store.select({ of: node.opens[0], id: node.opens[1] })">
+      <div>{{ node.label }}</div><div class="component-name ellipsis">{{ node.caption }}</div>
+    </button>`,
+};
+
+const Uses = {
+  props: { node: Object },
+  inject: ["store"],
+  template: `
+    <div v-for="row in node.rows" :key="row.alias" class="use-row nicegui-row">
+      <div class="mono alias">{{ row.alias }}</div><div class="component-name">{{ row.component }}</div>
+      <q-btn flat dense round size="sm" icon="close" class="icon-button" :aria-label="'Remove ' + row.alias" @click="store.press('remove-use', { to: row.alias })" />
+    </div>
+    <div class="adders nicegui-row">
+      <q-btn flat dense no-caps size="sm" icon="add" label="Component" aria-label="Add Component" :disable="!unused.length">
+        <q-menu auto-close><q-list>
+          <q-item v-for="name in unused" clickable class="mono" role="menuitem" @click="store.press('add-use', { to: name })"><q-item-section>{{ name }}</q-item-section></q-item>
+        </q-list></q-menu>
+      </q-btn>
+    </div>`,
+  computed: {
+    unused() {
+      return this.store.view.lists.unused;
+    },
+  },
+};
+
+/** A part that the server draws. */
+const ServerPart = {
+  props: { node: Object },
+  inject: ["store", "slots"],
+  render() {
+    // Drawn again when the server changes it.
+    return this.store.view.slotsVersion >= 0 && this.slots()[this.node.name]?.();
+  },
+};
+
 const KINDS = {
-  TextField, ItemName, Choice, MultiChoice, Check, Colors, CodeText, Languages, Title, Notice, Heading, Button, Decisions, Cards, Row, Section,
+  TextField, ItemName, Choice, MultiChoice, Check, Colors, CodeText, Languages, Title, Notice, Heading, Button, Decisions, Cards, Row, Section, ItemLink, Uses, ServerPart,
 };
 
 /** The nodes of a form, or of a part of it. */

@@ -6,7 +6,7 @@ const SENDS_TEXT = ["vicode-send-text", "vicode-leave", "beforeunload"];
 export default {
   components: { FormNodes },
   provide() {
-    return { store: this.store };
+    return { store: this.store, slots: () => this.$slots };
   },
   template: `
     <div class="inspector" data-form @keydown.esc="leave">
@@ -23,6 +23,9 @@ export default {
     document.addEventListener("vicode-open", this.onOpen);
     for (const event of SENDS_TEXT) addEventListener(event, this.onLeave);
     this.$emit("ready", {});
+  },
+  updated() {
+    this.store.view.slotsVersion += 1;
   },
   unmounted() {
     document.removeEventListener("vicode-select", this.onSelect);
@@ -53,7 +56,8 @@ export default {
     },
     showSelected(items, seq) {
       this.seq = seq;
-      if (!this.store.show(items.length === 1 ? items[0] : null)) return;
+      const [first = { of: "design", id: "" }, ...others] = items;
+      if (!this.store.show(others.length ? null : first)) return;
       for (let each = this.$el; each && !each.matches(".side"); each = each.parentElement) each.scrollTop = 0;
     },
     /** Opens the first field of an item. Returns whether its form is here. */

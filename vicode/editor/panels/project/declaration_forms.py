@@ -10,7 +10,6 @@ from vicode.editor.panels.declarations import (
     UNIT,
     ChangeDeclaration,
     argument_buttons,
-    declaration_caption,
 )
 from vicode.editor.panels.fields import DOC, XABSL_NAME, Attribute, checkbox_field
 from vicode.editor.panels.form import Form, ItemRows
@@ -27,6 +26,7 @@ from vicode.editor.panels.project.removal import confirm_and_remove
 from vicode.editor.panels.texts import sentence
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.session.forms.declaration_form import declaration_caption
 from vicode.editor.session.item_paths import TrackedItem
 
 _VALUES = {"constants": "Value", "parameters": "Default", "arguments": "Default"}
@@ -51,10 +51,12 @@ def declaration_form(form: Form, node: TrackedItem, label: str = "Name") -> None
             if path.section == "constants":
                 checkbox_field(form, project_binding(form, node, TUNABLE.label, TUNABLE.name))
 
+        def caption() -> str:
+            declaration = node.get()
+            return declaration_caption(declaration, path.section) if declaration else ""
+
         key = f"project {path.steps}"
-        section = collapsible_section(
-            form, key, lambda: "More", lambda: declaration_caption(node.get(), path.kind), more
-        )
+        section = collapsible_section(form, key, lambda: "More", caption, more)
         section.classes("declaration-more")
 
 

@@ -7,6 +7,7 @@ from typing import ClassVar, Protocol
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.edits import apply_edit
+from vicode.editor.session.forms.design_presses import DESIGN_PRESSES
 from vicode.editor.session.forms.form_paths import item_path
 from vicode.editor.session.forms.form_places import FormPlace, FormResult, find_place, rebase_owner
 from vicode.editor.session.forms.presses import PRESSES, FormAction
@@ -163,17 +164,18 @@ class ButtonEdit:
     to: str = ""
     """The target of a new transition, the component of a new call, or the new index of a row."""
     adds: str = ""
-    """What a new card contains: "set", "call", "code" or "modulation"."""
+    """What a new card contains: "set", "call", "code", "modulation" or a declaration, such as "variable"."""
     card: str = ""
     """The id of a new card, chosen by the browser."""
     text: str = ""
-    """The text that the browser shows in the new card."""
+    """The text, or the name of the declaration, that the browser shows in the new card."""
 
     def apply(self, document: DocumentSession) -> FormResult:
         owner = rebase_owner(document, item_path(self.item), self.rev)
         if owner is None:
             return FormResult(error=texts.ITEM_MISSING)
-        return PRESSES[self.action](self, document, owner)
+        handler = (PRESSES if owner else DESIGN_PRESSES).get(self.action)
+        return FormResult(error=texts.ITEM_MISSING) if handler is None else handler(self, document, owner)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,6 +15,8 @@ from vicode.model.design import (
     Code,
     CommonSection,
     DecisionGroup,
+    Declaration,
+    Design,
     DiagramFrame,
     DiagramNote,
     RunCode,
@@ -108,6 +110,8 @@ def pairs(name: str, label: str, *, is_required: bool = False) -> FormField:
     )
 
 
+FROM_VALUE = "from value"
+"""The type of a declaration without one: that of its value."""
 DESCRIPTION = attribute("doc", "Description")
 _PREDICATE = "Predicate (body of a function that returns a bool)"
 _GUARD: Mapping[DesignPath, FormField] = {
@@ -117,6 +121,7 @@ _GUARD: Mapping[DesignPath, FormField] = {
     ("doc",): DESCRIPTION,
     ("disabled",): attribute("disabled", "Disabled (never tested)"),
 }
+_XABSL_NAME = attribute("xabsl_name", "Name in XABSL", parse=str.strip)
 _COLOR = replace(
     attribute("color", "Color"),
     validate=lambda value: "" if value in ("", *STATE_COLORS) else texts.INVALID_REQUEST,
@@ -130,7 +135,43 @@ _STATE: Mapping[DesignPath, FormField] = {
     ("requires",): attribute("requires", "Components", parse=tuple),
     ("capacity",): count("capacity", "Capacity (robots at once)", "no limit"),
     ("synchronized",): count("synchronized", "Synchronized (robots)", "not synchronized"),
-    ("xabsl_name",): attribute("xabsl_name", "Name in XABSL", parse=str.strip),
+    ("xabsl_name",): _XABSL_NAME,
+}
+_DECLARATION: Mapping[DesignPath, FormField] = {
+    ("type",): FormField(
+        label="Type",
+        read=lambda owner: owner.type or FROM_VALUE,
+        write=lambda owner, text: replace(owner, type="" if text == FROM_VALUE else text.strip()),
+    ),
+    ("initial",): attribute("initial", "Value", parse=str.strip),
+    ("unit",): attribute("unit", "Unit", parse=str.strip),
+    ("doc",): DESCRIPTION,
+    ("range",): FormField(
+        label="Range",
+        hint="minimum, maximum: 0, 9000",
+        read=lambda owner: number_text.format_range(owner.range),
+        write=lambda owner, text: replace(owner, range=number_text.parse_range(text)),
+        validate=number_text.validate_range,
+    ),
+    ("xabsl_name",): _XABSL_NAME,
+    ("tunable",): attribute("tunable", "Tune in running robots"),
+}
+_DESIGN: Mapping[DesignPath, FormField] = {
+    ("doc",): DESCRIPTION,
+    ("initial",): attribute("initial", "Initial state"),
+    ("frequency_hz",): FormField(
+        label="Frequency, Hz",
+        hint="every step",
+        read=lambda owner: number_text.format_number(owner.frequency_hz),
+        write=lambda owner, text: replace(owner, frequency_hz=number_text.parse_frequency(text)),
+        validate=number_text.validate_frequency,
+    ),
+    ("resume",): attribute("resume", "Resume where it left off"),
+    ("xabsl_name",): _XABSL_NAME,
+    ("arithmetic",): attribute("arithmetic", "Arithmetic"),
+    ("time_unit",): attribute("time_unit", "Time unit"),
+    **{("module", language): code("module", language, "Module") for language in LANGUAGES},
+    **{("members", language): code("members", language, "Members") for language in LANGUAGES},
 }
 _CODE: Mapping[DesignPath, FormField] = {("code", language): code("code", language, "") for language in LANGUAGES}
 _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
@@ -139,11 +180,13 @@ _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     DecisionGroup: _GUARD,
     State: _STATE,
     CommonSection: {("doc",): attribute("doc", "Description (all states)")},
+    Design: _DESIGN,
+    Declaration: _DECLARATION,
     DiagramFrame: {
         ("color",): _COLOR,
         ("states",): replace(
             attribute("states", "States", parse=tuple),
-            validate=lambda names: "" if names else texts.FRAME_NEEDS_STATE,
+            validate=lambda names: "" if names else "a frame needs at least one state; remove the frame instead",
         ),
     },
     DiagramNote: {("text",): attribute("text", "Text")},

@@ -1,16 +1,20 @@
 """The forms of all items of a design, and what changes in them: what the browser needs to draw any of them at once."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from vicode.editor.session.forms.action_form import adders, parameter_hints
 from vicode.editor.session.forms.decision_form import decision_form
+from vicode.editor.session.forms.declaration_form import declaration_adders
+from vicode.editor.session.forms.design_form import design_form
 from vicode.editor.session.forms.diagram_form import frame_form, note_form
+from vicode.editor.session.forms.fields import FROM_VALUE
 from vicode.editor.session.forms.form_paths import item_path
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import Node, form_json
 from vicode.editor.session.forms.state_form import common_form, state_form, uses_xabsl
+from vicode.editor.session.interface_edits import type_names
 from vicode.editor.session.item_paths import item_at
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
@@ -19,7 +23,7 @@ from vicode.model.design import COMMON, CommonSection, Decision, Design, Diagram
 from vicode.model.project import Project
 from vicode.model.traversal import find_decision, iter_decisions
 
-_Owner = State | CommonSection | DiagramFrame | DiagramNote
+_Owner = Design | State | CommonSection | DiagramFrame | DiagramNote
 Forms = dict[str, str]
 """The JSON of the form of each item, by "transitions/Kick/0"."""
 FormLists = dict[str, Any]
@@ -33,6 +37,7 @@ class FormWriter:
     _inputs: tuple[object, ...] = ()
     _decisions: dict[str, tuple[Decision, str]] = field(default_factory=dict)
     _owners: dict[str, tuple[tuple[object, ...], str]] = field(default_factory=dict)
+    _design: tuple[object, str] | None = None
     _lists: tuple[tuple[object, ...], FormLists] = ((), {})
     _written: tuple[Project, Design, Forms] | None = None
 
@@ -46,8 +51,21 @@ class FormWriter:
         # All that forms depend on besides their item.
         inputs = (project.languages, design.time_unit, uses_xabsl(project, design))
         if inputs != self._inputs:
-            self._inputs, self._decisions, self._owners = inputs, {}, {}
-        return {**self._write_owners(project, design, ids), **self._write_decisions(project, design)}
+            self._inputs, self._decisions, self._owners, self._design = inputs, {}, {}, None
+        return {
+            **self._write_design(project, design, ids),
+            **self._write_owners(project, design, ids),
+            **self._write_decisions(project, design),
+        }
+
+    def _write_design(self, project: Project, design: Design, ids: ListIds) -> Forms:
+        counts = (len(design.common.transitions), len(design.common.actions))
+        shown = replace(design, states=(), frames=(), notes=(), common=CommonSection())
+        lists = [ids.of_owner(path) for path in ((), *(("outputs", at) for at in range(len(design.outputs))))]
+        inputs = (shown, counts, lists)
+        if self._design is None or self._design[0] != inputs:
+            self._design = (inputs, form_json(design_form(project, design, ids)))
+        return {"design/": self._design[1]}
 
     def lists(self, project: Project, design: Design) -> FormLists:
         """What the forms share; the same object while nothing of it changes."""
@@ -97,12 +115,14 @@ def item_form(project: Project, design: Design, item: ItemRef, ids: ListIds) -> 
             return decision_form(project, design, located.source, located.decision) if located else ()
         case _:
             path = item_path(item)
-            owner = item_at(design, path) if path else None
+            owner = item_at(design, path) if path is not None else None
             return () if owner is None else _owner_form(project, design, owner, ids)
 
 
 def _owner_form(project: Project, design: Design, owner: _Owner, ids: ListIds) -> tuple[Node, ...]:
     match owner:
+        case Design():
+            return design_form(project, owner, ids)
         case State():
             return state_form(project, design, owner, ids)
         case CommonSection():
@@ -126,9 +146,18 @@ def form_lists(project: Project, design: Design) -> FormLists:
     return {
         "states": [state.name for state in design.states],
         "uses": [use.alias for use in design.uses],
+        "types": [FROM_VALUE, *type_names(project)],
+        "arithmetic": ["xabsl"],
+        "time_units": ["s", "ms"],
+        "unused": _unused_components(project, design),
         "parameters": parameter_hints(project, design),
-        "adders": adders(project, design),
+        "adders": {**adders(project, design), **declaration_adders()},
     }
+
+
+def _unused_components(project: Project, design: Design) -> list[str]:
+    used = {use.component for use in design.uses} | {design.component}
+    return sorted(name for name in project.interfaces() if name not in used)
 
 
 def diff_forms(old: Mapping[str, Any], new: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,12 +1,12 @@
 """Paths of fields: as the browser names them, of their owners in the design, and in the file.
 
-In the browser, an action is named by its id instead of its index (`ListIds`), and a guard is a step of its own:
-"enter/n3/values", "guard/when".
+In the browser, an action or declaration is named by its id instead of its index (`ListIds`), and a guard is a step of
+its own: "enter/n3/values", "guard/when".
 """
 
 from collections.abc import Sequence
 
-from vicode.editor.session.forms.list_ids import ACTION_LISTS, ListIds
+from vicode.editor.session.forms.list_ids import ID_LISTS, ListIds
 from vicode.editor.session.item_paths import item_at
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
@@ -37,17 +37,20 @@ def parse_path(path: str) -> DesignPath:
 
 
 def is_in_list(steps: DesignPath) -> bool:
-    """Whether a path in the browser leads to an action or a part of one."""
-    return len(steps) > 1 and steps[0] in ACTION_LISTS
+    """Whether a path in the browser leads to an action or declaration, or a part of one."""
+    return len(steps) > 1 and steps[0] in ID_LISTS
 
 
 def resolve(design: Design, ids: ListIds, item: DesignPath, steps: DesignPath) -> DesignPath | None:
-    """The path with the index of the action instead of its id; None if there is no such action."""
+    """The path with indices instead of ids; None if there is no such action or declaration."""
     if not is_in_list(steps):
         return steps
     path = (*item, steps[0])
     index = ids.index(path, item_at(design, path) or (), str(steps[1]))
-    return None if index is None else (steps[0], index, *steps[2:])
+    if index is None:
+        return None
+    inner = resolve(design, ids, (*path, index), steps[2:])
+    return None if inner is None else (steps[0], index, *inner)
 
 
 def split_path(steps: DesignPath) -> tuple[DesignPath, DesignPath]:
@@ -58,8 +61,10 @@ def split_path(steps: DesignPath) -> tuple[DesignPath, DesignPath]:
     return steps[:last], steps[last:]
 
 
-def file_path(item: DesignPath, steps: Sequence[str | int]) -> DesignPath:
+def file_path(design: Design, item: DesignPath, steps: Sequence[str | int]) -> DesignPath:
     """The path in the file of a resolved path."""
+    if not item:
+        return _path_in_design(design, tuple(steps))
     if tuple(steps) == ("initial",):
         return ("initial",)
     if item[:1] == ("frames",):
@@ -68,3 +73,19 @@ def file_path(item: DesignPath, steps: Sequence[str | int]) -> DesignPath:
     if steps[:1] == ("modulates",):
         return (*item, *(step for step in steps if step != "arguments"))
     return (*item, *(_KEYS.get(str(step), step) for step in steps if step != "guard"))
+
+
+def _path_in_design(design: Design, steps: DesignPath) -> DesignPath:
+    """Declarations are named in the file, and some of their values have other keys there."""
+    named: list[str | int] = []
+    for at, step in enumerate(steps):
+        named.append(getattr(item_at(design, steps[: at + 1]), "name", "") if isinstance(step, int) else step)
+    match steps:
+        case (*_, int(), "name"):
+            return tuple(named[:-1])
+        case (*_, "parameters" | "arguments", int(), "initial"):
+            return (*named[:-1], "default")
+        case ("frequency_hz",):
+            return ("frequency",)
+        case _:
+            return tuple(named)

@@ -78,9 +78,9 @@ def find_place(document: DocumentSession, item: ItemRef, path: str, rev: int) ->
         return None
     owner, attribute = found
     field = field_of(item_at(design, owner), attribute)
-    return (
-        FormPlace(owner=owner, file_path=file_path(owner[:2], (*owner[2:], *attribute)), field=field) if field else None
-    )
+    start = 2 if item.kind != "design" else 0
+    in_file = file_path(design, owner[:start], (*owner[start:], *attribute))
+    return FormPlace(owner=owner, file_path=in_file, field=field) if field else None
 
 
 def _find_owner(

@@ -1,7 +1,7 @@
-"""Ids of the actions in a design, by which forms and edits name them.
+"""Ids of the actions and declarations in a design, by which forms and edits name them.
 
-An index would name another action as soon as somebody adds, moves or removes one. Ids follow their actions from one
-version of the design to the next. A browser chooses the ids of the actions that it adds, so it can draw their fields
+An index would name another item as soon as somebody adds, moves or removes one. Ids follow their items from one
+version of the design to the next. A browser chooses the ids of the items that it adds, so it can draw their fields
 and send what is typed into them before it has an answer.
 """
 
@@ -10,10 +10,13 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from vicode.findings import DesignPath
-from vicode.model.design import CommonSection, Design, State
+from vicode.model.design import CommonSection, Declaration, Design, State
 from vicode.model.merge import find_renamed_states, match_items
 
 ACTION_LISTS = ("actions", "enter", "leave")
+DECLARATION_LISTS = ("parameters", "outputs", "variables", "arguments")
+ID_LISTS = (*ACTION_LISTS, *DECLARATION_LISTS)
+"""The lists whose items have ids."""
 _WANTED = re.compile(r"b[0-9a-z]{4,20}")
 _Ids = Mapping[str, tuple[str, ...]]
 
@@ -47,10 +50,10 @@ class ListIds:
     def follow(self, old: Design, new: Design) -> None:
         """Update the ids to a new version of the design."""
         before = dict(_owners(old))
-        names = {path[-1]: name for path, name in self._renamed(old, new).items()}
+        moved = self._moved(old, new)
         changed: dict[DesignPath, _Ids] = {}
         for path, owner in _owners(new):
-            source = path if path in before else (*path[:-1], names.get(path[-1], ""))
+            source = moved.get(path, path)
             known, then = self._changed.get(source), before.get(source)
             if then is not owner:
                 known = self._follow_owner(source, then, path, owner)
@@ -59,17 +62,23 @@ class ListIds:
         self._changed, self._wanted = changed, None
 
     @staticmethod
-    def _renamed(old: Design, new: Design) -> dict[DesignPath, str]:
-        if [state.name for state in old.states] == [state.name for state in new.states]:
-            return {}
-        return {("states", now): then for then, now in find_renamed_states(old, new).items()}
+    def _moved(old: Design, new: Design) -> dict[DesignPath, DesignPath]:
+        """The old paths of owners whose paths have changed."""
+        moved: dict[DesignPath, DesignPath] = {}
+        if [state.name for state in old.states] != [state.name for state in new.states]:
+            moved = {("states", now): ("states", then) for then, now in find_renamed_states(old, new).items()}
+        if old.outputs is not new.outputs:
+            places = match_items(old.outputs, new.outputs, is_keyed=True)
+            known = {now: then for then, now in places.items()}
+            moved |= {("outputs", now): ("outputs", known.get(now, -1)) for now in range(len(new.outputs))}
+        return moved
 
     def _follow_owner(self, source: DesignPath, then: Any, path: DesignPath, owner: Any) -> _Ids:
         if then is None:
             return {}
         changed: dict[str, tuple[str, ...]] = {}
-        for section in ACTION_LISTS:
-            before, items = getattr(then, section, ()), getattr(owner, section, ())
+        for section in ID_LISTS:
+            before, items = getattr(then, section, None) or (), getattr(owner, section, None) or ()
             ids = self.ids((*source, section), before)
             if before != items:
                 ids = self._follow_list(ids, before, items, (*path, section))
@@ -80,7 +89,7 @@ class ListIds:
     def _follow_list(
         self, ids: tuple[str, ...], before: tuple[Any, ...], items: tuple[Any, ...], path: DesignPath
     ) -> tuple[str, ...]:
-        matches = match_items(before, items, is_keyed=False)
+        matches = match_items(before, items, is_keyed=path[-1] in DECLARATION_LISTS)
         followed = {to: ids[index] for index, to in matches.items()}
         if len(before) == len(items):
             # An item that was changed beyond recognition.
@@ -99,7 +108,10 @@ class ListIds:
         return f"n{self._last}"
 
 
-def _owners(design: Design) -> Iterator[tuple[DesignPath, State | CommonSection]]:
+def _owners(design: Design) -> Iterator[tuple[DesignPath, Design | Declaration | State | CommonSection]]:
+    yield (), design
+    for index, output in enumerate(design.outputs):
+        yield ("outputs", index), output
     for state in design.states:
         yield ("states", state.name), state
     yield ("common",), design.common

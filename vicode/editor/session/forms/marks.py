@@ -16,6 +16,7 @@ from vicode.findings import DesignPath, Finding
 from vicode.model.design import Design
 from vicode.model.project import Project
 
+_CODES: tuple[DesignPath, ...] = (("code",), ("module",), ("members",))
 Lint = Callable[[DesignPath, str], Sequence[LintWarning]]
 """The warnings for the Python code at a path, if they belong to this text."""
 
@@ -32,7 +33,7 @@ class ItemFields:
     def of(cls, project: Project, design: Design, item: ItemRef, ids: ListIds) -> "ItemFields":
         nodes, path = item_form(project, design, item, ids), item_path(item) or ()
         found = {node.path: resolve(design, ids, path, node.path) for node in iter_fields(nodes)}
-        paths = {known: file_path(path, steps) for known, steps in found.items() if steps is not None}
+        paths = {known: file_path(design, path, steps) for known, steps in found.items() if steps is not None}
         return cls(item=path, nodes=nodes, paths=paths)
 
 
@@ -71,7 +72,7 @@ def _marks(node: Field, path: DesignPath, findings: Sequence[Finding], lint: Lin
         return mark_text(node.value, path, findings)
     if node.language == "python":
         # Findings about a code that is not named by language are about the Python text.
-        return mark_text(node.value, path[:-1] if path[-2:-1] == ("code",) else path, findings, lint(path, node.value))
+        return mark_text(node.value, path[:-1] if path[-2:-1] in _CODES else path, findings, lint(path, node.value))
     missing = [
         replace(each, subject=replace(each.subject, path=path))
         for each in findings

@@ -12,10 +12,11 @@ from typing import Any, Literal
 
 from vicode.findings import DesignPath
 
-OptionList = Literal["states", "uses"]
+OptionList = Literal["states", "uses", "types", "arithmetic", "time_units"]
 """A list of options that many forms share; `form_data.FormLists` has its values."""
-AdderList = Literal["actions", "effects", "modulates"]
-"""The kinds of cards that can be added to a list: actions with and without calls, modulated components."""
+AdderList = Literal["actions", "effects", "modulates", "parameters", "outputs", "variables", "arguments"]
+"""The kinds of cards that can be added to a list: actions with and without calls, modulated components, declarations.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,6 +71,8 @@ class Choice:
     label: str
     value: str
     options: OptionList
+    help: str = ""
+    is_clearable: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -181,12 +184,17 @@ class Card:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cards:
-    """The list at a path, with buttons that add, move and remove its items."""
+    """The list at a path, with buttons that add, move and remove its items.
+
+    The items of a list with a `noun` are declarations, titled by their names; `owner` is the name of their output.
+    """
 
     path: DesignPath
     cards: tuple[Card, ...]
     adders: AdderList
     is_ordered: bool = False
+    noun: str = ""
+    owner: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -217,7 +225,7 @@ class Row:
 class Section:
     """A part of the form that is closed until a user opens it, or one of its fields is set.
 
-    `key` remembers for all items whether it is open; `caption` summarizes its content.
+    `key` remembers for all items whether it is open, unless the section is local; `caption` summarizes its content.
     """
 
     key: str
@@ -225,11 +233,59 @@ class Section:
     caption: str
     nodes: tuple["Node", ...]
     is_set: bool = False
+    is_local: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UseRow:
+    """A used component."""
+
+    alias: str
+    component: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Uses:
+    """The list of used components, with buttons that add and remove them."""
+
+    rows: tuple[UseRow, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ItemLink:
+    """A row that leads to the form of another item."""
+
+    label: str
+    caption: str
+    opens: tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ServerPart:
+    """A part of the form that the server draws, in the slot with this name."""
+
+    name: Literal["interfaces", "project"]
 
 
 Field = TextField | ItemName | Choice | MultiChoice | CodeText
 """A part of a form with a value that can have messages."""
-Node = Field | Title | Notice | Colors | Check | Languages | Heading | Decisions | Button | Cards | Row | Section
+Node = (
+    Field
+    | Title
+    | Notice
+    | Colors
+    | Check
+    | Languages
+    | Heading
+    | Decisions
+    | Button
+    | Cards
+    | Row
+    | Section
+    | Uses
+    | ItemLink
+    | ServerPart
+)
 """A part of a form."""
 
 

@@ -38,6 +38,9 @@ FormAction = Literal[
     "add-card",
     "remove-card",
     "move-card",
+    "remove-arguments",
+    "add-use",
+    "remove-use",
 ]
 _NEW_PREDICATE = "return self.state_time > 2\n"
 _DECISION_LISTS = ("transitions", "then", "else")
@@ -221,7 +224,7 @@ def _find_card(press: Press, document: DocumentSession, owner: DesignPath) -> tu
     return (*owner, resolved[0]), int(resolved[1])
 
 
-PRESSES: Mapping[FormAction, Handler] = {
+PRESSES: Mapping[str, Handler] = {
     "add-code": _add_code,
     "remove-code": _remove_code,
     "remove": _remove,
