@@ -7,7 +7,6 @@ from pathlib import Path
 
 from nicegui import ui
 
-from vicode.editor.pages.form_input_preservation import preserve_form_input
 from vicode.editor.panels.command import Command, CommandHandler
 
 ESCAPE_ATTRIBUTE = "data-escape-clicks"
@@ -88,7 +87,6 @@ def register_shortcuts(commands: Sequence[Command]) -> None:
             shortcuts[keys] = {"name": command.name, "typing": command.while_typing}
         if command.keys:
             ui.on(f"command-{command.name}", _reporting_end(command.handler))
-    preserve_form_input()
     ui.add_body_html(f"<script>\n{_TYPE_AHEAD.read_text(encoding='utf-8')}</script>")
     ui.add_body_html(_SHORTCUT_SCRIPT.replace("COMMANDS", json.dumps(shortcuts)).replace("ESCAPE", ESCAPE_ATTRIBUTE))
 

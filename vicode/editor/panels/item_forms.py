@@ -18,8 +18,9 @@ from vicode.editor.inspector.protocol import (
 )
 from vicode.editor.panels import texts
 from vicode.editor.panels.finding_navigation import apply_fix
-from vicode.editor.panels.name_field import rename_declaration
 from vicode.editor.panels.open_in_editor import open_in_editor
+from vicode.editor.panels.project.edits import ProjectFormEdits
+from vicode.editor.panels.rename_dialog import rename_declaration
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.completion import (
     CompletionResult,
@@ -30,11 +31,12 @@ from vicode.editor.session.completion import (
 from vicode.editor.session.fixes import find_fixes
 from vicode.editor.session.forms.action_form import component_parameters, settable_declarations
 from vicode.editor.session.forms.declaration_form import declared_symbol
-from vicode.editor.session.forms.edits import FormEdit, NameEdit, TextEdit
+from vicode.editor.session.forms.edits import ButtonEdit, FormEdit, NameEdit, TextEdit
 from vicode.editor.session.forms.form_data import Forms, has_form
 from vicode.editor.session.forms.form_paths import file_path, item_path, parse_path, resolve
 from vicode.editor.session.forms.form_places import FormResult
-from vicode.editor.session.forms.marks import ItemFields, marks_of, note_at
+from vicode.editor.session.forms.marks import ItemFields, marks_of, note_at, project_marks
+from vicode.editor.session.forms.project_places import resolve_in_project
 from vicode.editor.session.forms.state_form import OUTSIDE
 from vicode.editor.session.item_paths import item_at
 from vicode.editor.session.rebase import rebase_selection
@@ -43,7 +45,12 @@ from vicode.editor.view import ItemKind, ItemRef, item_at_path
 from vicode.findings import DesignPath
 from vicode.model.design import Call, Design
 
-_MOVING_KINDS: Mapping[str, ItemKind] = {"states": "states", "transitions": "transitions", "frames": "frames"}
+_MOVING_KINDS: Mapping[str, ItemKind] = {
+    "states": "states",
+    "transitions": "transitions",
+    "frames": "frames",
+    "components": "components",
+}
 """The kinds of items whose names or places can change."""
 _MAX_TEXT_LENGTH = 200_000
 
@@ -56,6 +63,7 @@ class ItemForms:
         self._shown: tuple[Design, Forms] = (context.design, {})
         self._edited: tuple[ItemRef, str] | None = None
         """The item and the path of the field with the focus."""
+        self._project = ProjectFormEdits(context)
         self.view = FormView(self._edit, self._handle, self._on_malformed)
         context.linter.changes.subscribe(lambda: None if self.view.is_deleted else self.refresh())
 
@@ -133,6 +141,8 @@ class ItemForms:
             fields = self._fields(selected)
             own = marks_of(fields, findings, context.linter.lints_for)
             marks[f"{selected.kind}/{selected.id}"] = [*own, *self._notices(selected), *self._others_typing(fields)]
+        project = context.workspace.project
+        marks["project/"] = project_marks(project, context.document.shared.list_ids, context.workspace.project_findings)
         return {key: found for key, found in marks.items() if found}
 
     def _shown_item(self) -> ItemRef | None:
@@ -155,20 +165,31 @@ class ItemForms:
 
     def _edit(self, edit: FormEdit) -> Mapping[str, object]:
         context = self.context
-        if isinstance(edit, NameEdit) and edit.item.kind == "design":
-            result = self._rename(edit.path, edit.text.strip())
-        else:
-            result = edit.apply(context.document)
+        result = self._apply(edit)
         if result.new_selection is not None:
             context.select(*result.new_selection)
         if result.renamed is not None and result.renamed[0] in context.selected:
             context.select(*(result.renamed[1] if item == result.renamed[0] else item for item in context.selected))
         if result.error == ITEM_MISSING:
             context.show_toast(texts.EDITED_ITEM_REMOVED, "warning")
-        elif result.error and not isinstance(edit, TextEdit | NameEdit):
+        elif result.error and not isinstance(edit, TextEdit | NameEdit) and edit.path != "project":
             # Fields for texts show their errors themselves.
             context.show_toast(texts.sentence(result.error), "warning")
         return {"own": result.own, "error": result.error}
+
+    def _apply(self, edit: FormEdit) -> FormResult:
+        if edit.path.partition("/")[0] == "project":
+            return self._project.apply(edit)
+        match edit:
+            case NameEdit(item=ItemRef(kind="design")):
+                return self._rename(edit.path, edit.text.strip())
+            case ButtonEdit(action="open-design", item=ItemRef(kind="components", id=alias)):
+                use = self.context.design.use(alias)
+                if use is not None:
+                    self.context.page.open_component(use.component)
+                return FormResult()
+            case _:
+                return edit.apply(self.context.document)
 
     def _rename(self, path: str, new: str) -> FormResult:
         """Rename a declaration of the design; a dialog may ask first, and the name stays until then."""
@@ -219,6 +240,9 @@ class ItemForms:
     def _path_in_file(self, item: ItemRef, path: str) -> DesignPath:
         """The path in the file of a field; empty if it no longer exists."""
         design, ids, owner = self.context.design, self.context.document.shared.list_ids, item_path(item)
+        if path.partition("/")[0] == "project":
+            shared = resolve_in_project(self.context.workspace.project, ids, parse_path(path))
+            return () if shared is None else ("project", *shared)
         steps = None if owner is None else resolve(design, ids, owner, parse_path(path))
         return () if owner is None or steps is None else file_path(design, owner, steps)
 

@@ -36,10 +36,27 @@ export function withPending(nodes, pending) {
 export function placed(nodes, path, alias) {
   return nodes.map((node) => ({
     ...node,
-    ...(node.path ? { path: [...path, ...node.path] } : {}),
-    ...(node.is_local ? { key: path.join("/") } : {}),
+    ...(node.path || node.is === "Group" ? { path: [...path, ...(node.path ?? [])] } : {}),
+    ...(node.look && node.is === "Section" ? { key: (node.key ?? "") + path.join("/") } : {}),
     ...(alias && node.language === "pairs" ? { alias } : {}),
     ...(node.texts ? { texts: placed(node.texts, path, alias) } : {}),
     ...(node.nodes ? { nodes: placed(node.nodes, path, alias) } : {}),
   }));
+}
+
+/** The nodes with the parts that several forms show; `forms` has their texts by their keys. */
+export function expanded(nodes, forms) {
+  return nodes.flatMap((node) => {
+    if (node.is === "FormPart") return expanded(JSON.parse(forms.get(node.form) ?? "[]"), forms);
+    for (const name of ["nodes", "cards"]) if (node[name]) node[name] = expanded(node[name], forms);
+    return [node];
+  });
+}
+
+/** Gives the nodes of a new card its name. */
+export function named(nodes, name) {
+  const [first] = nodes;
+  if ("title" in first || first.is === "Group") first.title = name;
+  if (first.nodes) named(first.nodes, name);
+  else first.value = name;
 }

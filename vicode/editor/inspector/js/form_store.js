@@ -1,6 +1,6 @@
 // What the inspector knows: the forms of all items, the texts of their fields, and the edits on their way.
 import { nextTick, reactive } from "vue";
-import { cardsIn, placed, textsOf, withPending } from "./form_data.js";
+import { cardsIn, expanded, named, placed, textsOf, withPending } from "./form_data.js";
 import { SyncedText } from "./synced_text.js";
 
 const SEND_MS = 200;
@@ -8,6 +8,9 @@ const SEND_MS = 200;
 const FIRST_PATHS = { common: "doc", notes: "text" };
 // The fields in which Python looks for times when their user leaves them.
 const READS_TIMES = /^guard\/(when|after)$/;
+
+// The items whose forms have parts of the form of the project.
+const SHOWS_PARTS = /^(design|components)\//;
 
 export const keyOf = ({ of, id }) => `${of}/${id}`;
 
@@ -22,6 +25,7 @@ class ShownItem {
     this.chosen = reactive({});
     this.closed = reactive({});
     this.opened = reactive({});
+    this.drafts = {};
   }
 
   get ref() {
@@ -40,7 +44,8 @@ export class FormStore {
     this.items = new Map();
     this.timers = new Map();
     this.unsettled = new Set();
-    this.view = reactive({ key: null, number: 0, nodes: [], lists: {}, marks: {}, openSections: [], language: "", slotsVersion: 0 });
+    this.answers = new Map();
+    this.view = reactive({ key: null, number: 0, nodes: [], lists: {}, marks: {}, openSections: [], language: "" });
   }
 
   load({ rev, forms, lists, marks, open_sections: openSections, language }) {
@@ -62,9 +67,11 @@ export class FormStore {
       if (list === null) delete this.view.marks[key];
       else this.view.marks[key] = list;
     }
-    for (const key of Object.keys(forms)) if (this.items.has(key)) this.#refresh(this.items.get(key));
+    const hasNewParts = Object.keys(forms).some((key) => key.startsWith("project/"));
+    const isNew = (key) => key in forms || (hasNewParts && SHOWS_PARTS.test(key));
+    for (const [key, item] of this.items) if (isNew(key)) this.#refresh(item);
     for (const ack of acks) this.#acknowledge(ack);
-    if (this.view.key in forms || this.view.key in moved) this.#draw();
+    if (isNew(this.view.key) || this.view.key in moved) this.#draw();
   }
 
   /** Shows the form of an item; null shows none. Returns whether it is another one. */
@@ -137,11 +144,22 @@ export class FormStore {
     return this.#emitEdit("press", this.shown.ref, { action, ...fields });
   }
 
+  /** Presses a button; `answer` is called with the error, or "". */
+  ask(action, fields, answer) {
+    this.answers.set(this.press(action, fields), answer);
+  }
+
+  /** Texts of the shown item that are no part of the design yet. */
+  draft(name, empty) {
+    return (this.shown.drafts[name] ??= reactive(empty));
+  }
+
   /** Adds a card at once; the design has it later. */
   addCard(list, adder, { id, alias, title, text }) {
     const item = this.shown;
     const nodes = placed(adder.nodes, [...list, id], alias);
-    if (text) nodes[0].value = text;
+    if (text) named(nodes, text);
+    if (nodes[0].is === "Section") item.opened[nodes[0].key] = true;
     const card = { id, title, nodes };
     const edit = this.press("add-card", { path: list.join("/"), adds: adder.adds, card: id, to: alias, text });
     item.pending.push({ edit, list: list.join("/"), card });
@@ -149,11 +167,12 @@ export class FormStore {
   }
 
   /** A name for a new declaration in a list. */
-  freeName({ noun, owner, cards = [] }) {
-    const lists = owner ? [{ cards }] : this.view.nodes.filter((node) => node.noun);
-    const taken = new Set(lists.flatMap((list) => list.cards ?? []).map(({ title }) => title));
-    let name = noun;
-    for (let number = 2; taken.has(name); number += 1) name = `${noun}${number}`;
+  freeName(list, base) {
+    // All declarations of the design have different names.
+    const lists = list.path.length === 1 ? this.view.nodes.filter((node) => node.noun) : [list];
+    const taken = new Set(lists.flatMap(({ cards = [] }) => cards).map(({ title }) => title));
+    let name = base;
+    for (let number = 2; taken.has(name); number += 1) name = `${base}${number}`;
     return name;
   }
 
@@ -194,6 +213,8 @@ export class FormStore {
   }
 
   #acknowledge({ id, own, error }) {
+    this.answers.get(id)?.(error);
+    this.answers.delete(id);
     for (const item of this.items.values()) {
       for (const field of item.fields.values()) {
         if (!field.sent.some((edit) => edit.id === id)) continue;
@@ -243,13 +264,13 @@ export class FormStore {
   };
 
   /** A section is open if a user has opened it, for all items, or if one of its fields is set and it was not closed here. */
-  isOpen({ key, is_set: isSet, is_local: isLocal }) {
-    if (isLocal) return Boolean(this.shown.opened[key]);
+  isOpen({ key, is_set: isSet, look }) {
+    if (look) return Boolean(this.shown.opened[key]);
     return this.view.openSections.includes(key) || Boolean(isSet && !this.shown.closed[key]);
   }
 
-  toggle({ key, is_local: isLocal }, isOpen) {
-    if (isLocal) {
+  toggle({ key, look }, isOpen) {
+    if (look) {
       this.shown.opened[key] = isOpen;
       return;
     }
@@ -295,9 +316,8 @@ export class FormStore {
   }
 
   #refresh(item) {
-    const form = this.forms.get(item.key);
-    if (!form) return;
-    const nodes = JSON.parse(form);
+    const nodes = this.#nodesOf(item.key);
+    if (!nodes) return;
     const cards = cardsIn(nodes);
     item.pending = item.pending.filter(({ list, card }) => !cards.has(`${list}/${card.id}`));
     const isPending = (path) => item.pending.some(({ list, card }) => path.startsWith(`${list}/${card.id}/`));
@@ -308,10 +328,15 @@ export class FormStore {
     }
   }
 
+  #nodesOf(key) {
+    const form = this.forms.get(key);
+    return form && expanded(JSON.parse(form), this.forms);
+  }
+
   #draw() {
-    const form = this.forms.get(this.view.key);
-    this.view.nodes = form ? withPending(JSON.parse(form), this.shown.pending) : [];
-    this.view.number = form ? this.shown.number : -1;
+    const nodes = this.#nodesOf(this.view.key);
+    this.view.nodes = nodes ? withPending(nodes, this.shown.pending) : [];
+    this.view.number = nodes ? this.shown.number : -1;
   }
 
   async focusField(root, path) {

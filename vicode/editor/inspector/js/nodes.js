@@ -1,5 +1,6 @@
 // The nodes of a form as Vue components; see `nodes.py`.
-import { Cards } from "./cards.js";
+import { AddRow } from "./add_row.js";
+import { Cards, Group } from "./cards.js";
 import { CodeText, Languages } from "./code_text.js";
 import { Decisions } from "./decisions.js";
 import { Check, Choice, MultiChoice, Colors, ItemName, TextField } from "./fields.js";
@@ -51,7 +52,7 @@ const Section = {
   props: { node: Object },
   inject: ["store"],
   template: `
-    <q-expansion-item ref="section" class="section nicegui-expansion" :class="{ 'declaration-more': node.is_local }" dense :duration="0" :label="node.title" :caption="node.caption" :model-value="isOpen" @update:model-value="turn">
+    <q-expansion-item ref="section" class="section nicegui-expansion" :class="{ 'declaration-more': node.look, 'declared-line': node.look === 'line' }" dense :duration="0" :label="node.title" :caption="node.caption" :model-value="isOpen" @update:model-value="turn">
       <div v-if="isOpen" class="nicegui-expansion-content nicegui-column"><form-nodes :nodes="node.nodes" /></div>
     </q-expansion-item>`,
   computed: {
@@ -73,7 +74,7 @@ const ItemLink = {
   inject: ["store"],
   template: `
     <button type="button" class="choice use-row" @click="store.select({ of: node.opens[0], id: node.opens[1] })">
-      <div>{{ node.label }}</div><div class="component-name ellipsis">{{ node.caption }}</div>
+      <div :class="{ mono: node.is_code }">{{ node.label }}</div><div class="component-name ellipsis">{{ node.caption }}</div>
     </button>`,
 };
 
@@ -99,18 +100,21 @@ const Uses = {
   },
 };
 
-/** A part that the server draws. */
-const ServerPart = {
+const Text = {
   props: { node: Object },
-  inject: ["store", "slots"],
-  render() {
-    // Drawn again when the server changes it.
-    return this.store.view.slotsVersion >= 0 && this.slots()[this.node.name]?.();
-  },
+  template: `<div :class="node.look">{{ node.text }}</div>`,
+};
+
+const InterfaceRow = {
+  props: { node: Object },
+  template: `
+    <div class="interface-row nicegui-row">
+      <div class="mono">{{ node.name }}</div><div class="interface-type">{{ node.about }}</div><div class="interface-doc">{{ node.doc }}</div>
+    </div>`,
 };
 
 const KINDS = {
-  TextField, ItemName, Choice, MultiChoice, Check, Colors, CodeText, Languages, Title, Notice, Heading, Button, Decisions, Cards, Row, Section, ItemLink, Uses, ServerPart,
+  TextField, ItemName, Choice, MultiChoice, Check, Colors, CodeText, Languages, Title, Notice, Heading, Button, Decisions, Cards, Row, Section, ItemLink, Uses, Group, Text, InterfaceRow, AddRow,
 };
 
 /** The nodes of a form, or of a part of it. */
@@ -127,4 +131,4 @@ export const FormNodes = {
   },
 };
 
-for (const parent of [Row, Section, Cards]) parent.components = { ...parent.components, FormNodes };
+for (const parent of [Row, Section, Cards, Group]) parent.components = { ...parent.components, FormNodes };

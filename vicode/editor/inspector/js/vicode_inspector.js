@@ -6,10 +6,10 @@ const SENDS_TEXT = ["vicode-send-text", "vicode-leave", "beforeunload"];
 export default {
   components: { FormNodes },
   provide() {
-    return { store: this.store, slots: () => this.$slots };
+    return { store: this.store };
   },
   template: `
-    <div class="inspector" data-form @keydown.esc="leave">
+    <div v-show="store.view.nodes.length" class="inspector" @keydown.esc="leave">
       <form-nodes :nodes="store.view.nodes" />
     </div>`,
   beforeCreate() {
@@ -23,9 +23,6 @@ export default {
     document.addEventListener("vicode-open", this.onOpen);
     for (const event of SENDS_TEXT) addEventListener(event, this.onLeave);
     this.$emit("ready", {});
-  },
-  updated() {
-    this.store.view.slotsVersion += 1;
   },
   unmounted() {
     document.removeEventListener("vicode-select", this.onSelect);

@@ -1,4 +1,4 @@
-"""The parameters, outputs, variables and arguments in a form."""
+"""The parameters, outputs, variables, constants and arguments in a form."""
 
 import json
 from collections.abc import Sequence
@@ -7,6 +7,7 @@ from typing import Any
 from vicode.editor.session import number_text
 from vicode.editor.session.forms.fields import known_field
 from vicode.editor.session.forms.form_paths import parse_path, resolve
+from vicode.editor.session.forms.item_place import ItemPlace
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import (
     Adder,
@@ -16,49 +17,61 @@ from vicode.editor.session.forms.nodes import (
     Cards,
     Check,
     Choice,
+    DeclarationList,
+    Group,
     ItemName,
     Node,
     Section,
     TextField,
     form_json,
 )
-from vicode.findings import DesignPath
 from vicode.model.design import Declaration, Design
 from vicode.model.rename import SymbolRef
 
-_ADDERS: dict[str, AdderList] = {
-    "parameters": "parameters",
-    "outputs": "outputs",
-    "variables": "variables",
-    "arguments": "arguments",
-}
+_LISTS: tuple[DeclarationList, ...] = ("parameters", "outputs", "variables")
+_VALUES = {"constants": "Value", "parameters": "Default", "arguments": "Default"}
 
 
 def declaration_cards(
-    path: DesignPath, declarations: Sequence[Declaration], ids: ListIds, *, list_path: DesignPath, owner: str = ""
+    place: ItemPlace,
+    section: DeclarationList,
+    declarations: Sequence[Declaration],
+    *,
+    owner: str = "",
+    is_shared: bool = False,
 ) -> Cards:
-    """The list of declarations at a path of the form; `list_path` is its path in the design, `owner` its output."""
-    section = str(path[-1])
-    cards = []
-    for index, (id_, each) in enumerate(zip(ids.ids(list_path, tuple(declarations)), declarations, strict=True)):
-        card_path = (*path, id_)
-        arguments = _arguments(each, card_path, (*list_path, index), ids) if section == "outputs" else ()
-        cards.append(Card(id=id_, title=each.name, nodes=_nodes(each, section, card_path, arguments)))
-    noun = section.removesuffix("s")
-    return Cards(path=path, cards=tuple(cards), adders=_ADDERS[section], noun=noun, owner=owner)
+    """A list of declarations; `place` is that of its owner. Those of project.yaml are shared by the designs."""
+    cards = (
+        Card(id=each.id, title=declaration.name, nodes=(declaration_group(each, declaration, is_shared=is_shared),))
+        for each, declaration in place.items(section, declarations)
+    )
+    return Cards(
+        path=place.within(section),
+        cards=tuple(cards),
+        adders="component-arguments" if is_shared else section,
+        noun=section.removesuffix("s"),
+        owner=owner,
+    )
 
 
 def declaration_adders() -> dict[AdderList, Any]:
-    """What can be added to the lists of declarations, as JSON values."""
-    found: dict[AdderList, Any] = {}
-    for section, key in _ADDERS.items():
-        noun = section.removesuffix("s")
-        added = new_declaration(section, noun)
-        arguments = _arguments(added, (), (), ListIds()) if section == "outputs" else ()
-        label = "Argument" if section == "arguments" else "Add"
-        adder = Adder(label=label, icon="add", adds=noun, title="", nodes=_nodes(added, section, (), arguments))
-        found[key] = json.loads(form_json([adder]))
+    """What can be added to the lists of declarations of a design, as JSON values."""
+    found: dict[AdderList, Any] = {section: adder_json("Add", _new_group(section)) for section in _LISTS}
+    found["arguments"] = adder_json("Argument", _new_group("arguments"))
+    found["component-arguments"] = adder_json("Argument", _new_group("arguments", is_shared=True))
     return found
+
+
+def _new_group(section: str, *, is_shared: bool = False) -> Node:
+    added = new_declaration(section, section.removesuffix("s"))
+    return declaration_group(ItemPlace(section=section), added, is_shared=is_shared)
+
+
+def adder_json(label: str, node: Node, base: str = "") -> list[Any]:
+    """The button that adds an item to a list; `base` is a free name for it, by default derived from its list."""
+    adder = Adder(label=label, icon="add", adds="declaration", title=base, nodes=(node,))
+    buttons: list[Any] = json.loads(form_json([adder]))
+    return buttons
 
 
 def new_declaration(section: str, name: str) -> Declaration:
@@ -67,52 +80,79 @@ def new_declaration(section: str, name: str) -> Declaration:
     return Declaration(name=name, initial="0")
 
 
-def _nodes(declaration: Declaration, section: str, path: DesignPath, arguments: tuple[Node, ...]) -> tuple[Node, ...]:
-    value = "Initial" if section in ("outputs", "variables") else "Default"
-    more = [_text(declaration, "range", path), _text(declaration, "xabsl_name", path), *arguments]
-    if section == "parameters":
-        tunable = known_field(declaration, ("tunable",))
-        more.append(Check(path=(*path, "tunable"), label=tunable.label, value=declaration.tunable))
-    return (
-        ItemName(path=(*path, "name"), label="Name", value=declaration.name),
+def declaration_group(place: ItemPlace, declaration: Declaration, *, is_shared: bool = False) -> Group:
+    """The form of a declaration; that of project.yaml writes texts when they are finished, and orders arguments."""
+    value = TextField(
+        path=place.within("initial"),
+        label=_VALUES.get(place.section, "Initial"),
+        value=declaration.initial,
+        is_code=True,
+        is_committed=is_shared,
+    )
+    fields = (
+        ItemName(
+            path=place.within("name"),
+            label="Constant" if place.section == "constants" else "Name",
+            value=declaration.name,
+        ),
         Choice(
-            path=(*path, "type"),
+            path=place.within("type"),
             label="Type",
             value=known_field(declaration, ("type",)).read(declaration),
             options="types",
         ),
-        TextField(path=(*path, "initial"), label=value, value=declaration.initial, is_code=True),
-        _text(declaration, "unit", path),
-        _text(declaration, "doc", path),
-        Section(
-            key="/".join(map(str, path)),
-            title="More",
-            caption=declaration_caption(declaration, section),
-            nodes=tuple(more),
-            is_local=True,
-        ),
+        value,
+        text_field(place, declaration, "unit", is_committed=is_shared),
+        text_field(place, declaration, "doc", is_committed=is_shared),
+        _more(place, declaration, is_shared=is_shared),
+    )
+    return Group(
+        path=place.path,
+        noun=place.noun,
+        title=declaration.name,
+        nodes=fields,
+        can_move_up=is_shared and place.section == "arguments" and not place.is_first,
     )
 
 
-def _text(declaration: Declaration, name: str, path: DesignPath) -> Node:
-    field = known_field(declaration, (name,))
+def _more(place: ItemPlace, declaration: Declaration, *, is_shared: bool) -> Section:
+    nodes: list[Node] = [
+        text_field(place, declaration, name, is_committed=is_shared) for name in ("range", "xabsl_name")
+    ]
+    if place.section == "outputs":
+        nodes += _arguments(place, declaration, is_shared=is_shared)
+    if place.section == ("constants" if is_shared else "parameters"):
+        tunable = known_field(declaration, ("tunable",))
+        nodes.append(Check(path=place.within("tunable"), label=tunable.label, value=declaration.tunable))
+    caption = declaration_caption(declaration, place.section)
+    return Section(key=place.key, title="More", caption=caption, nodes=tuple(nodes), look="more")
+
+
+def text_field(
+    place: ItemPlace, owner: object, name: str, *, is_committed: bool = False, is_wide: bool = False
+) -> TextField:
+    """The field of a text or number of an item."""
+    field = known_field(owner, (name,))
     return TextField(
-        path=(*path, name),
+        path=place.within(name),
         label=field.label,
-        value=field.read(declaration),
+        value=field.read(owner),
         hint=field.hint,
-        is_code=name != "doc",
-        is_checked=name == "range",
+        is_code=name not in ("doc", "title"),
+        is_long=name == "doc" and not isinstance(owner, Declaration | tuple),
+        is_checked=name in ("range", "frequency_hz"),
+        is_committed=is_committed,
+        is_wide=is_wide,
     )
 
 
-def _arguments(output: Declaration, path: DesignPath, owner: DesignPath, ids: ListIds) -> tuple[Node, ...]:
+def _arguments(place: ItemPlace, output: Declaration, *, is_shared: bool) -> list[Node]:
     """The arguments of an output. An output with arguments is a function, without a value."""
-    in_form, in_design = (*path, "arguments"), (*owner, "arguments")
-    cards = declaration_cards(in_form, output.arguments or (), ids, list_path=in_design, owner=output.name)
+    cards = declaration_cards(place, "arguments", output.arguments or (), owner=output.name, is_shared=is_shared)
     if output.arguments is None:
-        return (cards,)
-    return (cards, Button(label="Remove arguments", icon="close", action="remove-arguments", path=in_form))
+        return [cards]
+    path = place.within("arguments")
+    return [cards, Button(label="Remove arguments", icon="close", action="remove-arguments", path=path)]
 
 
 def declaration_caption(declaration: Declaration, section: str) -> str:
@@ -126,6 +166,25 @@ def declaration_caption(declaration: Declaration, section: str) -> str:
     if declaration.xabsl_name:
         parts.append(f"{declaration.xabsl_name} in XABSL")
     return "; ".join(parts) or ("range, XABSL, arguments" if section == "outputs" else "range, XABSL")
+
+
+def describe_declaration(declaration: Declaration) -> str:
+    """Describe type, unit, range, value and arguments, then the description."""
+    summary = describe_value(declaration)
+    return ": ".join(part for part in (summary, declaration.doc) if part)
+
+
+def describe_value(declaration: Declaration) -> str:
+    """Describe type, unit, range, value and arguments."""
+    arguments, range_ = declaration.arguments, declaration.range
+    parts = (
+        format_arguments(arguments) if arguments is not None else "",
+        declaration.type,
+        declaration.unit,
+        f"{number_text.format_number(range_[0])} to {number_text.format_number(range_[1])}" if range_ else "",
+        f"= {declaration.initial}" if declaration.initial else "",
+    )
+    return ", ".join(part for part in parts if part)
 
 
 def declared_symbol(design: Design, ids: ListIds, path: str) -> SymbolRef | None:

@@ -3,26 +3,29 @@
 from vicode.editor.session.forms.decision_form import code_texts
 from vicode.editor.session.forms.declaration_form import declaration_cards
 from vicode.editor.session.forms.fields import known_field
+from vicode.editor.session.forms.interface_form import interface_lists
+from vicode.editor.session.forms.item_place import ItemPlace
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import (
     Check,
     Choice,
+    DeclarationList,
     Heading,
     ItemLink,
     Node,
     OptionList,
     Row,
     Section,
-    ServerPart,
     TextField,
     Title,
     UseRow,
     Uses,
 )
+from vicode.editor.session.forms.project_form import project_section
 from vicode.model.design import COMMON, Design
 from vicode.model.project import Project
 
-_SECTIONS = (
+_SECTIONS: tuple[tuple[DeclarationList, str, str], ...] = (
     ("parameters", "Parameters", "inputs other components can set"),
     ("outputs", "Outputs", "values other components can read"),
     ("variables", "Variables", "internal values"),
@@ -39,7 +42,7 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
     declared: list[Node] = []
     for section, title, hint in _SECTIONS:
         declared.append(Heading(text=title, hint=hint))
-        declared.append(declaration_cards((section,), getattr(design, section), ids, list_path=(section,)))
+        declared.append(declaration_cards(ItemPlace(ids=ids), section, getattr(design, section)))
     return (
         Title(text="Component", name=design.component),
         TextField(path=("doc",), label="Description", value=design.doc, is_long=True),
@@ -50,7 +53,7 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
             )
         ),
         Check(path=("resume",), label=resume.label, value=design.resume),
-        ServerPart(name="interfaces"),
+        *interface_lists(project, design, ids.of_project(project)),
         _xabsl(design),
         Heading(text="Uses", hint="components this design requires or modulates"),
         Uses(rows=tuple(UseRow(alias=use.alias, component=use.component) for use in design.uses)),
@@ -58,7 +61,7 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
         Heading(text="Every state", hint="transitions and actions before those of each state"),
         ItemLink(label="Common transitions and actions", caption=_describe_common(design), opens=("common", COMMON)),
         _code(project, design),
-        ServerPart(name="project"),
+        project_section(project),
     )
 
 

@@ -30,6 +30,8 @@ class FormEdit(Protocol):
 
     @property
     def item(self) -> ItemRef: ...
+    @property
+    def path(self) -> str: ...
 
     def apply(self, document: DocumentSession) -> FormResult: ...
 
@@ -80,7 +82,7 @@ class NameEdit:
 
     def apply(self, document: DocumentSession) -> FormResult:
         owner = rebase_owner(document, item_path(self.item), self.rev)
-        if self.item.kind not in ("states", "frames") or not owner:
+        if self.item.kind not in ("states", "frames", "components") or not owner:
             return FormResult(error=texts.ITEM_MISSING)
         before = ItemRef(kind=self.item.kind, id=str(owner[1]))
         result = apply_edit(document, RenameGesture(item=before, name=self.text))
@@ -164,7 +166,7 @@ class ButtonEdit:
     to: str = ""
     """The target of a new transition, the component of a new call, or the new index of a row."""
     adds: str = ""
-    """What a new card contains: "set", "call", "code", "modulation" or a declaration, such as "variable"."""
+    """What a new card contains: "set", "call", "code", "modulation" or "declaration"."""
     card: str = ""
     """The id of a new card, chosen by the browser."""
     text: str = ""

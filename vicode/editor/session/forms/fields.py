@@ -24,6 +24,8 @@ from vicode.model.design import (
     Stay,
     Transition,
 )
+from vicode.model.names import is_valid_name
+from vicode.model.project import Agent, Enumeration, Interface, Project
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -137,6 +139,13 @@ _STATE: Mapping[DesignPath, FormField] = {
     ("synchronized",): count("synchronized", "Synchronized (robots)", "not synchronized"),
     ("xabsl_name",): _XABSL_NAME,
 }
+_FREQUENCY = FormField(
+    label="Frequency, Hz",
+    hint="every step",
+    read=lambda owner: number_text.format_number(owner.frequency_hz),
+    write=lambda owner, text: replace(owner, frequency_hz=number_text.parse_frequency(text)),
+    validate=number_text.validate_frequency,
+)
 _DECLARATION: Mapping[DesignPath, FormField] = {
     ("type",): FormField(
         label="Type",
@@ -159,13 +168,7 @@ _DECLARATION: Mapping[DesignPath, FormField] = {
 _DESIGN: Mapping[DesignPath, FormField] = {
     ("doc",): DESCRIPTION,
     ("initial",): attribute("initial", "Initial state"),
-    ("frequency_hz",): FormField(
-        label="Frequency, Hz",
-        hint="every step",
-        read=lambda owner: number_text.format_number(owner.frequency_hz),
-        write=lambda owner, text: replace(owner, frequency_hz=number_text.parse_frequency(text)),
-        validate=number_text.validate_frequency,
-    ),
+    ("frequency_hz",): _FREQUENCY,
     ("resume",): attribute("resume", "Resume where it left off"),
     ("xabsl_name",): _XABSL_NAME,
     ("arithmetic",): attribute("arithmetic", "Arithmetic"),
@@ -173,6 +176,39 @@ _DESIGN: Mapping[DesignPath, FormField] = {
     **{("module", language): code("module", language, "Module") for language in LANGUAGES},
     **{("members", language): code("members", language, "Members") for language in LANGUAGES},
 }
+
+
+def _validate_name(text: str) -> str:
+    name = text.strip()
+    return ("" if is_valid_name(name) else texts.invalid_identifier(name)) if name else texts.NAME_MISSING
+
+
+_PROJECT: Mapping[DesignPath, FormField] = {
+    ("name",): replace(attribute("name", "Project name"), validate=_validate_name),
+    ("doc",): attribute("doc", "Project description"),
+    ("languages",): FormField(
+        label="Languages",
+        hint="python",
+        read=lambda owner: ", ".join(owner.languages),
+        write=lambda owner, text: replace(owner, languages=tuple(text.replace(",", " ").split())),
+    ),
+    ("world",): attribute("world", "World", hint="module:Class"),
+}
+_SHARED: Mapping[DesignPath, FormField] = {
+    ("doc",): DESCRIPTION,
+    ("xabsl_name",): _XABSL_NAME,
+    ("title",): attribute("title", "Title"),
+}
+_INTERFACE: Mapping[DesignPath, FormField] = {
+    ("frequency_hz",): _FREQUENCY,
+    ("implementation",): attribute(
+        "implementation", "Implementation", hint="none yet; module:Class, world or internal"
+    ),
+    **_SHARED,
+}
+_INTERNAL = "Internal (elements numbered by the XABSL engine)"
+_ENUMERATION: Mapping[DesignPath, FormField] = {("internal",): attribute("internal", _INTERNAL), **_SHARED}
+_MEANING = FormField(label="Meaning", read=lambda pair: pair[1], write=lambda pair, text: (pair[0], text))
 _CODE: Mapping[DesignPath, FormField] = {("code", language): code("code", language, "") for language in LANGUAGES}
 _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     Transition: {("to",): attribute("to", "To"), **_GUARD},
@@ -181,6 +217,11 @@ _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     State: _STATE,
     CommonSection: {("doc",): attribute("doc", "Description (all states)")},
     Design: _DESIGN,
+    Project: _PROJECT,
+    Interface: _INTERFACE,
+    Enumeration: _ENUMERATION,
+    Agent: {("root",): attribute("root", "Root"), **_SHARED},
+    tuple: {("doc",): _MEANING},
     Declaration: _DECLARATION,
     DiagramFrame: {
         ("color",): _COLOR,
@@ -202,6 +243,19 @@ def initial_field(state: str) -> FormField:
         label="Initial",
         read=lambda design: design.initial == state,
         write=lambda design, value: replace(design, initial=state) if value else design,
+    )
+
+
+def xabsl_field(element: str) -> FormField:
+    """The name of an element in XABSL, as a field of its enumeration."""
+
+    def write(enumeration: Enumeration, text: str) -> Enumeration:
+        names = {**dict(enumeration.xabsl_elements), element: text}
+        pairs = ((each, names.get(each, "")) for each in enumeration.element_names)
+        return replace(enumeration, xabsl_elements=tuple(pair for pair in pairs if pair[1]))
+
+    return FormField(
+        label="Element in XABSL", read=lambda owner: dict(owner.xabsl_elements).get(element, ""), write=write
     )
 
 

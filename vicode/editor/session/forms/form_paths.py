@@ -12,6 +12,7 @@ from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Design
+from vicode.model.project import Project
 
 _KEYS = {"values": "set", "arguments": "with"}
 
@@ -23,6 +24,8 @@ def item_path(item: ItemRef) -> DesignPath | None:
             return ()
         case ItemRef(kind="transitions", id=key):
             return parse_transition_key(key)
+        case ItemRef(kind="components", id=alias):
+            return ("uses", alias)
         case ItemRef(kind="states" | "frames" | "notes" as section, id=name):
             return (section, name)
         case ItemRef(kind="common"):
@@ -41,15 +44,15 @@ def is_in_list(steps: DesignPath) -> bool:
     return len(steps) > 1 and steps[0] in ID_LISTS
 
 
-def resolve(design: Design, ids: ListIds, item: DesignPath, steps: DesignPath) -> DesignPath | None:
+def resolve(root: Design | Project, ids: ListIds, item: DesignPath, steps: DesignPath) -> DesignPath | None:
     """The path with indices instead of ids; None if there is no such action or declaration."""
     if not is_in_list(steps):
         return steps
     path = (*item, steps[0])
-    index = ids.index(path, item_at(design, path) or (), str(steps[1]))
+    index = ids.index(path, item_at(root, path) or (), str(steps[1]))
     if index is None:
         return None
-    inner = resolve(design, ids, (*path, index), steps[2:])
+    inner = resolve(root, ids, (*path, index), steps[2:])
     return None if inner is None else (steps[0], index, *inner)
 
 
@@ -67,6 +70,8 @@ def file_path(design: Design, item: DesignPath, steps: Sequence[str | int]) -> D
         return _path_in_design(design, tuple(steps))
     if tuple(steps) == ("initial",):
         return ("initial",)
+    if item[:1] == ("uses",):
+        return item
     if item[:1] == ("frames",):
         # A frame is a list of states.
         return (*item, *(step for step in steps if step != "states"))

@@ -10,6 +10,7 @@ from vicode.editor.session.forms.form_data import item_form
 from vicode.editor.session.forms.form_paths import file_path, item_path, resolve
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import CodeText, Field, MultiChoice, Node, iter_fields
+from vicode.editor.session.forms.project_places import project_fields
 from vicode.editor.session.lint import LintWarning
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath, Finding
@@ -32,7 +33,8 @@ class ItemFields:
     @classmethod
     def of(cls, project: Project, design: Design, item: ItemRef, ids: ListIds) -> "ItemFields":
         nodes, path = item_form(project, design, item, ids), item_path(item) or ()
-        found = {node.path: resolve(design, ids, path, node.path) for node in iter_fields(nodes)}
+        own = [node for node in iter_fields(nodes) if node.path[:1] != ("project",)]
+        found = {node.path: resolve(design, ids, path, node.path) for node in own}
         paths = {known: file_path(design, path, steps) for known, steps in found.items() if steps is not None}
         return cls(item=path, nodes=nodes, paths=paths)
 
@@ -49,7 +51,19 @@ def marks_of(
     return [
         _mark_json(node.path, mark, findings)
         for node in iter_fields(fields.nodes)
+        if node.path in fields.paths
         for mark in _marks(node, fields.paths[node.path], own, lint)
+    ]
+
+
+def project_marks(project: Project, ids: ListIds, findings: Sequence[Finding]) -> list[dict[str, Any]]:
+    """The messages of the forms of project.yaml."""
+    if not findings:
+        return []
+    return [
+        _mark_json(node.path, mark, ())
+        for node, path in project_fields(project, ids)
+        for mark in mark_text("", path, findings)
     ]
 
 

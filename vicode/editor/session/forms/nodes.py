@@ -12,11 +12,23 @@ from typing import Any, Literal
 
 from vicode.findings import DesignPath
 
-OptionList = Literal["states", "uses", "types", "arithmetic", "time_units"]
+OptionList = Literal["states", "uses", "types", "arithmetic", "time_units", "components"]
 """A list of options that many forms share; `form_data.FormLists` has its values."""
-AdderList = Literal["actions", "effects", "modulates", "parameters", "outputs", "variables", "arguments"]
-"""The kinds of cards that can be added to a list: actions with and without calls, modulated components, declarations.
-"""
+DeclarationList = Literal["parameters", "outputs", "variables", "arguments"]
+ProjectList = Literal[
+    "enumerations",
+    "elements",
+    "constants",
+    "components",
+    "agents",
+    "component-parameters",
+    "component-outputs",
+    "component-variables",
+    "component-arguments",
+]
+AdderList = Literal["actions", "effects", "modulates"] | DeclarationList | ProjectList
+"""The kinds of cards that can be added to a list: actions with and without calls, modulated components, declarations
+of the design and of project.yaml."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,6 +57,9 @@ class TextField:
     is_long: bool = False
     is_checked: bool = False
     """Whether some texts are refused."""
+    is_committed: bool = False
+    """Whether the text is applied when the user presses Enter or leaves the field."""
+    is_wide: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -103,6 +118,7 @@ class Check:
     label: str
     value: bool
     hint: str = ""
+    is_wide: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -191,7 +207,7 @@ class Cards:
 
     path: DesignPath
     cards: tuple[Card, ...]
-    adders: AdderList
+    adders: AdderList | Literal[""]
     is_ordered: bool = False
     noun: str = ""
     owner: str = ""
@@ -225,7 +241,8 @@ class Row:
 class Section:
     """A part of the form that is closed until a user opens it, or one of its fields is set.
 
-    `key` remembers for all items whether it is open, unless the section is local; `caption` summarizes its content.
+    `key` remembers for all items whether it is open, and only for this one if the section has a look: that of details,
+    or of a line in a list. `caption` summarizes its content.
     """
 
     key: str
@@ -233,7 +250,57 @@ class Section:
     caption: str
     nodes: tuple["Node", ...]
     is_set: bool = False
-    is_local: bool = False
+    look: Literal["", "more", "line"] = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Group:
+    """The framed form of one declaration, with buttons that remove it and move it up.
+
+    The details are the sections and lists at its end.
+    """
+
+    path: DesignPath
+    noun: str
+    title: str
+    nodes: tuple["Node", ...]
+    look: Literal["", "shared", "element"] = ""
+    can_move_up: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Text:
+    """A text to read; `look` is its CSS class."""
+
+    text: str
+    look: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FormPart:
+    """A part that several forms show, with its key in the forms."""
+
+    form: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfaceRow:
+    """A declaration of another design, to read."""
+
+    name: str
+    about: str
+    doc: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AddRow:
+    """Two fields and a button that adds an input or a command; `options` are those of the second field."""
+
+    kind: Literal["input", "command"]
+    detail: str
+    hint: str = ""
+    options: OptionList | None = None
+    initial: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -258,13 +325,7 @@ class ItemLink:
     label: str
     caption: str
     opens: tuple[str, str]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ServerPart:
-    """A part of the form that the server draws, in the slot with this name."""
-
-    name: Literal["interfaces", "project"]
+    is_code: bool = False
 
 
 Field = TextField | ItemName | Choice | MultiChoice | CodeText
@@ -284,7 +345,11 @@ Node = (
     | Section
     | Uses
     | ItemLink
-    | ServerPart
+    | Group
+    | Text
+    | FormPart
+    | InterfaceRow
+    | AddRow
 )
 """A part of a form."""
 
@@ -295,7 +360,7 @@ def iter_fields(nodes: Iterable[Node]) -> Iterator[Field]:
         match node:
             case Languages():
                 yield from node.texts
-            case Row() | Section():
+            case Row() | Section() | Group():
                 yield from iter_fields(node.nodes)
             case Cards():
                 for card in node.cards:

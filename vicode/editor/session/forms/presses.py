@@ -23,6 +23,7 @@ from vicode.model.edits import (
     assign_id,
     decisions_path,
     remove_decisions,
+    remove_uses,
     reorder_decision,
 )
 
@@ -41,6 +42,9 @@ FormAction = Literal[
     "remove-arguments",
     "add-use",
     "remove-use",
+    "add-input",
+    "add-command",
+    "open-design",
 ]
 _NEW_PREDICATE = "return self.state_time > 2\n"
 _DECISION_LISTS = ("transitions", "then", "else")
@@ -96,6 +100,8 @@ def _remove(_press: Press, document: DocumentSession, owner: DesignPath) -> Form
     match owner:
         case ("frames", str(title)):
             document.edit(f"remove frame {title}", lambda design: remove_frames(design, [title]))
+        case ("uses", str(alias)):
+            document.edit(f"remove component {alias}", lambda design: remove_uses(design, [alias]))
         case ("notes", str(name)):
             document.edit("remove note", lambda design: remove_notes(design, [name]))
         case (*_, int()):
