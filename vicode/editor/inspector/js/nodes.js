@@ -100,12 +100,12 @@ const Uses = {
   },
 };
 
-const Text = {
+const Paragraph = {
   props: { node: Object },
   template: `<div :class="node.look">{{ node.text }}</div>`,
 };
 
-const InterfaceRow = {
+const DeclarationLine = {
   props: { node: Object },
   template: `
     <div class="interface-row nicegui-row">
@@ -114,7 +114,7 @@ const InterfaceRow = {
 };
 
 const KINDS = {
-  TextField, ItemName, Choice, MultiChoice, Check, Colors, CodeText, Languages, Title, Notice, Heading, Button, Decisions, Cards, Row, Section, ItemLink, Uses, Group, Text, InterfaceRow, AddRow,
+  TextField, ItemName, Choice, MultiChoice, Check, Colors, CodeText, Languages, Title, Notice, Heading, Button, Decisions, Cards, Row, Section, ItemLink, Uses, Group, Paragraph, DeclarationLine, AddRow,
 };
 
 /** The nodes of a form, or of a part of it. */

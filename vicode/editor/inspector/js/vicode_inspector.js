@@ -1,6 +1,8 @@
 // The Vue component that NiceGUI loads: the form of the selected item, drawn from data that the browser has already.
 import { FormNodes, FormStore } from "vicode-inspector";
 
+const BUTTON = "button, [role=button], [role=checkbox]";
+const CLICK_TOLERANCE_PX = 4;
 const SENDS_TEXT = ["vicode-send-text", "vicode-leave", "beforeunload"];
 
 export default {
@@ -9,7 +11,7 @@ export default {
     return { store: this.store };
   },
   template: `
-    <div v-show="store.view.nodes.length" class="inspector" @keydown.esc="leave">
+    <div v-show="store.view.nodes.length" class="inspector" @keydown.esc="leave" @pointerdown.capture="press">
       <form-nodes :nodes="store.view.nodes" />
     </div>`,
   beforeCreate() {
@@ -19,12 +21,15 @@ export default {
     this.onSelect = ({ detail }) => this.showSelected(detail.items, detail.seq);
     this.onOpen = (event) => this.open(event.detail.item) && event.preventDefault();
     this.onLeave = () => this.store.sendAll();
+    this.onRelease = (event) => this.release(event);
+    document.addEventListener("pointerup", this.onRelease);
     document.addEventListener("vicode-select", this.onSelect);
     document.addEventListener("vicode-open", this.onOpen);
     for (const event of SENDS_TEXT) addEventListener(event, this.onLeave);
     this.$emit("ready", {});
   },
   unmounted() {
+    document.removeEventListener("pointerup", this.onRelease);
     document.removeEventListener("vicode-select", this.onSelect);
     document.removeEventListener("vicode-open", this.onOpen);
     for (const event of SENDS_TEXT) removeEventListener(event, this.onLeave);
@@ -64,6 +69,17 @@ export default {
       this.isOpening = !this.store.hasForm;
       if (!this.isOpening) this.focusField(this.store.firstPath());
       return !this.isOpening;
+    },
+    press({ target, clientX: x, clientY: y }) {
+      const button = target.closest(BUTTON);
+      this.pressed = button && { button, x, y };
+    },
+    /** A button that moves away while it is pressed gets no click from the browser. */
+    release({ target, clientX, clientY }) {
+      const { button, x, y } = this.pressed ?? {};
+      this.pressed = null;
+      const isAway = button?.isConnected && !button.contains(target);
+      if (isAway && Math.hypot(clientX - x, clientY - y) < CLICK_TOLERANCE_PX) button.click();
     },
     /** Escape returns the focus to the canvas, unless it closes an open list or completion. */
     leave(event) {

@@ -18,7 +18,7 @@ from vicode.editor.session.forms.nodes import (
     Section,
     TextField,
     Title,
-    UseRow,
+    UseLine,
     Uses,
 )
 from vicode.editor.session.forms.project_form import project_section
@@ -56,7 +56,7 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
         *interface_lists(project, design, ids.of_project(project)),
         _xabsl(design),
         Heading(text="Uses", hint="components this design requires or modulates"),
-        Uses(rows=tuple(UseRow(alias=use.alias, component=use.component) for use in design.uses)),
+        Uses(rows=tuple(UseLine(alias=use.alias, component=use.component) for use in design.uses)),
         *declared,
         Heading(text="Every state", hint="transitions and actions before those of each state"),
         ItemLink(label="Common transitions and actions", caption=_describe_common(design), opens=("common", COMMON)),

@@ -9,14 +9,14 @@ from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import (
     AddRow,
     Button,
+    DeclarationLine,
     FormPart,
     Heading,
-    InterfaceRow,
     ItemLink,
     ItemName,
     Node,
+    Paragraph,
     Section,
-    Text,
     Title,
 )
 from vicode.editor.session.forms.project_form import SCOPE, declaration_lines, project_place
@@ -81,7 +81,7 @@ def use_form(project: Project, use: Use, ids: ListIds) -> tuple[Node, ...]:
         ItemName(path=("name",), label="Alias", value=use.alias),
     )
     if interface is None:
-        return (*head, Text(text="Not declared in the project.", look="field-finding"))
+        return (*head, Paragraph(text="Not declared in the project.", look="field-finding"))
     shown = _designed(use, interface) if project.design(use.component) else _hand_written(project, interface, ids)
     return (*head, *shown, Button(label="Remove component", icon="delete", action="remove", is_danger=True))
 
@@ -90,18 +90,18 @@ def _hand_written(project: Project, interface: Interface, ids: ListIds) -> tuple
     places = project_place(ids).items("components", project.components)
     key = next(place.key for place, each in places if each.component == interface.component)
     origin = _ORIGINS.get(interface.implementation, "Hand-written")
-    return (Text(text=origin, look="small"), SCOPE, FormPart(form=key))
+    return (Paragraph(text=origin, look="small"), SCOPE, FormPart(form=key))
 
 
 def _designed(use: Use, interface: Interface) -> tuple[Node, ...]:
     rate = f"Runs at {number_text.format_number(interface.frequency_hz)} Hz"
     facts = [rate if interface.frequency_hz else "Runs on every step"]
     facts += [f"{interface.xabsl_name} in XABSL"] if interface.xabsl_name else []
-    title = (Text(text=interface.title, look="interface-title"),) if interface.title else ()
+    title = (Paragraph(text=interface.title, look="interface-title"),) if interface.title else ()
     return (
         *title,
-        Text(text=interface.doc, look="doc"),
-        Text(text="; ".join(facts), look="small"),
+        Paragraph(text=interface.doc, look="doc"),
+        Paragraph(text="; ".join(facts), look="small"),
         Button(label="Open design", icon="open_in_new", action="open-design"),
         Heading(text=f"Outputs, read as {use.alias}.…"),
         *_table(interface.outputs),
@@ -111,8 +111,8 @@ def _designed(use: Use, interface: Interface) -> tuple[Node, ...]:
 
 
 def _table(declarations: tuple[Declaration, ...]) -> tuple[Node, ...]:
-    rows = tuple(InterfaceRow(name=each.name, about=_about(each), doc=each.doc) for each in declarations)
-    return rows or (Text(text="None", look="empty"),)
+    rows = tuple(DeclarationLine(name=each.name, about=_about(each), doc=each.doc) for each in declarations)
+    return rows or (Paragraph(text="None", look="empty"),)
 
 
 def _about(declaration: Declaration) -> str:

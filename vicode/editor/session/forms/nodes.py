@@ -269,7 +269,7 @@ class Group:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Text:
+class Paragraph:
     """A text to read; `look` is its CSS class."""
 
     text: str
@@ -284,7 +284,7 @@ class FormPart:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class InterfaceRow:
+class DeclarationLine:
     """A declaration of another design, to read."""
 
     name: str
@@ -304,7 +304,7 @@ class AddRow:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class UseRow:
+class UseLine:
     """A used component."""
 
     alias: str
@@ -315,7 +315,7 @@ class UseRow:
 class Uses:
     """The list of used components, with buttons that add and remove them."""
 
-    rows: tuple[UseRow, ...]
+    rows: tuple[UseLine, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -346,9 +346,9 @@ Node = (
     | Uses
     | ItemLink
     | Group
-    | Text
+    | Paragraph
     | FormPart
-    | InterfaceRow
+    | DeclarationLine
     | AddRow
 )
 """A part of a form."""

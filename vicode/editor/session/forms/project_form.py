@@ -23,8 +23,8 @@ from vicode.editor.session.forms.nodes import (
     Heading,
     ItemName,
     Node,
+    Paragraph,
     Section,
-    Text,
     TextField,
 )
 from vicode.editor.session.interface_edits import shared_names
@@ -32,7 +32,7 @@ from vicode.model.design import Declaration
 from vicode.model.edits import unique_name
 from vicode.model.project import Agent, Enumeration, Interface, Project
 
-SCOPE = Text(text="Shared by all designs; saved immediately.", look="empty")
+SCOPE = Paragraph(text="Shared by all designs; saved immediately.", look="empty")
 _COMPONENT_LISTS: tuple[tuple[AdderList, str, str], ...] = (
     ("outputs", "Outputs", "values other components can read"),
     ("variables", "Variables", "values other components can read and set"),
