@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 from vicode.editor.session import number_text
@@ -54,6 +55,7 @@ def declaration_cards(
     )
 
 
+@cache
 def declaration_adders() -> dict[AdderList, Any]:
     """What can be added to the lists of declarations of a design, as JSON values."""
     found: dict[AdderList, Any] = {section: adder_json("Add", _new_group(section)) for section in _LISTS}

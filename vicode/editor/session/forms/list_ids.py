@@ -16,8 +16,9 @@ from vicode.model.merge import find_renamed_states, match_items
 from vicode.model.project import Project
 
 ACTION_LISTS = ("actions", "enter", "leave")
+PROJECT_LISTS = ("enumerations", "constants", "components", "agents")
 DECLARATION_LISTS = ("parameters", "outputs", "variables", "arguments")
-ID_LISTS = (*ACTION_LISTS, *DECLARATION_LISTS, "enumerations", "elements", "constants", "components", "agents")
+ID_LISTS = (*ACTION_LISTS, *DECLARATION_LISTS, *PROJECT_LISTS, "elements")
 """The lists whose items have ids."""
 _NOWHERE: DesignPath = ("",)
 _WANTED = re.compile(r"b[0-9a-z]{4,20}")
@@ -57,7 +58,8 @@ class ListIds:
         if known is None:
             self._project = known = (project, ListIds())
         elif known[0] is not project:
-            known[1].follow(known[0], project)
+            if any(getattr(known[0], name) is not getattr(project, name) for name in PROJECT_LISTS):
+                known[1].follow(known[0], project)
             self._project = known = (project, known[1])
         return known[1]
 
@@ -85,6 +87,8 @@ class ListIds:
         moved: dict[DesignPath, DesignPath] = {}
         if isinstance(new, Design) and [each.name for each in old.states] != [each.name for each in new.states]:
             moved = {("states", now): ("states", then) for then, now in find_renamed_states(old, new).items()}
+        if isinstance(new, Design) and old.outputs is new.outputs:
+            return moved
         indexed = (path for path, _owner in _owners(new) if path and isinstance(path[-1], int))
         return moved | {path: rebase_path(path, new, old) or _NOWHERE for path in indexed}
 
