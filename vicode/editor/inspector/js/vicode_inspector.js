@@ -23,12 +23,18 @@ export default {
     this.onLeave = () => this.store.sendAll();
     this.onRelease = (event) => this.release(event);
     document.addEventListener("pointerup", this.onRelease);
+    this.onFocus = ({ target }) => (this.focused = this.$el.contains(target) ? target : null);
+    document.addEventListener("focusin", this.onFocus);
+    this.moves = new MutationObserver((records) => this.keepFocus(records));
+    this.moves.observe(this.$el, { childList: true, subtree: true });
     document.addEventListener("vicode-select", this.onSelect);
     document.addEventListener("vicode-open", this.onOpen);
     for (const event of SENDS_TEXT) addEventListener(event, this.onLeave);
     this.$emit("ready", {});
   },
   unmounted() {
+    this.moves.disconnect();
+    document.removeEventListener("focusin", this.onFocus);
     document.removeEventListener("pointerup", this.onRelease);
     document.removeEventListener("vicode-select", this.onSelect);
     document.removeEventListener("vicode-open", this.onOpen);
@@ -69,6 +75,13 @@ export default {
       this.isOpening = !this.store.hasForm;
       if (!this.isOpening) this.focusField(this.store.firstPath());
       return !this.isOpening;
+    },
+    /** Moving an element, such as a card of a list, takes the focus away from it. */
+    keepFocus(records) {
+      const { focused } = this;
+      if (!focused?.isConnected || document.activeElement !== document.body) return;
+      const isMoved = records.some(({ removedNodes }) => [...removedNodes].some((node) => node.contains(focused)));
+      if (isMoved) focused.focus({ preventScroll: true });
     },
     press({ target, clientX: x, clientY: y }) {
       const button = target.closest(BUTTON);
