@@ -323,7 +323,7 @@ def test_only_the_forms_that_changed_are_written_again(document: DocumentSession
     assert '"actions","1","code","python"' in after["states/A"]
     edit(document, "check", {"of": "states", "id": "B"}, path="initial", value=True)
     last = writer.write(PROJECT, document.design, ids)
-    assert [key for key in last if last[key] != after[key]] == ["states/A", "states/B"]
+    assert [key for key in last if last[key] != after[key]] == ["design/", "states/A", "states/B"]
 
 
 def test_findings_stand_at_their_fields(document: DocumentSession) -> None:

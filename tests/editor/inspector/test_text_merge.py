@@ -69,7 +69,7 @@ def test_the_browser_merges_as_the_server() -> None:
 
 
 @pytest.mark.parametrize("people", [1, 2])
-@pytest.mark.parametrize("stored", ["as typed", "without outer spaces"])
+@pytest.mark.parametrize("stored", ["as typed", "without outer spaces", "when it is finished"])
 def test_no_letter_is_lost_whatever_the_connection_does(people: int, stored: str) -> None:
     """Random typing, delays in both directions, and a design that may store texts without their outer spaces."""
     assert find_fault(people, stored) == "none"

@@ -1,6 +1,7 @@
 // People type into one field, each over a slow connection: a model of the server and of the network, for SyncedText.
 
 const RUNS = 500;
+const KINDS = { "whole words only": "checked", "when it is finished": "committed" };
 const WORDS = ["the quick brown  fox", "JUMPS OVER  A DOG"];
 
 /** Returns a description of the first fault, or "none". */
@@ -26,7 +27,7 @@ function run(seed, people, stored, SyncedText, mergeTexts) {
     id: 0,
     // One types at the start, the other at the end: their letters must not mix.
     type: (text, letter, count) => (number ? text.slice(0, 1 + count) + letter + text.slice(1 + count) : text + letter),
-    field: Object.assign(new SyncedText(design, stored === "whole words only" && "checked"), { hasFocus: true }),
+    field: Object.assign(new SyncedText(design, KINDS[stored]), { hasFocus: true }),
     up: [],
     down: [],
   }));

@@ -78,7 +78,7 @@ class ToggleSection:
     """The user opened or closed a section; it stays so for all items."""
 
     kind: ClassVar = "section"
-    key: Literal["enter-leave", "more"]
+    key: Literal["enter-leave", "more", "xabsl", "code", "project"]
     is_open: bool
 
 

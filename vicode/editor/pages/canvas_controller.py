@@ -4,8 +4,6 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TypeVar
 
-from nicegui import ui
-
 from vicode.editor.canvas import Canvas
 from vicode.editor.canvas.commands import CANVAS_COMMANDS, CommandGroup
 from vicode.editor.canvas.protocol import (
@@ -35,15 +33,6 @@ from vicode.editor.view.page_urls import design_url
 from vicode.model.design import Point
 from vicode.model.edits import add_use
 from vicode.model.merge import find_renamed_states
-
-# The field appears when its code editor has loaded, a large script.
-_FOCUS_NOTE = """
-(function focus(left) {
-  const field = document.querySelector(".inspector .note-text textarea");
-  if (field) { field.focus(); field.select(); }
-  else if (left > 0) setTimeout(() => focus(left - 1), 50);
-})(40);
-"""
 
 _MENU_GROUPS = {CommandGroup.VIEW: MenuGroup.VIEW, CommandGroup.NAVIGATE: MenuGroup.VIEW}
 # Commands of the page that the menu and the keys of the canvas trigger.
@@ -178,9 +167,9 @@ class CanvasController:
 
     def _edit(self, gesture: RequestedEdit, rev: int) -> None:
         rebased = self._rebase(gesture, rev)
-        self._show_result(self.apply(rebased) if rebased else EditResult(error=texts.ITEM_MISSING))
-        if isinstance(gesture, NoteGesture):
-            ui.run_javascript(_FOCUS_NOTE)
+        result = self.apply(rebased) if rebased else EditResult(error=texts.ITEM_MISSING)
+        self.context.is_opening = isinstance(gesture, NoteGesture) and not result.error
+        self._show_result(result)
 
     def _paste(self, gesture: PasteGesture) -> None:
         known, at = self.context.workspace.project.interfaces(), canvas_point(gesture.x, gesture.y)
@@ -232,14 +221,10 @@ class CanvasController:
         self.context.presence.update(self.context.window, pointer=at)
 
     def _open(self, item: ItemRef, *, is_open: bool) -> None:
-        if item.kind in ("transitions", "common"):
+        if item.kind in ("transitions", "common", "notes"):
             self.context.is_opening = not is_open
             self.context.select(item)
             self.context.notify_subscribers()
-            return
-        if item.kind == "notes":
-            self.context.select(item)
-            ui.run_javascript(_FOCUS_NOTE)
             return
         use = self.context.design.use(item.id) if item.kind == "components" else None
         if use is not None:

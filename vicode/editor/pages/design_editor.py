@@ -21,7 +21,6 @@ from vicode.editor.panels.command_palette import CommandPalette
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.export_dialog import ExportDialog
 from vicode.editor.panels.finding_navigation import FindingNavigator
-from vicode.editor.panels.form import RemovedTexts
 from vicode.editor.panels.header import Header
 from vicode.editor.panels.help_dialog import show_help
 from vicode.editor.panels.open_in_editor import editor_command
@@ -53,7 +52,6 @@ class Window:
     dialogs: DesignDialogs
     palette: CommandPalette
     undo_bar: UndoBar
-    removed_texts: RemovedTexts
     main: ui.element
     tabs: SideTabs
     overlay: ui.element
@@ -67,8 +65,8 @@ class Window:
         return self.users.get_or_create_user(self.user_id)
 
     def clear(self) -> None:
-        """Remove what shows a design. Its text fields stay for a while: text may be on the way."""
-        self.tabs.clear(self.removed_texts.remove)
+        """Remove what shows a design."""
+        self.tabs.clear()
         for container in (self.main, self.overlay):
             container.clear()
         for child in tuple(ui.context.client.content.default_slot.children):

@@ -20,7 +20,6 @@ from vicode.editor.panels.code_editor import CodeEditorFactory
 from vicode.editor.panels.command_palette import CommandPalette
 from vicode.editor.panels.design_dialogs import DesignDialogs
 from vicode.editor.panels.designs_list import DesignsList
-from vicode.editor.panels.form import RemovedTexts
 from vicode.editor.panels.header import Header
 from vicode.editor.panels.open_design import open_design
 from vicode.editor.panels.toasts import show_toast
@@ -70,7 +69,6 @@ class DesignPage:
             dialogs=dialogs,
             palette=CommandPalette(index, self._go_to),
             undo_bar=undo_bar,
-            removed_texts=RemovedTexts(),
             main=main,
             tabs=tabs,
             overlay=ui.element("div"),

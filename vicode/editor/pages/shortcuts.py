@@ -8,7 +8,6 @@ from pathlib import Path
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.pages.form_input_preservation import preserve_form_input
 from vicode.editor.panels.command import Command, CommandHandler
 from vicode.editor.session.delivery import Inbox
 
@@ -89,7 +88,6 @@ def register_shortcuts(commands: Sequence[Command], inbox: Inbox) -> None:
             shortcuts[keys] = {"name": command.name, "typing": command.while_typing}
         if command.keys:
             ui.on(f"command-{command.name}", _reporting_end(command.handler, inbox))
-    preserve_form_input()
     ui.add_body_html(f"<script>\n{_TYPE_AHEAD.read_text(encoding='utf-8')}</script>")
     ui.add_body_html(_SHORTCUT_SCRIPT.replace("COMMANDS", json.dumps(shortcuts)).replace("ESCAPE", ESCAPE_ATTRIBUTE))
 

@@ -1,6 +1,5 @@
 """The panels around the diagram: the dock below and the side panel on the right."""
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from nicegui import ui
@@ -44,9 +43,9 @@ class SideTabs:
             side_splitter()
             self.side = Tabs(_SIDE, "side", "Side panels")
 
-    def clear(self, remove: Callable[[ui.element], None]) -> None:
-        self.dock.clear(remove)
-        self.side.clear(remove)
+    def clear(self) -> None:
+        self.dock.clear()
+        self.side.clear()
 
 
 class SidePanels:

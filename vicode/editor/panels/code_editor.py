@@ -4,7 +4,6 @@ from weakref import WeakSet
 
 from nicegui import ui
 from nicegui.elements.codemirror.constants import SUPPORTED_LANGUAGES, SUPPORTED_THEMES
-from nicegui.events import CodeMirrorFocusChangeEventArguments, Handler
 
 
 class CodeEditorFactory:
@@ -15,12 +14,8 @@ class CodeEditorFactory:
         self._theme: SUPPORTED_THEMES = "vscodeLight"
         self._editors: WeakSet[ui.codemirror] = WeakSet()
 
-    def create(
-        self,
-        on_focus: Handler[CodeMirrorFocusChangeEventArguments] | None = None,
-        language: SUPPORTED_LANGUAGES | None = "Python",
-    ) -> ui.codemirror:
-        editor = ui.codemirror(language=language, theme=self._theme, on_focus_change=on_focus)
+    def create(self, language: SUPPORTED_LANGUAGES | None = "Python") -> ui.codemirror:
+        editor = ui.codemirror(language=language, theme=self._theme)
         self._editors.add(editor)
         return editor
 

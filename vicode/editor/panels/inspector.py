@@ -2,94 +2,39 @@
 
 from nicegui import ui
 
-from vicode.editor.panels.design_panel import design_panel
-from vicode.editor.panels.form import Form, RemovedTexts, Rows
-from vicode.editor.panels.frame_panel import frame_panel
 from vicode.editor.panels.item_forms import ItemForms
+from vicode.editor.panels.link_panel import link_panel
 from vicode.editor.panels.multi_selection_panel import multi_selection_panel
-from vicode.editor.panels.note_panel import note_panel
-from vicode.editor.panels.use_panel import link_panel, use_panel
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.forms.form_data import has_form
-from vicode.editor.session.rebase import rebase_selection
 from vicode.editor.view import ItemRef
 
-# Escape returns the focus to the canvas, unless it closes an open list or completion.
-_FOCUS_CANVAS = """(event) => {
-  if (event.defaultPrevented || event.target.getAttribute("aria-expanded") === "true") return;
-  document.querySelector(".canvas")?.shadowRoot?.querySelector(".stage")?.focus();
-}"""
-
-
-_SCROLL_TO_TOP = """
-for (let each = getHtmlElement(%d); each && !each.matches(".side"); each = each.parentElement) each.scrollTop = 0;
-"""
+_FOCUS_CANVAS = '() => document.querySelector(".canvas")?.shadowRoot?.querySelector(".stage")?.focus()'
 
 
 class Inspector:
-    """Builds a form when another item is selected or its kind changes; else it refreshes the form."""
+    """The forms, which the browser draws, and the panels of several items and of links."""
 
     def __init__(self, context: WindowContext) -> None:
         self.context = context
-        self._last_seen = (context.selected, context.design)
-        self._selection_number = 0
-        """Changes if another item is selected, but not if the same item was renamed or moved."""
-        self._form = Form(context, RemovedTexts())
-        with ui.element("div").props("data-form") as self._host:
-            self._item_forms = ItemForms(context)
-            Rows(self._form, self._list_keys, self._build, "inspector")
-        self._host.on("keydown.escape", js_handler=_FOCUS_CANVAS)
-        context.linter.changes.subscribe(lambda: None if self._host.is_deleted else self.refresh())
+        self._shown: tuple[ItemRef, ...] = ()
+        self._forms = ItemForms(context)
+        self._panel = ui.element("div").classes("inspector")
+        self._panel.on("keydown.escape", js_handler=_FOCUS_CANVAS)
 
     def refresh(self) -> None:
-        self._item_forms.refresh()
-        self._form.refresh()
+        self._forms.refresh()
+        selected = self.context.selected
+        if selected != self._shown:
+            self._shown = selected
+            self._panel.clear()
+            with self._panel:
+                self._build(selected)
 
-    def _list_keys(self) -> list[object]:
-        context, before = self.context, self._last_seen
-        self._last_seen = (context.selected, context.design)
-        if tuple(rebase_selection(item, before[1], context.design) for item in before[0]) != context.selected:
-            self._selection_number += 1
-            if self._item_kind() is not None:
-                context.client.run_javascript(_SCROLL_TO_TOP % self._host.id)
-        return [(self._selection_number, self._item_kind())]
-
-    def _item_kind(self) -> object:
-        """What a form cannot follow in place; None if the item does not exist."""
-        context = self.context
-        if len(context.selected) == 1 and has_form(context.design, context.selected[0]):
-            # Drawn by the browser.
-            return None
-        match context.single_selection:
-            case ItemRef(kind="states"):
-                return None
-            case ItemRef(kind="components", id=alias):
-                use, project = context.design.use(alias), context.workspace.project
-                interface = project.interface(use.component) if use else None
-                is_designed = use is not None and project.design(use.component) is not None
-                return use and (use.component, interface if is_designed else interface is not None)
-            case ItemRef(kind="frames", id=name):
-                return "frame" if context.design.frame(name) is not None else None
-            case ItemRef(kind="notes", id=name):
-                return ("note", name) if any(note.name == name for note in context.design.notes) else None
+    def _build(self, selected: tuple[ItemRef, ...]) -> None:
+        match selected:
+            case (_, _, *_):
+                multi_selection_panel(self.context)
+            case (ItemRef(kind="links", id=key),):
+                link_panel(self.context, key)
             case _:
-                return context.selected or "design"
-
-    def _build(self, form: Form, _key: object) -> None:
-        context = self.context
-        if len(context.selected) > 1:
-            multi_selection_panel(context)
-            return
-        if self._item_kind() is None:
-            return
-        match context.single_selection:
-            case ItemRef(kind="components", id=alias):
-                use_panel(form, alias)
-            case ItemRef(kind="links", id=key):
-                link_panel(context, key)
-            case ItemRef(kind="frames", id=name):
-                frame_panel(form, name)
-            case ItemRef(kind="notes", id=name):
-                note_panel(form, name)
-            case _:
-                design_panel(form)
+                pass

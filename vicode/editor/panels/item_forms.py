@@ -20,6 +20,8 @@ from vicode.editor.inspector.protocol import (
 from vicode.editor.panels import texts
 from vicode.editor.panels.finding_navigation import apply_fix
 from vicode.editor.panels.open_in_editor import open_in_editor
+from vicode.editor.panels.project.edits import ProjectFormEdits
+from vicode.editor.panels.rename_dialog import rename_declaration
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.completion import (
     CompletionResult,
@@ -29,18 +31,28 @@ from vicode.editor.session.completion import (
 )
 from vicode.editor.session.fixes import find_fixes
 from vicode.editor.session.forms.action_form import component_parameters, settable_declarations
-from vicode.editor.session.forms.edits import FormEdit, NameEdit, TextEdit
+from vicode.editor.session.forms.declaration_form import declared_symbol
+from vicode.editor.session.forms.edits import ButtonEdit, FormEdit, NameEdit, TextEdit
 from vicode.editor.session.forms.form_data import Forms, has_form
 from vicode.editor.session.forms.form_paths import file_path, item_path, parse_path, resolve
-from vicode.editor.session.forms.marks import ItemFields, marks_of, note_at
+from vicode.editor.session.forms.form_places import FormResult
+from vicode.editor.session.forms.marks import ItemFields, marks_of, note_at, project_marks
+from vicode.editor.session.forms.project_places import resolve_in_project
 from vicode.editor.session.forms.state_form import OUTSIDE
 from vicode.editor.session.item_paths import item_at
 from vicode.editor.session.rebase import rebase_selection
 from vicode.editor.session.texts import ITEM_MISSING
-from vicode.editor.view import ItemRef, item_at_path
+from vicode.editor.view import ItemKind, ItemRef, item_at_path
 from vicode.findings import DesignPath
 from vicode.model.design import Call, Design
 
+_MOVING_KINDS: Mapping[str, ItemKind] = {
+    "states": "states",
+    "transitions": "transitions",
+    "frames": "frames",
+    "components": "components",
+}
+"""The kinds of items whose names or places can change."""
 _MAX_TEXT_LENGTH = 200_000
 
 
@@ -52,6 +64,7 @@ class ItemForms:
         self._shown: tuple[Design, Forms] = (context.design, {})
         self._edited: tuple[ItemRef, str] | None = None
         """The item and the path of the field with the focus."""
+        self._project = ProjectFormEdits(context)
         self.view = FormView(self._edit, self._handle, self._on_malformed, self._prepare, context.inbox)
         context.linter.changes.subscribe(lambda: None if self.view.is_deleted else self.refresh())
 
@@ -103,9 +116,9 @@ class ItemForms:
         moved = {}
         for key, text in before.items():
             kind, _slash, id_ = key.partition("/")
-            if forms.get(key) == text or kind == "common":
+            if forms.get(key) == text or kind not in _MOVING_KINDS:
                 continue
-            item = ItemRef(kind="transitions" if kind == "transitions" else "states", id=id_)
+            item = ItemRef(kind=_MOVING_KINDS[kind], id=id_)
             now = rebase_selection(item, design, self.context.design)
             if now is not None and now != item:
                 moved[key] = f"{now.kind}/{now.id}"
@@ -124,7 +137,7 @@ class ItemForms:
             for finding in findings
             if finding.subject is not None and finding.subject.component == context.design.component
         }
-        selected = context.single_selection
+        selected = self._shown_item()
         marks = {
             f"{item.kind}/{item.id}": marks_of(self._fields(item), findings)
             for item in items
@@ -134,7 +147,13 @@ class ItemForms:
             fields = self._fields(selected)
             own = marks_of(fields, findings, context.linter.lints_for)
             marks[f"{selected.kind}/{selected.id}"] = [*own, *self._notices(selected), *self._others_typing(fields)]
+        project = context.workspace.project
+        marks["project/"] = project_marks(project, context.document.shared.list_ids, context.workspace.project_findings)
         return {key: found for key, found in marks.items() if found}
+
+    def _shown_item(self) -> ItemRef | None:
+        """The item whose form is shown: the design if nothing is selected."""
+        return self.context.single_selection if self.context.selected else ItemRef(kind="design")
 
     def _notices(self, item: ItemRef) -> list[dict[str, Any]]:
         document = self.context.document
@@ -152,17 +171,42 @@ class ItemForms:
 
     def _edit(self, edit: FormEdit) -> Mapping[str, object]:
         context = self.context
-        result = edit.apply(context.document)
+        result = self._apply(edit)
         if result.new_selection is not None:
             context.select(*result.new_selection)
         if result.renamed is not None and result.renamed[0] in context.selected:
             context.select(*(result.renamed[1] if item == result.renamed[0] else item for item in context.selected))
         if result.error == ITEM_MISSING:
             context.show_toast(texts.EDITED_ITEM_REMOVED, "warning")
-        elif result.error and not isinstance(edit, TextEdit | NameEdit):
+        elif result.error and not isinstance(edit, TextEdit | NameEdit) and edit.path != "project":
             # Fields for texts show their errors themselves.
             context.show_toast(texts.sentence(result.error), "warning")
         return {"own": result.own, "error": result.error}
+
+    def _apply(self, edit: FormEdit) -> FormResult:
+        if edit.path.partition("/")[0] == "project":
+            return self._project.apply(edit)
+        match edit:
+            case NameEdit(item=ItemRef(kind="design")):
+                return self._rename(edit.path, edit.text.strip())
+            case ButtonEdit(action="open-design", item=ItemRef(kind="components", id=alias)):
+                use = self.context.design.use(alias)
+                if use is not None:
+                    self.context.page.open_component(use.component)
+                return FormResult()
+            case _:
+                return edit.apply(self.context.document)
+
+    def _rename(self, path: str, new: str) -> FormResult:
+        """Rename a declaration of the design; a dialog may ask first, and the name stays until then."""
+        document = self.context.document
+        ids = document.shared.list_ids
+        symbol = declared_symbol(document.design, ids, path)
+        if symbol is None:
+            return FormResult(error=ITEM_MISSING)
+        error = "" if new == symbol.name else rename_declaration(self.context, symbol, new)
+        now = declared_symbol(document.design, ids, path)
+        return FormResult(own=now.name if now else "", error=error)
 
     def _handle(self, event: FormEvent) -> None:
         context = self.context
@@ -204,8 +248,11 @@ class ItemForms:
     def _path_in_file(self, item: ItemRef, path: str) -> DesignPath:
         """The path in the file of a field; empty if it no longer exists."""
         design, ids, owner = self.context.design, self.context.document.shared.list_ids, item_path(item)
-        steps = resolve(design, ids, owner, parse_path(path))
-        return () if steps is None else file_path(owner, steps)
+        if path.partition("/")[0] == "project":
+            shared = resolve_in_project(self.context.workspace.project, ids, parse_path(path))
+            return () if shared is None else ("project", *shared)
+        steps = None if owner is None else resolve(design, ids, owner, parse_path(path))
+        return () if owner is None or steps is None else file_path(design, owner, steps)
 
     def _fixes(self, number: int) -> list[Any]:
         context, findings = self.context, self.context.document.findings
@@ -225,7 +272,7 @@ class ItemForms:
             self.context.design,
             self.context.document.shared.list_ids,
         )
-        owner = item_path(request.item)
+        owner = item_path(request.item) or ()
         steps = resolve(design, ids, owner, parse_path(request.path)) or ()
         match steps[-1:]:
             case ("python",):

@@ -51,12 +51,11 @@ class Tabs:
             self._builders = builders
             self.refresh()
 
-    def clear(self, remove: Callable[[ui.element], None]) -> None:
-        """Call `remove` with the content of each panel; the same tab stays open, and `build` fills it again."""
+    def clear(self) -> None:
+        """Remove the content of each panel; the same tab stays open, and `build` fills it again."""
         self._builders, self._panels = {}, {}
         for slot in self._slots.values():
-            for child in tuple(slot.default_slot.children):
-                remove(child)
+            slot.clear()
 
     def refresh(self) -> None:
         if not self._builders:

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 NO_PROBLEMS = "No problems found"
 NO_FIX = "No automatic fix available"
 FIX_OUTDATED = "The text has changed. Choose the fix again."
-NO_DECLARATIONS = "None"
 NO_SUCH_COMPONENT = "No such component."
 NO_MATCHING_DESIGNS = "No designs match the filter."
 NO_DESCRIPTION = "No description"
@@ -39,17 +38,11 @@ INTERNAL_ERROR = "Internal error; the change may not be saved. See the server lo
 CLIPBOARD_DENIED = "Clipboard access denied. Select the text and copy it, or download the file."
 COMMAND_COPIED = "Command copied."
 
-PROJECT_SCOPE = "Shared by all designs; saved immediately."
 NOT_IMPLEMENTED = "Not implemented yet"
-NOT_DECLARED = "Not declared in the project."
 LAST_ELEMENT = "An enumeration needs at least one element. Remove the enumeration instead."
-FRAME_NEEDS_STATE = "A frame needs at least one state. Remove the frame instead."
-ARITHMETIC_HELP = "xabsl: arithmetic and restart semantics of XABSL. Empty: default semantics."
-TIME_UNIT_HELP = "Unit of state_time and component_time in expressions. Empty: seconds."
 USER_NAME_HELP = "Other users see this name next to your selection and in the history."
 
 EDITED_ITEM_REMOVED = "Another user removed what you were editing"
-CODE_OWNER_CHANGED = "Another user removed, renamed or moved the owner of this code."
 DESIGN_CHANGED_RENAME_AGAIN = "The design changed. Rename again."
 USED_BY_FOLLOWING = "It is used in these places, which will report errors:"
 CHECK_MANUALLY = "Check manually: code that uses this name, possibly with another meaning"
@@ -117,10 +110,6 @@ def renamed_back(name: str) -> str:
 
 def cannot_rename(reason: str) -> str:
     return f"Cannot rename: {reason}"
-
-
-def renamed_by_another_user(name: str) -> str:
-    return f"Another user renamed it to {name}. Press Enter to use your name instead."
 
 
 def skipped_files(files: Sequence[str]) -> str:
@@ -300,8 +289,3 @@ def editor_not_started(name: str, reason: object) -> str:
 
 def nothing_to_open(reason: object) -> str:
     return f"The code is not generated yet: {reason}"
-
-
-def code_languages(label: str) -> str:
-    """The name of the tabs of code."""
-    return f"Languages of {label}"

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from nicegui import ui
+from nicegui.elements.mixins.disableable_element import DisableableElement
 
 ClickHandler = Callable[[], object]
 
@@ -24,13 +25,6 @@ def primary_button(label: str, act: ClickHandler, *, icon: str | None = None) ->
     return ui.button(label, icon=icon, on_click=act, color=None).props("unelevated no-caps").classes("primary-button")
 
 
-def add_button(label: str, accessible_name: str, act: ClickHandler | None = None, *, icon: str = "add") -> ui.button:
-    """Build a small button below a list; `accessible_name` must contain `label`."""
-    button = ui.button(label, icon=icon, on_click=act).props("flat dense no-caps size=sm")
-    button.props["aria-label"] = accessible_name
-    return button
-
-
 def heading(text: str, *, hint: str = "") -> None:
     with ui.row().classes("heading"):
         ui.label(text).props("role=heading aria-level=3")
@@ -49,3 +43,9 @@ def panel_title(
             ui.link(name, "#").classes("mono").on("click.prevent", act)
         elif name:
             ui.label(name).classes("mono")
+
+
+def set_enabled(element: DisableableElement, *, flag: bool) -> None:
+    """Enable or disable a button, without an update if nothing changed."""
+    if element.enabled != flag:
+        element.set_enabled(flag)

@@ -37,26 +37,6 @@ class TrackedItem:
             self._root = root
         return self._path
 
-    def child(self, *steps: str | int) -> "TrackedItem":
-        """The item at a path relative to this one."""
-        return TrackedItem(self.get_root, None if self.path is None else (*self.path, *steps))
-
-    def get(self, root: Any = None) -> Any:
-        """The item in a root, by default the current one; None if it no longer exists."""
-        return None if self.path is None else item_at(self.get_root() if root is None else root, self.path)
-
-    def update(self, root: Any, change: Callable[[Any], Any]) -> Any:
-        """The root with the item replaced by `change(item)`."""
-        return root if self.path is None else change_item(root, self.path, change)
-
-    def remove(self, root: Any) -> Any:
-        """The root without the item, which is one of a list."""
-        path = self.path
-        if not path:
-            return root
-        index = int(path[-1])
-        return change_item(root, path[:-1], lambda items: items[:index] + items[index + 1 :])
-
 
 def item_at(root: Any, path: DesignPath) -> Any:
     """The item at a path; None if there is none."""

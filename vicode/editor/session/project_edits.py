@@ -217,6 +217,13 @@ def add_declaration(component: Interface, section: str) -> Interface:
     return replace(component, **changes)
 
 
+def add_argument(output: Declaration) -> Declaration:
+    """Add an argument to an output, which becomes a function."""
+    known = output.arguments or ()
+    added = Declaration(name=unique_name("argument", {each.name for each in known}), type="float")
+    return replace(output, arguments=(*known, added))
+
+
 def _first_error(read: ProjectReadResult | None) -> str:
     first = next(iter(read.findings), None) if read is not None else None
     return f"{first.message}{first.fix and f'; {first.fix}'}" if first is not None else ""

@@ -1,4 +1,4 @@
-"""Three-way merges of texts: by lines for versions of a file, by characters for concurrent typing."""
+"""Three-way merges of texts: by lines, for versions of a file."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -76,21 +76,6 @@ def merge_texts(base: str, ours: str, theirs: str, *, keeps_theirs: bool) -> str
         merged += sides[-1] if keeps_theirs and sides[-1] != sides[0] else []
         offset = end
     return "".join([*merged, *lines[offset:]])
-
-
-def merge_characters(base: str, ours: str, theirs: str) -> str:
-    """Merge by characters. Where both sides changed the same text, both versions are kept, ours first."""
-    merged: list[str] = []
-    for chunk in split_chunks(*(text.splitlines(keepends=True) for text in (base, ours, theirs))):
-        resolved = chunk.resolve()
-        merged += _merge_chunk_characters(chunk) if resolved is None else resolved
-    return "".join(merged)
-
-
-def _merge_chunk_characters(lines: MergeChunk) -> Iterator[str]:
-    for chunk in split_chunks(*("".join(side) for side in (lines.base, lines.ours, lines.theirs))):
-        resolved = chunk.resolve()
-        yield from (*chunk.ours, *chunk.theirs) if resolved is None else resolved
 
 
 def _common_runs(

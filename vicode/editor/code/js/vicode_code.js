@@ -27,8 +27,5 @@ export default {
     goTo(start) {
       this.codeAssist?.goTo(start);
     },
-    answer(number, answer) {
-      this.codeAssist?.answer(number, answer);
-    },
   },
 };

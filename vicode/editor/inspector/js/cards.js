@@ -4,11 +4,47 @@ import * as CM from "nicegui-codemirror";
 
 const newId = () => `b${Math.random().toString(36).slice(2, 12).padEnd(4, "0")}`;
 
+const DETAILS = ["Section", "Cards", "Button"];
+const SMALL = { flat: true, dense: true, round: true, size: "sm", class: "icon-button" };
+
+/** The framed form of a declaration; its details are below its fields. */
+export const Group = {
+  props: { node: Object },
+  inject: ["store"],
+  template: `
+    <div class="declaration" :class="look" role="group" :aria-label="node.noun + ' ' + node.title" :data-card="path">
+      <form-nodes :nodes="fields" />
+      <q-btn v-if="node.can_move_up" v-bind="small" icon="arrow_upward" class="move-up" :aria-label="'Move up ' + name" @click="store.press('move-card', { path, to: '-1' })" />
+      <q-btn v-bind="small" icon="close" :aria-label="'Remove ' + name" @click="store.press('remove-card', { path })" />
+      <form-nodes :nodes="details" />
+    </div>`,
+  computed: {
+    small: () => SMALL,
+    look() {
+      return { shared: "shared removable", element: "element-row" }[this.node.look];
+    },
+    path() {
+      return this.node.path.join("/");
+    },
+    /** In project.yaml, things of different kinds have the same names. */
+    name() {
+      return this.node.path[0] === "project" ? `${this.node.noun} ${this.node.title}` : this.node.title;
+    },
+    details() {
+      return this.node.nodes.filter(({ is }) => DETAILS.includes(is));
+    },
+    fields() {
+      return this.node.nodes.filter(({ is }) => !DETAILS.includes(is));
+    },
+  },
+};
+
 export const Cards = {
   props: { node: Object },
   inject: ["store"],
   template: `
-    <div v-for="(card, index) in node.cards" :key="card.id" class="card nicegui-column" :data-card="pathOf(card)">
+    <template v-if="node.noun" v-for="card in node.cards" :key="card.id"><form-nodes :nodes="card.nodes" /></template>
+    <div v-else v-for="(card, index) in node.cards" :key="card.id" class="card nicegui-column" :data-card="pathOf(card)">
       <div class="card-head nicegui-row">
         <div class="card-title">{{ card.title }}</div>
         <div class="row-buttons nicegui-row">
@@ -21,8 +57,8 @@ export const Cards = {
       </div>
       <form-nodes :nodes="card.nodes" />
     </div>
-    <div v-if="adders.length" class="adders nicegui-row">
-      <q-btn v-for="adder in adders" flat dense no-caps size="sm" :icon="adder.icon" :label="adder.label" :aria-label="'Add to ' + list + ': ' + adder.label"
+    <div v-if="adders.length" class="adders wide nicegui-row">
+      <q-btn v-for="adder in adders" flat dense no-caps size="sm" :icon="adder.icon" :label="adder.label" :aria-label="nameOf(adder)"
         :disable="adder.options && !optionsOf(adder).length" @click="adder.options || add(adder)">
         <q-menu v-if="adder.options" auto-close no-refocus><q-list>
           <q-item v-for="option in optionsOf(adder)" clickable class="mono" role="menuitem" @click="add(adder, option)"><q-item-section>{{ option }}</q-item-section></q-item>
@@ -30,17 +66,22 @@ export const Cards = {
       </q-btn>
     </div>`,
   computed: {
-    small: () => ({ flat: true, dense: true, round: true, size: "sm", class: "icon-button" }),
+    small: () => SMALL,
     list() {
       return this.node.path.join("/");
     },
     adders() {
-      return this.store.view.lists.adders[this.node.adders];
+      return this.store.view.lists.adders[this.node.adders] ?? [];
     },
   },
   methods: {
     name(verb, { title }, index) {
       return this.node.is_ordered ? `${verb}: ${index + 1} ${title}` : `${verb}: ${title}`;
+    },
+    nameOf({ label }) {
+      const { noun, owner } = this.node;
+      if (!noun) return `Add to ${this.list}: ${label}`;
+      return label === "Add" ? `Add ${noun}` : owner ? `Add ${label} to ${owner}` : `Add ${label}`;
     },
     pathOf(card) {
       return `${this.list}/${card.id}`;
@@ -54,12 +95,17 @@ export const Cards = {
     },
     add(adder, alias = "") {
       const id = adder.is_unique ? alias : newId();
-      this.store.addCard(this.node.path, adder, { id, alias, text: adder.nodes[0].value ?? "" });
+      const title = this.node.noun ? this.store.freeName(this.node, adder.title || this.node.noun) : [adder.title, alias].filter(Boolean).join(" ");
+      const text = this.node.noun ? title : (adder.nodes[0].value ?? "");
+      this.store.addCard(this.node.path, adder, { id, alias, title, text });
       nextTick(() => this.edit(`${this.list}/${id}`));
     },
     /** Focuses the first field of a card; its text is selected, to be typed over. */
     edit(path) {
-      const content = document.querySelector(`[data-card="${CSS.escape(path)}"] .cm-content`);
+      // The same declarations may stand in two lists of a form.
+      const card = [...document.querySelectorAll(`[data-card="${CSS.escape(path)}"]`)].find((each) => each.offsetParent);
+      if (this.node.noun) return card?.querySelector("input").select();
+      const content = card?.querySelector(".cm-content");
       const view = content && CM.EditorView.findFromDOM(content);
       if (!view) return;
       view.focus();

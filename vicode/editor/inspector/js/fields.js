@@ -40,6 +40,10 @@ const textField = (template) => ({
     },
   },
   methods: {
+    /** Enter finishes a text of one line. */
+    finish() {
+      if (this.node.is_committed && !this.node.is_long) this.store.commit(this.field);
+    },
     type(text) {
       this.store.type(this.field, String(text ?? ""));
     },
@@ -47,10 +51,10 @@ const textField = (template) => ({
 });
 
 export const TextField = textField(
-  `<div class="field nicegui-column" :data-path="path">
-    <q-input ref="input" outlined dense stack-label :label="node.label" :placeholder="node.hint" :model-value="field.local"
+  `<div class="field nicegui-column" :class="{ wide: node.is_wide }" :data-path="path">
+    <q-input ref="input" outlined dense stack-label :label="node.label" :maxlength="node.is_committed ? 2000 : undefined" :placeholder="node.hint" :model-value="field.local"
       :type="node.is_long ? 'textarea' : 'text'" :autogrow="node.is_long" :class="[{ mono: node.is_code, 'has-finding': worst }, worst]"
-      v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @blur="store.blur(field)" />
+      v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @blur="store.blur(field)" @keydown.enter="finish" />
     <messages :marks="marks" :error="field.error" />
     <div v-if="node.help" class="empty">{{ node.help }}</div>
   </div>`,
@@ -80,7 +84,7 @@ const valueField = (template, members = {}) => ({
       return marksAt(this.store, this.path);
     },
     options() {
-      return [...new Set([...this.store.view.lists[this.node.options], ...[this.value].flat()])];
+      return [...new Set([...this.store.view.lists[this.node.options], ...[this.value].flat()])].filter(Boolean);
     },
   },
   ...members,
@@ -88,9 +92,10 @@ const valueField = (template, members = {}) => ({
 
 export const Choice = valueField(`
   <div class="field nicegui-column" :data-path="path">
-    <q-select outlined dense options-dense stack-label :label="node.label" :options="options" :model-value="value"
-      @update:model-value="(chosen) => store.choose('choose', path, chosen)" />
+    <q-select outlined dense options-dense stack-label :clearable="node.is_clearable" :class="{ 'has-finding': marks.length }" :label="node.label" :options="options"
+      :model-value="value || null" @update:model-value="(chosen) => store.choose('choose', path, chosen ?? '')" />
     <messages :marks="marks" />
+    <div v-if="node.help" class="empty">{{ node.help }}</div>
   </div>`);
 
 export const MultiChoice = valueField(`
@@ -101,7 +106,7 @@ export const MultiChoice = valueField(`
   </div>`);
 
 export const Check = valueField(`
-  <q-checkbox dense :label="node.label" :model-value="value" :data-path="path" @update:model-value="(checked) => store.choose('check', path, checked)">
+  <q-checkbox dense :class="{ wide: node.is_wide }" :label="node.label" :model-value="value" :data-path="path" @update:model-value="(checked) => store.choose('check', path, checked)">
     <q-tooltip v-if="node.hint">{{ node.hint }}</q-tooltip>
   </q-checkbox>`);
 

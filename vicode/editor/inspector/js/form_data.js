@@ -14,7 +14,10 @@ export function textNodes(nodes, found = new Map()) {
 }
 
 /** The `SyncedText` of a node. */
-export const syncedText = (node) => new SyncedText(node.value ?? "", node.is === "ItemName" ? "name" : node.is_checked && "checked");
+export function syncedText(node) {
+  const kinds = { name: node.is === "ItemName", committed: node.is_committed, checked: node.is_checked };
+  return new SyncedText(node.value ?? "", Object.keys(kinds).find((kind) => kinds[kind]));
+}
 
 /** The paths of all cards of a form. */
 export function cardsIn(nodes, paths = new Set()) {
@@ -29,8 +32,11 @@ export function cardsIn(nodes, paths = new Set()) {
 export function placeOf(nodes, path) {
   for (const node of nodes) {
     const index = (node.cards ?? []).findIndex(({ id }) => path.startsWith([...node.path, id, ""].join("/")));
-    if (index >= 0) return path.replace([...node.path, node.cards[index].id].join("/"), () => [...node.path, `#${index}`].join("/"));
-    for (const part of [node.nodes, node.texts].filter(Boolean)) path = placeOf(part, path);
+    if (index >= 0) {
+      const { id, nodes: inner = [] } = node.cards[index];
+      return placeOf(inner, path).replace([...node.path, id].join("/"), () => [...node.path, `#${index}`].join("/"));
+    }
+    path = placeOf(node.nodes ?? [], path);
   }
   return path;
 }
@@ -51,9 +57,27 @@ export function withPending(nodes, pending) {
 export function placed(nodes, path, alias) {
   return nodes.map((node) => ({
     ...node,
-    ...(node.path ? { path: [...path, ...node.path] } : {}),
+    ...(node.path || node.is === "Group" ? { path: [...path, ...(node.path ?? [])] } : {}),
+    ...(node.look && node.is === "Section" ? { key: (node.key ?? "") + path.join("/") } : {}),
     ...(alias && node.language === "pairs" ? { alias } : {}),
     ...(node.texts ? { texts: placed(node.texts, path, alias) } : {}),
     ...(node.nodes ? { nodes: placed(node.nodes, path, alias) } : {}),
   }));
+}
+
+/** The nodes with the parts that several forms show; `forms` has their texts by their keys. */
+export function expanded(nodes, forms) {
+  return nodes.flatMap((node) => {
+    if (node.is === "FormPart") return expanded(JSON.parse(forms.get(node.form) ?? "[]"), forms);
+    for (const name of ["nodes", "cards"]) if (node[name]) node[name] = expanded(node[name], forms);
+    return [node];
+  });
+}
+
+/** Gives the nodes of a new card its name. */
+export function named(nodes, name) {
+  const [first] = nodes;
+  if ("title" in first || first.is === "Group") first.title = name;
+  if (first.nodes) named(first.nodes, name);
+  else first.value = name;
 }

@@ -1,11 +1,16 @@
 // What the inspector knows: the forms of all items, the texts of their fields, and the edits on their way.
 import { nextTick, reactive } from "vue";
-import { cardsIn, placed, placeOf, syncedText, textNodes, withPending } from "./form_data.js";
+import { cardsIn, expanded, named, placed, placeOf, syncedText, textNodes, withPending } from "./form_data.js";
 import { TypedLog } from "./typed_log.js";
 
 const SEND_MS = 200;
+// The fields that a double-click opens, by the kinds of items.
+const FIRST_PATHS = { common: "doc", notes: "text" };
 // The fields in which Python looks for times when their user leaves them.
 const READS_TIMES = /^guard\/(when|after)$/;
+
+// The items whose forms have parts of the form of the project.
+const SHOWS_PARTS = /^(design|components)\//;
 
 export const keyOf = ({ of, id }) => `${of}/${id}`;
 
@@ -19,6 +24,8 @@ class ShownItem {
     this.pending = [];
     this.chosen = reactive({});
     this.closed = reactive({});
+    this.opened = reactive({});
+    this.drafts = {};
   }
 
   get ref() {
@@ -38,6 +45,7 @@ export class FormStore {
     this.timers = new Map();
     this.unsettled = new Set();
     this.typed = new TypedLog();
+    this.answers = new Map();
     this.view = reactive({ key: null, number: 0, nodes: [], lists: {}, marks: {}, openSections: [], language: "" });
   }
 
@@ -50,7 +58,7 @@ export class FormStore {
 
   /** Types a text again that the server may have lost. */
   #restore({ item, place, steps, text }) {
-    const nodes = JSON.parse(this.forms.get(keyOf(item)) ?? "[]");
+    const nodes = this.#nodesOf(keyOf(item)) ?? [];
     const [path, node] = [...textNodes(nodes)].find(([path]) => placeOf(nodes, path) === place) ?? [];
     const now = node && (node.value ?? "");
     if (now === text) return;
@@ -60,7 +68,7 @@ export class FormStore {
 
   #note(field) {
     const [item, path] = this.#find(field);
-    if (item) this.typed.note(field, () => ({ item: item.ref, place: placeOf(this.#nodesOf(item), path) }));
+    if (item) this.typed.note(field, () => ({ item: item.ref, place: placeOf(withPending(this.#nodesOf(item.key) ?? [], item.pending), path) }));
   }
 
   /** Applies changes of the design; `acks` answers edits. */
@@ -76,9 +84,11 @@ export class FormStore {
       if (list === null) delete this.view.marks[key];
       else this.view.marks[key] = list;
     }
-    for (const key of Object.keys(forms)) if (this.items.has(key)) this.#refresh(this.items.get(key));
+    const hasNewParts = Object.keys(forms).some((key) => key.startsWith("project/"));
+    const isNew = (key) => key in forms || (hasNewParts && SHOWS_PARTS.test(key));
+    for (const [key, item] of this.items) if (isNew(key)) this.#refresh(item);
     for (const ack of acks) this.#acknowledge(ack);
-    if (this.view.key in forms || this.view.key in moved) this.#draw();
+    if (isNew(this.view.key) || this.view.key in moved) this.#draw();
   }
 
   /** Shows the form of an item; null shows none. Returns whether it is another one. */
@@ -158,14 +168,36 @@ export class FormStore {
     return this.#emitEdit("press", this.shown.ref, { action, ...fields });
   }
 
+  /** Presses a button; `answer` is called with the error, or "". */
+  ask(action, fields, answer) {
+    this.answers.set(this.press(action, fields), answer);
+  }
+
+  /** Texts of the shown item that are no part of the design yet. */
+  draft(name, empty) {
+    return (this.shown.drafts[name] ??= reactive(empty));
+  }
+
   /** Adds a card at once; the design has it later. */
-  addCard(list, adder, { id, alias, text }) {
+  addCard(list, adder, { id, alias, title, text }) {
     const item = this.shown;
-    const title = [adder.title, alias].filter(Boolean).join(" ");
-    const card = { id, title, nodes: placed(adder.nodes, [...list, id], alias) };
+    const nodes = placed(adder.nodes, [...list, id], alias);
+    if (text) named(nodes, text);
+    if (nodes[0].is === "Section") item.opened[nodes[0].key] = true;
+    const card = { id, title, nodes };
     const edit = this.press("add-card", { path: list.join("/"), adds: adder.adds, card: id, to: alias, text });
     item.pending.push({ edit, list: list.join("/"), card });
     this.#draw();
+  }
+
+  /** A name for a new declaration in a list. */
+  freeName(list, base) {
+    // All declarations of the design have different names.
+    const lists = list.path.length === 1 ? this.view.nodes.filter((node) => node.noun) : [list];
+    const taken = new Set(lists.flatMap(({ cards = [] }) => cards).map(({ title }) => title));
+    let name = base;
+    for (let number = 2; taken.has(name); number += 1) name = `${base}${number}`;
+    return name;
   }
 
   /** Sends all typed texts now. */
@@ -205,6 +237,8 @@ export class FormStore {
   }
 
   #acknowledge({ id, own, error }) {
+    this.answers.get(id)?.(error);
+    this.answers.delete(id);
     for (const item of this.items.values()) {
       for (const field of item.fields.values()) {
         if (!field.sent.some((edit) => edit.id === id)) continue;
@@ -255,11 +289,16 @@ export class FormStore {
   };
 
   /** A section is open if a user has opened it, for all items, or if one of its fields is set and it was not closed here. */
-  isOpen({ key, is_set: isSet }) {
+  isOpen({ key, is_set: isSet, look }) {
+    if (look) return Boolean(this.shown.opened[key]);
     return this.view.openSections.includes(key) || Boolean(isSet && !this.shown.closed[key]);
   }
 
-  toggle({ key }, isOpen) {
+  toggle({ key, look }, isOpen) {
+    if (look) {
+      this.shown.opened[key] = isOpen;
+      return;
+    }
     const others = this.view.openSections.filter((each) => each !== key);
     this.view.openSections = isOpen ? [...others, key] : others;
     this.shown.closed[key] = !isOpen;
@@ -279,7 +318,8 @@ export class FormStore {
 
   /** The field that a double-click opens: that of the guard, or its timer if the guard has nothing else. */
   firstPath() {
-    if (this.shown.ref.of === "common") return "doc";
+    const known = FIRST_PATHS[this.shown.ref.of];
+    if (known) return known;
     const valueAt = (path) => this.view.nodes.find((node) => node.path?.join("/") === path)?.value;
     return valueAt("guard/after") && !valueAt("guard/when") ? "guard/after" : "guard/when";
   }
@@ -301,9 +341,8 @@ export class FormStore {
   }
 
   #refresh(item) {
-    const form = this.forms.get(item.key);
-    if (!form) return;
-    const nodes = JSON.parse(form);
+    const nodes = this.#nodesOf(item.key);
+    if (!nodes) return;
     const cards = cardsIn(nodes);
     item.pending = item.pending.filter(({ list, card }) => !cards.has(`${list}/${card.id}`));
     const isPending = (path) => item.pending.some(({ list, card }) => path.startsWith(`${list}/${card.id}/`));
@@ -315,18 +354,22 @@ export class FormStore {
     }
   }
 
-  #draw() {
-    this.view.nodes = this.hasForm ? this.#nodesOf(this.shown) : [];
-    this.view.number = this.hasForm ? this.shown.number : -1;
+  #nodesOf(key) {
+    const form = this.forms.get(key);
+    return form && expanded(JSON.parse(form), this.forms);
   }
 
-  #nodesOf({ key, pending }) {
-    return withPending(JSON.parse(this.forms.get(key) ?? "[]"), pending);
+  #draw() {
+    const nodes = this.#nodesOf(this.view.key);
+    this.view.nodes = nodes ? withPending(nodes, this.shown.pending) : [];
+    this.view.number = nodes ? this.shown.number : -1;
   }
 
   async focusField(root, path) {
     await nextTick();
     const field = root.querySelector(`[data-path="${path}"]`);
-    (field?.querySelector(".cm-content, input, textarea") ?? field)?.focus();
+    const input = field?.querySelector(".cm-content, input, textarea") ?? field;
+    input?.focus();
+    if (this.shown.ref.of === "notes") input?.select();
   }
 }

@@ -4,7 +4,7 @@ import { mergeTexts } from "./text_merge.js";
 export class SyncedText {
   /**
    * `kind` is "checked" if the server may refuse a text: then one edit at a time is on its way, so that each is typed over a
-   * text that the design has. The text of a "name" is sent when its user has finished it.
+   * text that the design has. The text of a "name" or a "committed" one is sent when its user has finished it.
    */
   constructor(text, kind = "") {
     this.kind = kind;
@@ -41,7 +41,7 @@ export class SyncedText {
   /** The base and the text of the next edit; null if there is nothing to send. `isLeft` says that the user has finished the text. */
   takeEdit(id, isLeft = false) {
     if (!this.isUnsent) return null;
-    if (!isLeft && (this.kind === "name" || (this.kind === "checked" && this.sent.length))) return null;
+    if (!isLeft && (["name", "committed"].includes(this.kind) || (this.kind === "checked" && this.sent.length))) return null;
     const base = this.sent.at(-1)?.text ?? this.server;
     this.sent.push({ id, text: this.local });
     return { base, text: this.local };

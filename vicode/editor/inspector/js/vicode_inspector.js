@@ -1,6 +1,8 @@
 // The Vue component that NiceGUI loads: the form of the selected item, drawn from data that the browser has already.
 import { FormNodes, FormStore } from "vicode-inspector";
 
+const BUTTON = "button, [role=button], [role=checkbox]";
+const CLICK_TOLERANCE_PX = 4;
 const SENDS_TEXT = ["vicode-send-text", "vicode-leave", "beforeunload"];
 
 export default {
@@ -9,7 +11,7 @@ export default {
     return { store: this.store };
   },
   template: `
-    <div class="inspector" data-form @keydown.esc="leave">
+    <div v-show="store.view.nodes.length" class="inspector" @keydown.esc="leave" @pointerdown.capture="press">
       <form-nodes :nodes="store.view.nodes" />
     </div>`,
   beforeCreate() {
@@ -19,12 +21,21 @@ export default {
     this.onSelect = ({ detail }) => this.showSelected(detail.items, detail.seq);
     this.onOpen = (event) => this.open(event.detail.item) && event.preventDefault();
     this.onLeave = () => this.store.sendAll();
+    this.onRelease = (event) => this.release(event);
+    document.addEventListener("pointerup", this.onRelease);
+    this.onFocus = ({ target }) => (this.focused = this.$el.contains(target) ? target : null);
+    document.addEventListener("focusin", this.onFocus);
+    this.moves = new MutationObserver((records) => this.keepFocus(records));
+    this.moves.observe(this.$el, { childList: true, subtree: true });
     document.addEventListener("vicode-select", this.onSelect);
     document.addEventListener("vicode-open", this.onOpen);
     for (const event of SENDS_TEXT) addEventListener(event, this.onLeave);
     this.$emit("ready", { is_continued: !this.store.typed.isEmpty });
   },
   unmounted() {
+    this.moves.disconnect();
+    document.removeEventListener("focusin", this.onFocus);
+    document.removeEventListener("pointerup", this.onRelease);
     document.removeEventListener("vicode-select", this.onSelect);
     document.removeEventListener("vicode-open", this.onOpen);
     for (const event of SENDS_TEXT) removeEventListener(event, this.onLeave);
@@ -53,16 +64,35 @@ export default {
     },
     showSelected(items, seq) {
       this.seq = seq;
-      if (!this.store.show(items.length === 1 ? items[0] : null)) return;
+      const [first = { of: "design", id: "" }, ...others] = items;
+      if (!this.store.show(others.length ? null : first)) return;
       for (let each = this.$el; each && !each.matches(".side"); each = each.parentElement) each.scrollTop = 0;
     },
-    /** Opens the guard of a transition: its timer if it has nothing else. Returns whether its form is here. */
+    /** Opens the first field of an item. Returns whether its form is here. */
     open(item) {
-      if (!["transitions", "common"].includes(item.of)) return false;
+      if (!["transitions", "common", "notes"].includes(item.of)) return false;
       this.showSelected([item], this.seq);
       this.isOpening = !this.store.hasForm;
       if (!this.isOpening) this.focusField(this.store.firstPath());
       return !this.isOpening;
+    },
+    /** Moving an element, such as a card of a list, takes the focus away from it. */
+    keepFocus(records) {
+      const { focused } = this;
+      if (!focused?.isConnected || document.activeElement !== document.body) return;
+      const isMoved = records.some(({ removedNodes }) => [...removedNodes].some((node) => node.contains(focused)));
+      if (isMoved) focused.focus({ preventScroll: true });
+    },
+    press({ target, clientX: x, clientY: y }) {
+      const button = target.closest(BUTTON);
+      this.pressed = button && { button, x, y };
+    },
+    /** A button that moves away while it is pressed gets no click from the browser. */
+    release({ target, clientX, clientY }) {
+      const { button, x, y } = this.pressed ?? {};
+      this.pressed = null;
+      const isAway = button?.isConnected && !button.contains(target);
+      if (isAway && Math.hypot(clientX - x, clientY - y) < CLICK_TOLERANCE_PX) button.click();
     },
     /** Escape returns the focus to the canvas, unless it closes an open list or completion. */
     leave(event) {

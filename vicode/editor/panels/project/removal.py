@@ -6,27 +6,25 @@ from nicegui import ui
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.project.project_fields import node_path, write_project
+from vicode.editor.panels.project.writing import write_project
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.item_paths import TrackedItem, item_at
+from vicode.editor.session.project_paths import ProjectNodePath
 from vicode.editor.session.references import ReferenceLocation, find_references
 
 _MAX_LISTED = 40
 
 
-def confirm_and_remove(context: WindowContext, node: TrackedItem) -> None:
+def confirm_and_remove(context: WindowContext, path: ProjectNodePath) -> None:
     """Remove a node; if it is used, list the references and ask for confirmation."""
-    if node.path is None:
-        return
-    project, path = context.workspace.project, node_path(node)
+    project = context.workspace.project
     name = path.name(project)
-    if path.section == "elements" and len(item_at(project, node.path[:-1])) == 1:
+    if path.section == "elements" and len(ProjectNodePath(steps=path.steps[:-1]).get(project).elements) == 1:
         context.show_toast(texts.LAST_ELEMENT, "warning")
         return
     references = find_references(project, path.symbol_ref(project))
     if not references:
-        _remove(context, node)
+        _remove(context, path)
         return
     with titled_dialog(f"Remove {path.kind} {name}?") as dialog:
         ui.label(texts.USED_BY_FOLLOWING).classes("field-label")
@@ -36,8 +34,8 @@ def confirm_and_remove(context: WindowContext, node: TrackedItem) -> None:
 
         def remove() -> None:
             dialog.close()
-            if node.path is not None and node_path(node).name(context.workspace.project) == name:
-                _remove(context, node)
+            if path.name(context.workspace.project) == name:
+                _remove(context, path)
             else:
                 context.show_toast(texts.changed_by_another_user(name), "warning")
 
@@ -56,8 +54,7 @@ def _list(references: tuple[ReferenceLocation, ...]) -> None:
             ui.label(texts.more(len(references) - _MAX_LISTED, "places")).props('role="listitem"')
 
 
-def _remove(context: WindowContext, node: TrackedItem) -> None:
-    path = node_path(node)
+def _remove(context: WindowContext, path: ProjectNodePath) -> None:
     what = f"remove {path.kind} {path.name(context.workspace.project)}"
     error = write_project(context, path.remove, what, path, is_confirmed=True)
     if error:

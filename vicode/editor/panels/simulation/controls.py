@@ -2,11 +2,10 @@
 
 from nicegui import ui
 
-from vicode.editor.panels.fields import set_enabled
 from vicode.editor.panels.simulation.controller import SPEEDS, SimulationController
 from vicode.editor.panels.simulation.status_message import status_message
 from vicode.editor.panels.simulation.terminal_dialog import show_terminal_command
-from vicode.editor.panels.widgets import icon_button
+from vicode.editor.panels.widgets import icon_button, set_enabled
 from vicode.editor.view import ItemRef
 from vicode.runs import Simulation
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from nicegui import ui
 
-from vicode.editor.panels.project.project_fields import write_project
+from vicode.editor.panels.project.writing import write_project
 from vicode.editor.panels.simulation.inputs_form import input_controls, short_value
 from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.panels.widgets import icon_button

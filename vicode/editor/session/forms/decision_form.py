@@ -94,7 +94,8 @@ def code_texts(project: Project, owner: object, path: DesignPath, owner_path: De
     wanted = [language for language in project.languages if language in LANGUAGES]
     languages = tuple(dict.fromkeys([*wanted, *written])) or ("python",)
     shown = [_code_text(owner, path, language, owner_path) for language in languages]
-    return shown[0] if len(shown) == 1 else Languages(label="Languages of the code", texts=tuple(shown))
+    name = shown[0].label if path[-1] != "code" else "the code"
+    return shown[0] if len(shown) == 1 else Languages(label=f"Languages of {name}", texts=tuple(shown))
 
 
 def _code_text(owner: object, path: DesignPath, language: str, owner_path: DesignPath) -> CodeText:

@@ -7,6 +7,7 @@ from typing import ClassVar, Protocol
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.edits import apply_edit
+from vicode.editor.session.forms.design_presses import DESIGN_PRESSES
 from vicode.editor.session.forms.form_paths import item_path
 from vicode.editor.session.forms.form_places import FormPlace, FormResult, find_place, rebase_owner
 from vicode.editor.session.forms.presses import PRESSES, FormAction
@@ -29,6 +30,8 @@ class FormEdit(Protocol):
 
     @property
     def item(self) -> ItemRef: ...
+    @property
+    def path(self) -> str: ...
 
     def apply(self, document: DocumentSession) -> FormResult: ...
 
@@ -79,9 +82,9 @@ class NameEdit:
 
     def apply(self, document: DocumentSession) -> FormResult:
         owner = rebase_owner(document, item_path(self.item), self.rev)
-        if self.item.kind != "states" or not owner:
+        if self.item.kind not in ("states", "frames", "components") or not owner:
             return FormResult(error=texts.ITEM_MISSING)
-        before = ItemRef(kind="states", id=str(owner[1]))
+        before = ItemRef(kind=self.item.kind, id=str(owner[1]))
         result = apply_edit(document, RenameGesture(item=before, name=self.text))
         selection = result.new_selection
         renamed = None if selection is None else (before, selection[0])
@@ -127,7 +130,8 @@ class ChoicesEdit:
             return FormResult(error=texts.ITEM_MISSING)
         kept = [each for each in now if each in self.value or each not in self.base]
         added = [each for each in self.value if each not in self.base and each not in kept]
-        return place.write(document, (*kept, *added))
+        error = place.field.validate((*kept, *added))
+        return FormResult(error=error) if error else place.write(document, (*kept, *added))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -162,17 +166,18 @@ class ButtonEdit:
     to: str = ""
     """The target of a new transition, the component of a new call, or the new index of a row."""
     adds: str = ""
-    """What a new card contains: "set", "call", "code" or "modulation"."""
+    """What a new card contains: "set", "call", "code", "modulation" or "declaration"."""
     card: str = ""
     """The id of a new card, chosen by the browser."""
     text: str = ""
-    """The text that the browser shows in the new card."""
+    """The text, or the name of the declaration, that the browser shows in the new card."""
 
     def apply(self, document: DocumentSession) -> FormResult:
         owner = rebase_owner(document, item_path(self.item), self.rev)
-        if not owner:
+        if owner is None:
             return FormResult(error=texts.ITEM_MISSING)
-        return PRESSES[self.action](self, document, owner)
+        handler = (PRESSES if owner else DESIGN_PRESSES).get(self.action)
+        return FormResult(error=texts.ITEM_MISSING) if handler is None else handler(self, document, owner)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,11 +15,17 @@ from vicode.model.design import (
     Code,
     CommonSection,
     DecisionGroup,
+    Declaration,
+    Design,
+    DiagramFrame,
+    DiagramNote,
     RunCode,
     State,
     Stay,
     Transition,
 )
+from vicode.model.names import is_valid_name
+from vicode.model.project import Agent, Enumeration, Interface, Project
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,6 +112,8 @@ def pairs(name: str, label: str, *, is_required: bool = False) -> FormField:
     )
 
 
+FROM_VALUE = "from value"
+"""The type of a declaration without one: that of its value."""
 DESCRIPTION = attribute("doc", "Description")
 _PREDICATE = "Predicate (body of a function that returns a bool)"
 _GUARD: Mapping[DesignPath, FormField] = {
@@ -115,20 +123,92 @@ _GUARD: Mapping[DesignPath, FormField] = {
     ("doc",): DESCRIPTION,
     ("disabled",): attribute("disabled", "Disabled (never tested)"),
 }
+_XABSL_NAME = attribute("xabsl_name", "Name in XABSL", parse=str.strip)
+_COLOR = replace(
+    attribute("color", "Color"),
+    validate=lambda value: "" if value in ("", *STATE_COLORS) else texts.INVALID_REQUEST,
+)
 _STATE: Mapping[DesignPath, FormField] = {
     ("name",): attribute("name", "State"),
     ("doc",): DESCRIPTION,
     ("final",): attribute("final", "Final", hint="The component is done in this state"),
     ("disabled",): attribute("disabled", "Disabled", hint="Not generated"),
-    ("color",): replace(
-        attribute("color", "Color"),
-        validate=lambda value: "" if value in ("", *STATE_COLORS) else texts.INVALID_REQUEST,
-    ),
+    ("color",): _COLOR,
     ("requires",): attribute("requires", "Components", parse=tuple),
     ("capacity",): count("capacity", "Capacity (robots at once)", "no limit"),
     ("synchronized",): count("synchronized", "Synchronized (robots)", "not synchronized"),
-    ("xabsl_name",): attribute("xabsl_name", "Name in XABSL", parse=str.strip),
+    ("xabsl_name",): _XABSL_NAME,
 }
+_FREQUENCY = FormField(
+    label="Frequency, Hz",
+    hint="every step",
+    read=lambda owner: number_text.format_number(owner.frequency_hz),
+    write=lambda owner, text: replace(owner, frequency_hz=number_text.parse_frequency(text)),
+    validate=number_text.validate_frequency,
+)
+_DECLARATION: Mapping[DesignPath, FormField] = {
+    ("type",): FormField(
+        label="Type",
+        read=lambda owner: owner.type or FROM_VALUE,
+        write=lambda owner, text: replace(owner, type="" if text == FROM_VALUE else text.strip()),
+    ),
+    ("initial",): attribute("initial", "Value", parse=str.strip),
+    ("unit",): attribute("unit", "Unit", parse=str.strip),
+    ("doc",): DESCRIPTION,
+    ("range",): FormField(
+        label="Range",
+        hint="minimum, maximum: 0, 9000",
+        read=lambda owner: number_text.format_range(owner.range),
+        write=lambda owner, text: replace(owner, range=number_text.parse_range(text)),
+        validate=number_text.validate_range,
+    ),
+    ("xabsl_name",): _XABSL_NAME,
+    ("tunable",): attribute("tunable", "Tune in running robots"),
+}
+_DESIGN: Mapping[DesignPath, FormField] = {
+    ("doc",): DESCRIPTION,
+    ("initial",): attribute("initial", "Initial state"),
+    ("frequency_hz",): _FREQUENCY,
+    ("resume",): attribute("resume", "Resume where it left off"),
+    ("xabsl_name",): _XABSL_NAME,
+    ("arithmetic",): attribute("arithmetic", "Arithmetic"),
+    ("time_unit",): attribute("time_unit", "Time unit"),
+    **{("module", language): code("module", language, "Module") for language in LANGUAGES},
+    **{("members", language): code("members", language, "Members") for language in LANGUAGES},
+}
+
+
+def _validate_name(text: str) -> str:
+    name = text.strip()
+    return ("" if is_valid_name(name) else texts.invalid_identifier(name)) if name else texts.NAME_MISSING
+
+
+_PROJECT: Mapping[DesignPath, FormField] = {
+    ("name",): replace(attribute("name", "Project name"), validate=_validate_name),
+    ("doc",): attribute("doc", "Project description"),
+    ("languages",): FormField(
+        label="Languages",
+        hint="python",
+        read=lambda owner: ", ".join(owner.languages),
+        write=lambda owner, text: replace(owner, languages=tuple(text.replace(",", " ").split())),
+    ),
+    ("world",): attribute("world", "World", hint="module:Class"),
+}
+_SHARED: Mapping[DesignPath, FormField] = {
+    ("doc",): DESCRIPTION,
+    ("xabsl_name",): _XABSL_NAME,
+    ("title",): attribute("title", "Title"),
+}
+_INTERFACE: Mapping[DesignPath, FormField] = {
+    ("frequency_hz",): _FREQUENCY,
+    ("implementation",): attribute(
+        "implementation", "Implementation", hint="none yet; module:Class, world or internal"
+    ),
+    **_SHARED,
+}
+_INTERNAL = "Internal (elements numbered by the XABSL engine)"
+_ENUMERATION: Mapping[DesignPath, FormField] = {("internal",): attribute("internal", _INTERNAL), **_SHARED}
+_MEANING = FormField(label="Meaning", read=lambda pair: pair[1], write=lambda pair, text: (pair[0], text))
 _CODE: Mapping[DesignPath, FormField] = {("code", language): code("code", language, "") for language in LANGUAGES}
 _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     Transition: {("to",): attribute("to", "To"), **_GUARD},
@@ -136,6 +216,21 @@ _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     DecisionGroup: _GUARD,
     State: _STATE,
     CommonSection: {("doc",): attribute("doc", "Description (all states)")},
+    Design: _DESIGN,
+    Project: _PROJECT,
+    Interface: _INTERFACE,
+    Enumeration: _ENUMERATION,
+    Agent: {("root",): attribute("root", "Root"), **_SHARED},
+    tuple: {("doc",): _MEANING},
+    Declaration: _DECLARATION,
+    DiagramFrame: {
+        ("color",): _COLOR,
+        ("states",): replace(
+            attribute("states", "States", parse=tuple),
+            validate=lambda names: "" if names else "a frame needs at least one state; remove the frame instead",
+        ),
+    },
+    DiagramNote: {("text",): attribute("text", "Text")},
     Assign: {("values",): pairs("values", "name = expression, one per line", is_required=True)},
     Call: {("arguments",): pairs("arguments", "parameter = expression, one per line")},
     RunCode: _CODE,
@@ -148,6 +243,19 @@ def initial_field(state: str) -> FormField:
         label="Initial",
         read=lambda design: design.initial == state,
         write=lambda design, value: replace(design, initial=state) if value else design,
+    )
+
+
+def xabsl_field(element: str) -> FormField:
+    """The name of an element in XABSL, as a field of its enumeration."""
+
+    def write(enumeration: Enumeration, text: str) -> Enumeration:
+        names = {**dict(enumeration.xabsl_elements), element: text}
+        pairs = ((each, names.get(each, "")) for each in enumeration.element_names)
+        return replace(enumeration, xabsl_elements=tuple(pair for pair in pairs if pair[1]))
+
+    return FormField(
+        label="Element in XABSL", read=lambda owner: dict(owner.xabsl_elements).get(element, ""), write=write
     )
 
 

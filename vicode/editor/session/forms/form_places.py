@@ -78,32 +78,35 @@ def find_place(document: DocumentSession, item: ItemRef, path: str, rev: int) ->
         return None
     owner, attribute = found
     field = field_of(item_at(design, owner), attribute)
-    return (
-        FormPlace(owner=owner, file_path=file_path(owner[:2], (*owner[2:], *attribute)), field=field) if field else None
-    )
+    start = 2 if item.kind != "design" else 0
+    in_file = file_path(design, owner[:start], (*owner[start:], *attribute))
+    return FormPlace(owner=owner, file_path=in_file, field=field) if field else None
 
 
 def _find_owner(
     document: DocumentSession, item: ItemRef, steps: DesignPath, rev: int
 ) -> tuple[DesignPath, DesignPath] | None:
     """The path of the owner of a value, and the path of the value in it."""
+    path = item_path(item)
+    if path is None:
+        return None
     if not is_in_list(steps):
         inner, attribute = split_path(steps)
-        owner = rebase_owner(document, (*item_path(item), *inner), rev)
-        return (owner, attribute) if owner else None
+        owner = rebase_owner(document, (*path, *inner), rev)
+        return None if owner is None else (owner, attribute)
     # An id names the same action in all revisions.
-    start = rebase_owner(document, item_path(item), rev)
-    resolved = resolve(document.design, document.shared.list_ids, start, steps) if start else None
+    start = rebase_owner(document, path, rev)
+    resolved = resolve(document.design, document.shared.list_ids, start, steps) if start is not None else None
     if start is None or resolved is None:
         return None
     inner, attribute = split_path(resolved)
     return (*start, *inner), attribute
 
 
-def rebase_owner(document: DocumentSession, path: DesignPath, rev: int) -> DesignPath | None:
+def rebase_owner(document: DocumentSession, path: DesignPath | None, rev: int) -> DesignPath | None:
     """The path of an owner that the browser showed at `rev`, in the current design."""
     design = document.shared.design_at(rev)
-    rebased: DesignPath | None = path
+    rebased = path
     # Step by step: an item that was both renamed and moved would not be recognized.
     for number in range(rev + 1, document.rev + 1):
         before, design = design, document.shared.design_at(number)

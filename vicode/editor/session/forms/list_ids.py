@@ -1,7 +1,7 @@
-"""Ids of the actions in a design, by which forms and edits name them.
+"""Ids of the actions and declarations in a design and its project, by which forms and edits name them.
 
-An index would name another action as soon as somebody adds, moves or removes one. Ids follow their actions from one
-version of the design to the next. A browser chooses the ids of the actions that it adds, so it can draw their fields
+An index would name another item as soon as somebody adds, moves or removes one. Ids follow their items from one
+version of the design to the next. A browser chooses the ids of the items that it adds, so it can draw their fields
 and send what is typed into them before it has an answer.
 """
 
@@ -9,11 +9,18 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from vicode.editor.session.item_paths import rebase_path
 from vicode.findings import DesignPath
-from vicode.model.design import CommonSection, Design, State
+from vicode.model.design import Design
 from vicode.model.merge import find_renamed_states, match_items
+from vicode.model.project import Project
 
 ACTION_LISTS = ("actions", "enter", "leave")
+PROJECT_LISTS = ("enumerations", "constants", "components", "agents")
+DECLARATION_LISTS = ("parameters", "outputs", "variables", "arguments")
+ID_LISTS = (*ACTION_LISTS, *DECLARATION_LISTS, *PROJECT_LISTS, "elements")
+"""The lists whose items have ids."""
+_NOWHERE: DesignPath = ("",)
 _WANTED = re.compile(r"b[0-9a-z]{4,20}")
 _Ids = Mapping[str, tuple[str, ...]]
 
@@ -26,6 +33,7 @@ class ListIds:
         """The ids of lists by their name, by the path of their owner."""
         self._last = 0
         self._wanted: tuple[DesignPath, str] | None = None
+        self._project: tuple[Project, ListIds] | None = None
 
     def of_owner(self, path: DesignPath) -> _Ids | None:
         """What differs from the indices; equal values mean equal ids."""
@@ -44,13 +52,28 @@ class ListIds:
         """Give this id to the item that the next edit adds to a list."""
         self._wanted = (path, id_) if _WANTED.fullmatch(id_) else None
 
-    def follow(self, old: Design, new: Design) -> None:
-        """Update the ids to a new version of the design."""
+    def of_project(self, project: Project) -> "ListIds":
+        """The ids of the lists in project.yaml."""
+        known = self._project
+        if known is None:
+            self._project = known = (project, ListIds())
+        elif known[0] is not project:
+            if any(getattr(known[0], name) is not getattr(project, name) for name in PROJECT_LISTS):
+                known[1].follow(known[0], project)
+            self._project = known = (project, known[1])
+        return known[1]
+
+    def snapshot(self) -> object:
+        """Equal values mean that all ids are equal."""
+        return self._changed
+
+    def follow(self, old: Design | Project, new: Design | Project) -> None:
+        """Update the ids to a new version of the design or project."""
         before = dict(_owners(old))
-        names = {path[-1]: name for path, name in self._renamed(old, new).items()}
+        moved = self._moved(old, new)
         changed: dict[DesignPath, _Ids] = {}
         for path, owner in _owners(new):
-            source = path if path in before else (*path[:-1], names.get(path[-1], ""))
+            source = moved.get(path, path)
             known, then = self._changed.get(source), before.get(source)
             if then is not owner:
                 known = self._follow_owner(source, then, path, owner)
@@ -59,17 +82,22 @@ class ListIds:
         self._changed, self._wanted = changed, None
 
     @staticmethod
-    def _renamed(old: Design, new: Design) -> dict[DesignPath, str]:
-        if [state.name for state in old.states] == [state.name for state in new.states]:
-            return {}
-        return {("states", now): then for then, now in find_renamed_states(old, new).items()}
+    def _moved(old: Any, new: Any) -> dict[DesignPath, DesignPath]:
+        """The old paths of owners whose paths have changed."""
+        moved: dict[DesignPath, DesignPath] = {}
+        if isinstance(new, Design) and [each.name for each in old.states] != [each.name for each in new.states]:
+            moved = {("states", now): ("states", then) for then, now in find_renamed_states(old, new).items()}
+        if isinstance(new, Design) and old.outputs is new.outputs:
+            return moved
+        indexed = (path for path, _owner in _owners(new) if path and isinstance(path[-1], int))
+        return moved | {path: rebase_path(path, new, old) or _NOWHERE for path in indexed}
 
     def _follow_owner(self, source: DesignPath, then: Any, path: DesignPath, owner: Any) -> _Ids:
         if then is None:
             return {}
         changed: dict[str, tuple[str, ...]] = {}
-        for section in ACTION_LISTS:
-            before, items = getattr(then, section, ()), getattr(owner, section, ())
+        for section in ID_LISTS:
+            before, items = getattr(then, section, None) or (), getattr(owner, section, None) or ()
             ids = self.ids((*source, section), before)
             if before != items:
                 ids = self._follow_list(ids, before, items, (*path, section))
@@ -80,7 +108,7 @@ class ListIds:
     def _follow_list(
         self, ids: tuple[str, ...], before: tuple[Any, ...], items: tuple[Any, ...], path: DesignPath
     ) -> tuple[str, ...]:
-        matches = match_items(before, items, is_keyed=False)
+        matches = match_items(before, items, is_keyed=path[-1] not in ACTION_LISTS)
         followed = {to: ids[index] for index, to in matches.items()}
         if len(before) == len(items):
             # An item that was changed beyond recognition.
@@ -99,7 +127,20 @@ class ListIds:
         return f"n{self._last}"
 
 
-def _owners(design: Design) -> Iterator[tuple[DesignPath, State | CommonSection]]:
-    for state in design.states:
-        yield ("states", state.name), state
-    yield ("common",), design.common
+def _owners(root: Design | Project) -> Iterator[tuple[DesignPath, Any]]:
+    """The owners of lists, with their paths."""
+    yield (), root
+    if isinstance(root, Design):
+        for state in root.states:
+            yield ("states", state.name), state
+        yield ("common",), root.common
+        yield from _indexed((), "outputs", root.outputs)
+        return
+    yield from _indexed((), "enumerations", root.enumerations)
+    for path, component in _indexed((), "components", root.components):
+        yield path, component
+        yield from _indexed(path, "outputs", component.outputs)
+
+
+def _indexed(path: DesignPath, section: str, items: tuple[Any, ...]) -> Iterator[tuple[DesignPath, Any]]:
+    return (((*path, section, index), item) for index, item in enumerate(items))

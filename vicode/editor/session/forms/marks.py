@@ -10,12 +10,14 @@ from vicode.editor.session.forms.form_data import item_form
 from vicode.editor.session.forms.form_paths import file_path, item_path, resolve
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import CodeText, Field, MultiChoice, Node, iter_fields
+from vicode.editor.session.forms.project_places import project_fields
 from vicode.editor.session.lint import LintWarning
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath, Finding
 from vicode.model.design import Design
 from vicode.model.project import Project
 
+_CODES: tuple[DesignPath, ...] = (("code",), ("module",), ("members",))
 Lint = Callable[[DesignPath, str], Sequence[LintWarning]]
 """The warnings for the Python code at a path, if they belong to this text."""
 
@@ -30,9 +32,10 @@ class ItemFields:
 
     @classmethod
     def of(cls, project: Project, design: Design, item: ItemRef, ids: ListIds) -> "ItemFields":
-        nodes, path = item_form(project, design, item, ids), item_path(item)
-        found = {node.path: resolve(design, ids, path, node.path) for node in iter_fields(nodes)}
-        paths = {known: file_path(path, steps) for known, steps in found.items() if steps is not None}
+        nodes, path = item_form(project, design, item, ids), item_path(item) or ()
+        own = [node for node in iter_fields(nodes) if node.path[:1] != ("project",)]
+        found = {node.path: resolve(design, ids, path, node.path) for node in own}
+        paths = {known: file_path(design, path, steps) for known, steps in found.items() if steps is not None}
         return cls(item=path, nodes=nodes, paths=paths)
 
 
@@ -48,7 +51,19 @@ def marks_of(
     return [
         _mark_json(node.path, mark, findings)
         for node in iter_fields(fields.nodes)
+        if node.path in fields.paths
         for mark in _marks(node, fields.paths[node.path], own, lint)
+    ]
+
+
+def project_marks(project: Project, ids: ListIds, findings: Sequence[Finding]) -> list[dict[str, Any]]:
+    """The messages of the forms of project.yaml."""
+    if not findings:
+        return []
+    return [
+        _mark_json(node.path, mark, ())
+        for node, path in project_fields(project, ids)
+        for mark in mark_text("", path, findings)
     ]
 
 
@@ -71,7 +86,7 @@ def _marks(node: Field, path: DesignPath, findings: Sequence[Finding], lint: Lin
         return mark_text(node.value, path, findings)
     if node.language == "python":
         # Findings about a code that is not named by language are about the Python text.
-        return mark_text(node.value, path[:-1] if path[-2:-1] == ("code",) else path, findings, lint(path, node.value))
+        return mark_text(node.value, path[:-1] if path[-2:-1] in _CODES else path, findings, lint(path, node.value))
     missing = [
         replace(each, subject=replace(each.subject, path=path))
         for each in findings

@@ -12,10 +12,23 @@ from typing import Any, Literal
 
 from vicode.findings import DesignPath
 
-OptionList = Literal["states", "uses"]
+OptionList = Literal["states", "uses", "types", "arithmetic", "time_units", "components"]
 """A list of options that many forms share; `form_data.FormLists` has its values."""
-AdderList = Literal["actions", "effects", "modulates"]
-"""The kinds of cards that can be added to a list: actions with and without calls, modulated components."""
+DeclarationList = Literal["parameters", "outputs", "variables", "arguments"]
+ProjectList = Literal[
+    "enumerations",
+    "elements",
+    "constants",
+    "components",
+    "agents",
+    "component-parameters",
+    "component-outputs",
+    "component-variables",
+    "component-arguments",
+]
+AdderList = Literal["actions", "effects", "modulates"] | DeclarationList | ProjectList
+"""The kinds of cards that can be added to a list: actions with and without calls, modulated components, declarations
+of the design and of project.yaml."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,6 +57,9 @@ class TextField:
     is_long: bool = False
     is_checked: bool = False
     """Whether some texts are refused."""
+    is_committed: bool = False
+    """Whether the text is applied when the user presses Enter or leaves the field."""
+    is_wide: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,6 +86,8 @@ class Choice:
     label: str
     value: str
     options: OptionList
+    help: str = ""
+    is_clearable: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,6 +118,7 @@ class Check:
     label: str
     value: bool
     hint: str = ""
+    is_wide: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -181,12 +200,17 @@ class Card:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cards:
-    """The list at a path, with buttons that add, move and remove its items."""
+    """The list at a path, with buttons that add, move and remove its items.
+
+    The items of a list with a `noun` are declarations, titled by their names; `owner` is the name of their output.
+    """
 
     path: DesignPath
     cards: tuple[Card, ...]
-    adders: AdderList
+    adders: AdderList | Literal[""]
     is_ordered: bool = False
+    noun: str = ""
+    owner: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -217,7 +241,8 @@ class Row:
 class Section:
     """A part of the form that is closed until a user opens it, or one of its fields is set.
 
-    `key` remembers for all items whether it is open; `caption` summarizes its content.
+    `key` remembers for all items whether it is open, and only for this one if the section has a look: that of details,
+    or of a line in a list. `caption` summarizes its content.
     """
 
     key: str
@@ -225,11 +250,107 @@ class Section:
     caption: str
     nodes: tuple["Node", ...]
     is_set: bool = False
+    look: Literal["", "more", "line"] = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Group:
+    """The framed form of one declaration, with buttons that remove it and move it up.
+
+    The details are the sections and lists at its end.
+    """
+
+    path: DesignPath
+    noun: str
+    title: str
+    nodes: tuple["Node", ...]
+    look: Literal["", "shared", "element"] = ""
+    can_move_up: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Paragraph:
+    """A text to read; `look` is its CSS class."""
+
+    text: str
+    look: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FormPart:
+    """A part that several forms show, with its key in the forms."""
+
+    form: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeclarationLine:
+    """A declaration of another design, to read."""
+
+    name: str
+    about: str
+    doc: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AddRow:
+    """Two fields and a button that adds an input or a command; `options` are those of the second field."""
+
+    kind: Literal["input", "command"]
+    detail: str
+    hint: str = ""
+    options: OptionList | None = None
+    initial: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UseLine:
+    """A used component."""
+
+    alias: str
+    component: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Uses:
+    """The list of used components, with buttons that add and remove them."""
+
+    rows: tuple[UseLine, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ItemLink:
+    """A row that leads to the form of another item."""
+
+    label: str
+    caption: str
+    opens: tuple[str, str]
+    is_code: bool = False
 
 
 Field = TextField | ItemName | Choice | MultiChoice | CodeText
 """A part of a form with a value that can have messages."""
-Node = Field | Title | Notice | Colors | Check | Languages | Heading | Decisions | Button | Cards | Row | Section
+Node = (
+    Field
+    | Title
+    | Notice
+    | Colors
+    | Check
+    | Languages
+    | Heading
+    | Decisions
+    | Button
+    | Cards
+    | Row
+    | Section
+    | Uses
+    | ItemLink
+    | Group
+    | Paragraph
+    | FormPart
+    | DeclarationLine
+    | AddRow
+)
 """A part of a form."""
 
 
@@ -239,7 +360,7 @@ def iter_fields(nodes: Iterable[Node]) -> Iterator[Field]:
         match node:
             case Languages():
                 yield from node.texts
-            case Row() | Section():
+            case Row() | Section() | Group():
                 yield from iter_fields(node.nodes)
             case Cards():
                 for card in node.cards:

@@ -16,12 +16,14 @@ from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, DecisionGroup, Design, Guard, Stay
+from vicode.model.diagram_edits import remove_frames, remove_notes
 from vicode.model.edits import (
     add_modulation,
     add_transition,
     assign_id,
     decisions_path,
     remove_decisions,
+    remove_uses,
     reorder_decision,
 )
 
@@ -37,6 +39,12 @@ FormAction = Literal[
     "add-card",
     "remove-card",
     "move-card",
+    "remove-arguments",
+    "add-use",
+    "remove-use",
+    "add-input",
+    "add-command",
+    "open-design",
 ]
 _NEW_PREDICATE = "return self.state_time > 2\n"
 _DECISION_LISTS = ("transitions", "then", "else")
@@ -89,7 +97,17 @@ def _remove_code(_press: Press, document: DocumentSession, owner: DesignPath) ->
 
 
 def _remove(_press: Press, document: DocumentSession, owner: DesignPath) -> FormResult:
-    document.edit("remove transition", lambda design: remove_decisions(design, [owner]))
+    match owner:
+        case ("frames", str(title)):
+            document.edit(f"remove frame {title}", lambda design: remove_frames(design, [title]))
+        case ("uses", str(alias)):
+            document.edit(f"remove component {alias}", lambda design: remove_uses(design, [alias]))
+        case ("notes", str(name)):
+            document.edit("remove note", lambda design: remove_notes(design, [name]))
+        case (*_, int()):
+            document.edit("remove transition", lambda design: remove_decisions(design, [owner]))
+        case _:
+            return _MISSING
     return FormResult(new_selection=())
 
 
@@ -141,8 +159,10 @@ def _move_row(press: Press, document: DocumentSession, _owner: DesignPath) -> Fo
 
 def _row_path(press: Press, document: DocumentSession) -> DesignPath | None:
     steps = parse_path(press.path)
-    is_list = steps[-1:] and steps[-1] in _DECISION_LISTS
-    return rebase_owner(document, (*item_path(press.item), *steps, press.index), press.rev) if is_list else None
+    item = item_path(press.item)
+    if item is None or not steps or steps[-1] not in _DECISION_LISTS:
+        return None
+    return rebase_owner(document, (*item, *steps, press.index), press.rev)
 
 
 def _add_card(press: Press, document: DocumentSession, owner: DesignPath) -> FormResult:
@@ -210,7 +230,7 @@ def _find_card(press: Press, document: DocumentSession, owner: DesignPath) -> tu
     return (*owner, resolved[0]), int(resolved[1])
 
 
-PRESSES: Mapping[FormAction, Handler] = {
+PRESSES: Mapping[str, Handler] = {
     "add-code": _add_code,
     "remove-code": _remove_code,
     "remove": _remove,

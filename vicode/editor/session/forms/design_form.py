@@ -1,0 +1,120 @@
+"""The form of the design: what it is, what it uses and declares, and its code."""
+
+from vicode.editor.session.forms.decision_form import code_texts
+from vicode.editor.session.forms.declaration_form import declaration_cards
+from vicode.editor.session.forms.fields import known_field
+from vicode.editor.session.forms.interface_form import interface_lists
+from vicode.editor.session.forms.item_place import ItemPlace
+from vicode.editor.session.forms.list_ids import ListIds
+from vicode.editor.session.forms.nodes import (
+    Check,
+    Choice,
+    DeclarationList,
+    Heading,
+    ItemLink,
+    Node,
+    OptionList,
+    Row,
+    Section,
+    TextField,
+    Title,
+    UseLine,
+    Uses,
+)
+from vicode.editor.session.forms.project_form import project_section
+from vicode.model.design import COMMON, Design
+from vicode.model.project import Project
+
+_SECTIONS: tuple[tuple[DeclarationList, str, str], ...] = (
+    ("parameters", "Parameters", "inputs other components can set"),
+    ("outputs", "Outputs", "values other components can read"),
+    ("variables", "Variables", "internal values"),
+)
+_XABSL_CHOICES: tuple[tuple[str, OptionList, str], ...] = (
+    ("arithmetic", "arithmetic", "xabsl: arithmetic and restart semantics of XABSL. Empty: default semantics."),
+    ("time_unit", "time_units", "Unit of state_time and component_time in expressions. Empty: seconds."),
+)
+
+
+def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, ...]:
+    """The form of the design, shown while nothing is selected."""
+    resume = known_field(design, ("resume",))
+    declared: list[Node] = []
+    for section, title, hint in _SECTIONS:
+        declared.append(Heading(text=title, hint=hint))
+        declared.append(declaration_cards(ItemPlace(ids=ids), section, getattr(design, section)))
+    return (
+        Title(text="Component", name=design.component),
+        TextField(path=("doc",), label="Description", value=design.doc, is_long=True),
+        Row(
+            nodes=(
+                Choice(path=("initial",), label="Initial state", value=design.initial, options="states"),
+                _text(design, "frequency_hz"),
+            )
+        ),
+        Check(path=("resume",), label=resume.label, value=design.resume),
+        *interface_lists(project, design, ids.of_project(project)),
+        _xabsl(design),
+        Heading(text="Uses", hint="components this design requires or modulates"),
+        Uses(rows=tuple(UseLine(alias=use.alias, component=use.component) for use in design.uses)),
+        *declared,
+        Heading(text="Every state", hint="transitions and actions before those of each state"),
+        ItemLink(label="Common transitions and actions", caption=_describe_common(design), opens=("common", COMMON)),
+        _code(project, design),
+        project_section(project),
+    )
+
+
+def _text(design: Design, name: str) -> TextField:
+    field = known_field(design, (name,))
+    return TextField(
+        path=(name,),
+        label=field.label,
+        value=field.read(design),
+        hint=field.hint,
+        is_code=True,
+        is_checked=name == "frequency_hz",
+    )
+
+
+def _xabsl(design: Design) -> Section:
+    parts = [f"{design.xabsl_name} in XABSL"] if design.xabsl_name else []
+    parts += ["XABSL arithmetic"] if design.arithmetic else []
+    parts += [f"time unit {design.time_unit}"] if design.time_unit else []
+    choices = (
+        Choice(
+            path=(name,),
+            label=known_field(design, (name,)).label,
+            value=getattr(design, name),
+            options=options,
+            help=help_,
+            is_clearable=True,
+        )
+        for name, options, help_ in _XABSL_CHOICES
+    )
+    return Section(
+        key="xabsl",
+        title="XABSL",
+        caption="; ".join(parts) or "name, arithmetic, time unit",
+        nodes=(_text(design, "xabsl_name"), *choices),
+    )
+
+
+def _code(project: Project, design: Design) -> Section:
+    names = [name for name in ("module", "members") if getattr(design, name).texts]
+    return Section(
+        key="code",
+        title="Code",
+        caption=", ".join(names) or "module and class members",
+        nodes=tuple(code_texts(project, design, (name,)) for name in ("module", "members")),
+    )
+
+
+def _describe_common(design: Design) -> str:
+    common = design.common
+    parts = [
+        f"{len(items)} {noun}{'s' * (len(items) != 1)}"
+        for items, noun in ((common.transitions, "transition"), (common.actions, "action"))
+        if items
+    ]
+    return ", ".join(parts) or "none"
