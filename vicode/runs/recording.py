@@ -61,6 +61,13 @@ class Recording:
         assert isinstance(iteration, IterationResult)
         return iteration
 
+    def iterations(self) -> Iterator[IterationResult]:
+        """The iterations recorded so far, also if others are added or removed meanwhile."""
+        for packed in tuple(self._packed):
+            iteration = decode_response(zlib.decompress(packed))
+            assert isinstance(iteration, IterationResult)
+            yield iteration
+
     def number_at(self, time_ns: int) -> int | None:
         """The number of the first iteration at a time or after it; None if it is not recorded yet."""
         index = bisect_left(self.times_ns, time_ns)
