@@ -46,6 +46,10 @@ def test_the_active_state_is_shown_at_once(robot: RobotProgram, folder: Path, tm
         guard = page.locator(".guard", has_text="→ Lit")
         expect(guard).to_contain_text("false")
         expect(guard).to_contain_text("eye.seen = false, eye.light = 3")
+        state(page, "Lit").click()
+        since = page.locator(".why-not-condition").first
+        # It is false from the start, which the window did not see.
+        expect(since).to_contain_text(re.compile(r"eye\.seen = false, for (more than )?\d+\.\d\d s"))
         robot.eye.seen = True
         expect(active(page)).to_have_attribute("data-id", "Lit")
         expect(page.locator('g.edge.taken[data-id="Dark/0"]')).to_have_count(1)

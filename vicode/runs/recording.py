@@ -27,6 +27,8 @@ class Recording:
         self.times_ns: list[int] = []
         self.dropped = 0
         """How many iterations were removed at the beginning."""
+        self.truncations = 0
+        """How often iterations were removed at the end, after which others get their numbers."""
 
     def __len__(self) -> int:
         return len(self._packed)
@@ -93,6 +95,7 @@ class Recording:
 
     def truncate(self, length: int) -> None:
         """Remove all iterations after the first `length`."""
+        self.truncations += 1
         del self._packed[length:]
         del self.states[length:]
         del self.transitions[length:]
