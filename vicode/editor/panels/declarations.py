@@ -32,7 +32,7 @@ from vicode.model.rename import SymbolRef
 ChangeDeclaration = Callable[[Declaration], Declaration]
 
 SECTIONS = (
-    ("parameters", "Parameters", "inputs other components can set"),
+    ("parameters", "Parameters", "values set by the states that modulate this component"),
     ("outputs", "Outputs", "values other components can read"),
     ("variables", "Variables", "internal values"),
 )

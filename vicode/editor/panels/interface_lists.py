@@ -32,14 +32,14 @@ class _UsedInterface:
 
 def inputs_list(form: Form) -> None:
     """Build the list of the outputs of used components, which expressions of the design can read."""
-    heading("Inputs", hint="what this machine senses")
+    heading("Inputs", hint="values that its guards can read")
     Rows(form, lambda: _list_uses(form.context, "outputs"), _build_use)
     _adder(form, "input", "bool")
 
 
 def commands_list(form: Form) -> None:
     """Build the list of the used components with parameters, which the design calls or modulates."""
-    heading("Commands", hint="what this machine drives")
+    heading("Commands", hint="what its states can trigger, such as motions")
     Rows(form, lambda: _list_uses(form.context, "parameters"), _build_use)
     _adder(form, "command")
 

@@ -29,7 +29,7 @@ _IMPLEMENTATION = Attribute(
 _SECTIONS = (
     ("outputs", "Outputs", "values other components can read"),
     ("variables", "Variables", "values other components can read and set"),
-    ("parameters", "Parameters", "inputs other components can set"),
+    ("parameters", "Parameters", "values set by the states that modulate this component"),
 )
 
 

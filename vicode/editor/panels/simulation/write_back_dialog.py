@@ -100,12 +100,13 @@ def _show_times(rows: list[tuple[str, str, float, float]]) -> None:
     if not rows:
         return
     with ui.element("table").classes("write-back-times"):
-        with ui.element("tr"):
-            for title in ("Time in state", "Before", "After"):
-                with ui.element("th").props('scope="col"'):
-                    ui.label(title)
+        _show_row("th", "Time in state", "Before", "After")
         for component, state, *seconds in rows:
-            with ui.element("tr"):
-                for text in (f"{component}: {state}", *(f"{each:.2f} s" for each in seconds)):
-                    with ui.element("td"):
-                        ui.label(text)
+            _show_row("td", f"{component}: {state}", *(f"{each:.2f} s" for each in seconds))
+
+
+def _show_row(tag: str, *cells: str) -> None:
+    with ui.element("tr"):
+        for text in cells:
+            with ui.element(tag):
+                ui.label(text)
