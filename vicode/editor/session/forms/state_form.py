@@ -40,7 +40,7 @@ def state_form(project: Project, design: Design, state: State, ids: ListIds) -> 
         Row(nodes=(_initial(design, state), _check(state, "final"))),
         Heading(text="Actions", hint="run in order in each iteration"),
         action_cards(project, ("actions",), state.actions, ids.ids((*owner, "actions"), state.actions)),
-        Heading(text="Modulates", hint="components that this state runs, with these parameters"),
+        Heading(text="Modulates", hint="components this state runs, with parameters"),
         modulation_cards(state.modulates),
         Heading(text="Transitions", hint="the first whose guard holds is taken"),
         decisions_list(design, ("transitions",), state.transitions),
