@@ -1,5 +1,6 @@
 """A running robot in the browser: the active state on the canvas, control, and tuning."""
 
+import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -7,6 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.cli.command_runner import vicode
 from tests.editor.conftest import started_editor
 from tests.editor.player_page import state
 from tests.editor.simulation.robot_program import RobotProgram, running_robot, write_robot
@@ -44,6 +46,10 @@ def test_the_active_state_is_shown_at_once(robot: RobotProgram, folder: Path, tm
         guard = page.locator(".guard", has_text="→ Lit")
         expect(guard).to_contain_text("false")
         expect(guard).to_contain_text("eye.seen = false, eye.light = 3")
+        state(page, "Lit").click()
+        since = page.locator(".why-not-condition").first
+        # It is false from the start, which the window did not see.
+        expect(since).to_contain_text(re.compile(r"eye\.seen = false, for (more than )?\d+\.\d\d s"))
         robot.eye.seen = True
         expect(active(page)).to_have_attribute("data-id", "Lit")
         expect(page.locator('g.edge.taken[data-id="Dark/0"]')).to_have_count(1)
@@ -87,7 +93,16 @@ def editor_of(folder: Path, tmp_path: Path) -> Iterator[str]:
         yield url
 
 
+def run_lamp(folder: Path, trace: Path) -> list[str]:
+    """The states of a run in which a light of 20 is seen after 0.5 s."""
+    inputs = ("--set", "500ms: Eye.seen=true", "--set", "Eye.light=20")
+    assert vicode("run", str(folder / "lamp.yaml"), "--ticks", "100", "--values", "--trace", str(trace), *inputs) == 0
+    lines = [json.loads(line) for line in trace.read_text().splitlines()]
+    return [line["tree"][0]["state"] for line in lines if "tree" in line]
+
+
 def test_a_tuned_constant_is_written_back(robot: RobotProgram, folder: Path, tmp_path: Path, page: Page) -> None:
+    before = run_lamp(folder, folder / "run.jsonl")
     attaching = ("attach", robot.address, str(folder.parent), "--token", robot.token)
     with started_editor(folder.parent, tmp_path / "attached", (), command=attaching) as url:
         open_lamp(page, url)
@@ -97,8 +112,22 @@ def test_a_tuned_constant_is_written_back(robot: RobotProgram, folder: Path, tmp
         expect(active(page)).to_have_attribute("data-id", "Lit")
         assert page.locator(".robot-tuning").evaluate("form => form.scrollWidth <= form.clientWidth")
         page.get_by_role("button", name="Write bright back").click()
+        dialog = page.get_by_role("dialog", name="Write bright = 30")
+        live = dialog.locator(".write-back-result", has_text="This robot, so far: ")
+        expect(live).to_contain_text("Lamp: Dark → Lit instead of staying")
+        told = dialog.locator(".write-back-result", has_text="Trace run.jsonl: ")
+        expect(told).to_contain_text("iterations change")
+        expect(dialog.get_by_text("Replaying recorded runs…")).to_be_hidden()
+        expect(dialog).to_contain_text("The recorded inputs do not react to the changed behavior.")
+        assert not complaints(page)
+        words = told.inner_text()
+        dialog.get_by_role("button", name="Write into the file").click()
         expect(page.get_by_role("button", name="Write bright back")).to_be_hidden()
         assert "bright: {value: 30, tunable: true, range: [0, 50]}" in (folder / "project.yaml").read_text()
+        # The same run of the changed file.
+        after = run_lamp(folder, tmp_path / "after.jsonl")
+        numbers = [number for number, states in enumerate(zip(before, after, strict=True)) if states[0] != states[1]]
+        assert f"{len(numbers)} of 100 iterations change; first at {numbers[0] * 0.02:.3f} s" in words
         page.keyboard.press("Control+z")
         expect(page.get_by_role("button", name="Write bright back")).to_be_visible()
         assert "bright: {value: 10," in (folder / "project.yaml").read_text()

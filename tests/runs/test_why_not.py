@@ -9,7 +9,7 @@ import pytest
 from tests.editor.simulation.lamp_project import simulate, write_lamps
 from vicode.runs import PreparedRun, RunConfig, Simulation, prepare_run
 from vicode.runs.guard_values import latest_steps
-from vicode.runs.why_not import Condition, WhyNot, explain
+from vicode.runs.why_not import Condition, PastConditions, WhyNot, explain
 from vicode.store import OpenProject, open_project
 
 PROJECT = """
@@ -56,10 +56,10 @@ def prepared(opened: OpenProject) -> PreparedRun:
     return prepare_run(opened.project, opened.project.designs[0], RunConfig(tick_ms=20), {}, opened.folder)
 
 
-def ask(opened: OpenProject, simulation: Simulation, target: str, lookback: int = 2000) -> WhyNot:
+def ask(opened: OpenProject, simulation: Simulation, target: str, past: PastConditions | None = None) -> WhyNot:
     design, recording, number = simulation.prepared.design, simulation.recording, simulation.cursor
     latest = latest_steps(recording, number, frozenset(use.component for use in design.uses))
-    return explain(opened.project, design, recording, number, target=target, latest=latest, lookback=lookback)
+    return explain(opened.project, design, recording, number, target=target, latest=latest, past=past)
 
 
 def test_what_fails_since_when_and_by_how_much(coffee_bot: Path) -> None:
@@ -93,7 +93,8 @@ def test_what_fails_since_when_and_by_how_much(coffee_bot: Path) -> None:
             Condition(text="after 0.4 s", holds=False, detail="0.3 s to go"),
             Condition(text="eyes.distance < near", holds=False, detail="0.8, 0.3 too large", false_for_s=0.1),
         )
-        assert ask(opened, simulation, "Pour", lookback=0).first[0].conditions[2].false_for_s is None
+        brief = ask(opened, simulation, "Pour", PastConditions(lookback=3)).first[0].conditions[2]
+        assert (brief.false_for_s, brief.was_false_before) == (0.06, True)
         assert first.earlier == ()
         await simulation.set_input(("Button", "order"), False)
         await simulation.step()
@@ -135,6 +136,50 @@ def test_what_holds_is_done_next(coffee_bot: Path) -> None:
 
     simulate(prepared(opened), coffee_bot, act)
     assert done >= {("Idle", "Drive"), ("Pour", "Idle")}
+
+
+def seconds_without_order(simulation: Simulation) -> float:
+    """How long the recorded order has been false in the state Idle."""
+    recording, number = simulation.recording, simulation.cursor
+    first = number
+    while first > 1:
+        iteration = recording.iteration(first - 1)
+        assert iteration is not None
+        order = next((step for step in iteration.tree if step["component"] == "Button"), {"values": {}})
+        if iteration.state != "Idle" or order["values"].get("order") is not False:
+            break
+        first -= 1
+    return (recording.times_ns[number - 1] - recording.times_ns[first - 1]) / 1e9
+
+
+def test_what_was_found_before_is_not_read_again(coffee_bot: Path) -> None:
+    opened, chance, past = open_project(coffee_bot), random.Random(7), PastConditions()
+
+    async def act(simulation: Simulation) -> None:
+        compared = 0
+        for _round in range(40):
+            if chance.random() < 0.2:
+                simulation.go_to(chance.randrange(max(1, simulation.cursor - 20), simulation.cursor + 1))
+            await simulation.set_input(("Button", "order"), chance.random() < 0.3)
+            await simulation.step(chance.choice([1, 2, 10]))
+            if simulation.recording.states[-1] == "Idle":
+                (first,) = ask(opened, simulation, "Drive", past).first
+                if first.conditions[0].holds is False:
+                    compared += 1
+                    assert first.conditions[0].false_for_s == seconds_without_order(simulation)
+        assert compared > 10
+        await simulation.set_input(("Button", "order"), False)
+        await simulation.step(400)
+        ask(opened, simulation, "Drive", past)
+        await simulation.step()
+        read: list[int] = []
+        plain = simulation.recording.iteration
+        recording = simulation.recording
+        recording.iteration = lambda number: (read.append(number), plain(number))[1]  # type: ignore[method-assign]
+        ask(opened, simulation, "Drive", past)
+        assert set(read) <= {simulation.cursor - 1, simulation.cursor}
+
+    simulate(prepared(opened), coffee_bot, act)
 
 
 def test_all_transitions_of_the_first_step_are_listed(tmp_path: Path) -> None:

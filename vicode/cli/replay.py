@@ -1,4 +1,7 @@
-"""Run the recorded inputs of a trace through the current design and report the first state that differs."""
+"""Run the recorded inputs of a trace through the current design and report the first state that differs.
+
+With --set, report what another value of a parameter or constant changes.
+"""
 
 import argparse
 import asyncio
@@ -29,6 +32,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help="how long states may differ, in seconds (default: 0)",
     )
+    add(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="list what changes with this value of a parameter (Component.parameter) or a constant; may be repeated",
+    )
     add("--allow-missing", action="store_true", help="use initial values for outputs that the trace lacks")
 
 
@@ -37,9 +47,11 @@ def run(args: argparse.Namespace) -> int:
     from vicode.generators import UnsoundDesignError
     from vicode.runs import NotReadyError
     from vicode.runs.client import RunFailedError
-    from vicode.runs.replay import MissingValuesError
+    from vicode.runs.recorded_inputs import MissingValuesError
     from vicode.simulation.trace import TraceError, open_trace
 
+    if args.set and args.tolerance:
+        raise OSError("--tolerance has no effect with --set; leave it out")
     try:
         trace = open_trace(Path(args.trace))
         iterations = trace.iterations()
@@ -52,6 +64,8 @@ def run(args: argparse.Namespace) -> int:
         if edits:
             print_findings(edits, to_stderr=True)
             return 2
+        if args.set:
+            return _replay_values(args, opened, design, _chain(first, iterations))
         result = _replay(args, opened, design, _chain(first, iterations))
     except TraceError as error:
         raise OSError(f"{args.trace}: {error}") from error
@@ -92,6 +106,33 @@ def _replay(
             allows_missing=args.allow_missing,
         )
     )
+
+
+def _replay_values(
+    args: argparse.Namespace, opened: LoadedProject, design: "Design", iterations: "Iterator[IterationResult]"
+) -> int:
+    """Print what changes with other values; return 1 if something does."""
+    from vicode.runs.changed_values import ChangedValueError, apply_values, parse_changed_value
+    from vicode.runs.replay_report import OPEN_LOOP, describe_effect, describe_unlike_record, summarize_effect
+    from vicode.runs.value_replay import prepare_value_replay, replay_values
+
+    project, folder = opened.open_project.project, opened.open_project.folder.resolve()
+    values = []
+    for given in args.set:
+        try:
+            values.append(parse_changed_value(given, project))
+        except ChangedValueError as error:
+            raise OSError(f"--set {given}: {error}") from error
+    prepared = prepare_value_replay(project, design, tuple(values), opened.design_paths, folder)
+    effect = asyncio.run(replay_values(prepared, folder, iterations, allows_missing=args.allow_missing))
+    print(summarize_effect(effect))
+    for line in describe_effect(project, apply_values(project, values), effect):
+        print(line)
+    if effect.changed:
+        print(OPEN_LOOP)
+    if note := describe_unlike_record(effect):
+        print(note)
+    return 1 if effect.changed else 0
 
 
 def _report(result: "ReplayResult", opened: LoadedProject, design: "Design") -> int:

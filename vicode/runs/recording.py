@@ -27,6 +27,8 @@ class Recording:
         self.times_ns: list[int] = []
         self.dropped = 0
         """How many iterations were removed at the beginning."""
+        self.truncations = 0
+        """How often iterations were removed at the end, after which others get their numbers."""
 
     def __len__(self) -> int:
         return len(self._packed)
@@ -61,6 +63,13 @@ class Recording:
         assert isinstance(iteration, IterationResult)
         return iteration
 
+    def iterations(self) -> Iterator[IterationResult]:
+        """The iterations recorded so far, also if others are added or removed meanwhile."""
+        for packed in tuple(self._packed):
+            iteration = decode_response(zlib.decompress(packed))
+            assert isinstance(iteration, IterationResult)
+            yield iteration
+
     def number_at(self, time_ns: int) -> int | None:
         """The number of the first iteration at a time or after it; None if it is not recorded yet."""
         index = bisect_left(self.times_ns, time_ns)
@@ -86,6 +95,7 @@ class Recording:
 
     def truncate(self, length: int) -> None:
         """Remove all iterations after the first `length`."""
+        self.truncations += 1
         del self._packed[length:]
         del self.states[length:]
         del self.transitions[length:]

@@ -21,12 +21,16 @@ _TOO = {"<": "too large", "<=": "too large", ">": "too small", ">=": "too small"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Condition:
-    """A part of a guard. `holds` is None if that is not known; `false_for_s` is how long it has been false."""
+    """A part of a guard. `holds` is None if that is not known; `false_for_s` is how long it has been false.
+
+    It `was_false_before` if the search ended there, so that it may have been false for longer.
+    """
 
     text: str
     holds: bool | None
     detail: str = ""
     false_for_s: float | None = None
+    was_false_before: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,6 +56,39 @@ class WhyNot:
     later: tuple[TransitionState, ...] = ()
 
 
+class PastConditions:
+    """How long conditions have been false, so that the next iteration does not search the same past again.
+
+    One object belongs to one design, its constants, and one recording; `truncations` of the recording clear it.
+
+    Args:
+        lookback: How many earlier iterations are read at most.
+    """
+
+    def __init__(self, lookback: int = 2000) -> None:
+        self.lookback = lookback
+        self._truncations = 0
+        self._known: dict[tuple[str, str], tuple[int, _Since]] = {}
+
+    def find(self, recording: Recording, key: tuple[str, str]) -> "tuple[int, _Since]":
+        """The number of the iteration that was looked at last, 0 if none, and since when the condition was false."""
+        if recording.truncations != self._truncations:
+            self._truncations = recording.truncations
+            self._known.clear()
+        number, since = self._known.get(key, (0, _Since(time_ns=0, is_earlier=False)))
+        return number - recording.dropped, since
+
+    def remember(self, recording: Recording, key: tuple[str, str], number: int, since: "_Since") -> None:
+        self._known[key] = (number + recording.dropped, since)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Since:
+    time_ns: int
+    is_earlier: bool
+    """Whether the search ended there."""
+
+
 def explain(
     project: Project,
     design: Design,
@@ -61,7 +98,7 @@ def explain(
     target: str,
     latest: Steps,
     tuned: Mapping[str, Any] | None = None,
-    lookback: int = 2000,
+    past: PastConditions | None = None,
 ) -> WhyNot:
     """Explain why a state is not active in an iteration.
 
@@ -73,13 +110,18 @@ def explain(
         target: The state in question.
         latest: The latest steps of the components, as `latest_steps` finds them.
         tuned: Values of constants that differ from the project.
-        lookback: How many earlier iterations are read at most; 0 leaves out since when a condition is false.
+        past: What was found for earlier iterations of the recording; it is extended.
     """
     iteration = recording.iteration(number)
     if iteration is None:
         return WhyNot(target=target)
     look = _Look(
-        project=project, design=design, recording=recording, number=number, tuned=tuned or {}, lookback=lookback
+        project=project,
+        design=design,
+        recording=recording,
+        number=number,
+        tuned=tuned or {},
+        past=past or PastConditions(),
     )
     look.values[number] = guard_values(project, design, iteration, latest, tuned)
     steps = _shortest_way(look.enabled, iteration.state, target)
@@ -129,7 +171,7 @@ class _Look:
     recording: Recording
     number: int
     tuned: Mapping[str, Any]
-    lookback: int
+    past: PastConditions
     values: dict[int, GuardValues | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -162,23 +204,40 @@ class _Look:
         # The time in a state says nothing about guards of another one.
         holds = part.holds(now) if now is not None and (with_past or not part.is_time) else None
         detail = part.detail(now) if now is not None and holds is False else ""
-        since = self._false_for_s(part) if with_past and self.lookback and holds is False and not part.is_time else None
-        return Condition(text=part.text, holds=holds, detail=detail, false_for_s=since)
+        if not with_past or holds is not False or part.is_time:
+            return Condition(text=part.text, holds=holds, detail=detail)
+        since = self._find_since(part)
+        return Condition(
+            text=part.text,
+            holds=holds,
+            detail=detail,
+            false_for_s=(self.recording.times_ns[self.number - 1] - since.time_ns) / 1e9,
+            was_false_before=since.is_earlier,
+        )
 
     def _parts(self, located: LocatedDecision, values: GuardValues | None) -> Iterator["_Part"]:
         return _parts(located, values, self.design.time_unit or "s")
 
-    def _false_for_s(self, part: "_Part") -> float:
+    def _find_since(self, part: "_Part") -> _Since:
         times, states = self.recording.times_ns, self.recording.states
-        first = self.number
-        while (
-            first > max(1, self.number - self.lookback)
-            and states[first - 2] == states[self.number - 1]
-            and (values := self._values(first - 1)) is not None
-            and part.holds(values) is False
-        ):
+        key = (states[self.number - 1], part.text)
+        last, since = self.past.find(self.recording, key)
+        first, end = self.number, max(1, self.number - self.past.lookback)
+        while first != last and first > end and self._was_false(part, first - 1):
             first -= 1
-        return (times[self.number - 1] - times[first - 1]) / 1e9
+        if first != last:
+            is_earlier = first == end > 1 and self._was_false(part, end - 1)
+            since = _Since(time_ns=times[first - 1], is_earlier=is_earlier)
+        self.past.remember(self.recording, key, self.number, since)
+        return since
+
+    def _was_false(self, part: "_Part", number: int) -> bool:
+        """Whether a condition was false in an earlier iteration in the same state."""
+        states = self.recording.states
+        if states[number - 1] != states[self.number - 1]:
+            return False
+        values = self._values(number)
+        return values is not None and part.holds(values) is False
 
     def _values(self, number: int) -> "GuardValues | None":
         if number not in self.values:

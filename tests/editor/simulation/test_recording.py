@@ -83,7 +83,7 @@ def test_a_long_plot_is_downsampled_and_keeps_its_peaks() -> None:
 
 def test_states_are_drawn_as_spans() -> None:
     assert state_runs(["A", "A", "B", "A"]) == [("A", 0, 2), ("B", 2, 3), ("A", 3, 4)]
-    assert band_labels(["A"] * 99 + ["B"]) == [("A", 0.0)]
+    assert band_labels(["A"] * 99 + ["B"]) == [("A", 0.0, 99.0)]
     assert render_plot([], [], 0).startswith("<svg")
 
 

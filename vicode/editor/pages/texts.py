@@ -20,7 +20,7 @@ NO_DESIGNS_TITLE = "No designs yet"
 NO_DESIGNS_HELP = "A design is a state machine in a YAML file."
 NO_DESIGNS_IN_PROJECT = "No designs yet. Create one from a template."
 CREATE_FIRST_DESIGN = "Create your first design"
-OPEN_SAMPLE = "Open the sample player"
+OPEN_SAMPLE = "Open the sample: a soccer player"
 SAMPLE_HELP = "A soccer player with a simulated field, copied to the folder 'forward'."
 
 MAYBE_REMOVED = "It may have been renamed or removed."

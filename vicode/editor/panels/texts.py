@@ -22,6 +22,10 @@ TRUST_QUESTION = (
     "Simulate runs the Python code of this folder. Trust it only if you know where it comes from; "
     "the answer is remembered for this user."
 )
+TRUST_TO_REPLAY = (
+    "To show what the value changes, the design runs with recorded inputs, and so does the Python code in it. Trust "
+    "the folder only if you know where it comes from; the answer is remembered for this user."
+)
 TRUST_TO_COMPARE = (
     "Comparing languages runs the Python and C++ code of this folder. Trust it only if you know where it comes from; "
     "the answer is remembered for this user."
@@ -30,6 +34,10 @@ SANDBOXED = "It runs in a sandbox: it can read this folder, write nothing but te
 TRUST_NOT_REMEMBERED = "The folder is trusted until the editor ends: the state folder cannot be written"
 NOT_TRUSTED = "The folder is not trusted, so its code does not run. Restart to be asked again."
 NOT_TRUSTED_TO_COMPARE = "The folder is not trusted, so its code does not run. Compare again to be asked again."
+NOT_TRUSTED_TO_REPLAY = "The folder is not trusted, so its code does not run and nothing is replayed."
+EDITS_BEFORE_REPLAY = "Generated code has edits that the design lacks: apply them (Generate) to replay recorded runs."
+REPLAYING = "Replaying recorded runs…"
+NO_RECORDS = "No recorded run depends on this value. Record one with: vicode run DESIGN --trace FILE --values"
 COMPARING_IN_BACKGROUND = "Edits made from now on are not part of this comparison."
 COMPARISON_OUTDATED = "The design has changed since this comparison."
 ALSO_OPEN_ELSEWHERE = " · Open in another editor"

@@ -99,6 +99,11 @@ class WatchedRobot:
         (first, first_ns), (last, last_ns) = (self._times[0], self._times[-1]) if self._times else ((0, 0), (0, 0))
         return (last - first) * 1e9 / (last_ns - first_ns) if last_ns > first_ns else 0.0
 
+    @property
+    def longest_recording(self) -> "Recording | None":
+        """The recording of the most iterations; which component it is for does not matter for a replay."""
+        return max((recording for recording, _adapt in self._recordings.values()), key=len, default=None)
+
     def recording(self, component: str, adapt: Adapt) -> "Recording":
         """The recording for the view of a component, which begins with what other views have recorded.
 

@@ -136,11 +136,11 @@ def _merge_narrow(runs: list[tuple[str, int, int]], count: int) -> list[tuple[st
     return merged
 
 
-def band_labels(states: Sequence[str]) -> list[tuple[str, float]]:
-    """The names of the runs that are wide enough for a label, each with its left end in percent."""
+def band_labels(states: Sequence[str]) -> list[tuple[str, float, float]]:
+    """The names of the runs that are wide enough for a label, each with its left end and its width in percent."""
     count = max(len(states), 1)
     return [
-        (state, 100 * start / count)
+        (state, 100 * start / count, 100 * (end - start) / count)
         for state, start, end in state_runs(states)
         if WIDTH * (end - start) / count >= _MIN_LABEL_WIDTH
     ]

@@ -61,8 +61,8 @@ export const Decisions = {
           <q-item v-for="state in states" clickable class="mono" role="menuitem" @click="connect(state)"><q-item-section>to {{ state }}</q-item-section></q-item>
         </q-list></q-menu>
       </q-btn>
-      <q-btn v-bind="small" icon="add" label="Stay" aria-label="Add Stay" @click="add('add-stay')" />
-      <q-btn v-bind="small" icon="add" label="Group" aria-label="Add Group" @click="add('add-group')" />
+      <q-btn v-bind="small" icon="add" label="Stay" title="Stay in this state while a condition holds, and try no transition below" aria-label="Add Stay" @click="add('add-stay')" />
+      <q-btn v-bind="small" icon="add" label="Group" title="A condition for several transitions: if it holds, these, else those" aria-label="Add Group" @click="add('add-group')" />
     </div>`,
   computed: {
     small: () => ({ flat: true, dense: true, noCaps: true, size: "sm" }),

@@ -8,10 +8,12 @@ from nicegui import ui
 from vicode.editor.panels.project.writing import write_project
 from vicode.editor.panels.simulation.inputs_form import input_controls, short_value
 from vicode.editor.panels.simulation.robot_view import RobotView
+from vicode.editor.panels.simulation.write_back_dialog import WriteBackDialog
 from vicode.editor.panels.widgets import icon_button
-from vicode.model.design import Declaration, Design
+from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.runs import PARAMETERS, SimulationInput, collect_tunable
+from vicode.runs.changed_values import ChangedValue, change_text, format_value_text
 
 
 class RobotTuning:
@@ -58,9 +60,9 @@ class _TuningRow:
                     if input_.doc:
                         ui.tooltip(input_.doc)
                 self.controls = input_controls(input_, f"Tune {input_.name}", self._tune)
-            self.keep = icon_button("save_alt", f"Write {input_.name} back", self._write_back)
+            self.keep = icon_button("save_alt", f"Write {input_.name} back", self._ask_to_write)
             with self.keep:
-                ui.tooltip("Write the value into the file")
+                ui.tooltip("Write the value into the file; shows first what it changes in recorded runs")
 
     def refresh(self) -> None:
         value = self._value
@@ -94,32 +96,28 @@ class _TuningRow:
         else:
             self.view.set_value(self.input.component, self.input.name, accepted, hold=True)
 
-    def _write_back(self) -> None:
-        """Write the value into the file, as one undo step."""
-        name, text, robot = self.input.name, _expression(self._value), self.view.robot
-        is_constant = self.input.component == PARAMETERS
-        declared = self.view.project.constants if is_constant else self.view.design.parameters
-        before = next((each.initial for each in declared if each.name == name), "")
+    def _ask_to_write(self) -> None:
+        """Show what the value changes in recorded runs, and write it if the user agrees."""
+        component = "" if self.input.component == PARAMETERS else self.input.component
+        value = ChangedValue(component=component, name=self.input.name, text=format_value_text(self._value))
+        dialog = WriteBackDialog(self.view, value, lambda: self._write(value))
+        self.view.context.run_in_background(dialog.replay(), "replay with a tuned value")
+
+    def _write(self, value: ChangedValue) -> None:
+        """Write a value into the file, as one undo step."""
+        name, text, robot = value.name, value.text, self.view.robot
         if robot is not None:
-            robot.remember_written((self.input.component, name), before, text)
+            robot.remember_written((self.input.component, name), value.text_in(self.view.project), text)
 
         def change_project(project: Project) -> Project:
-            return replace(project, constants=_changed(project.constants, name, text))
+            return replace(project, constants=change_text(project.constants, name, text))
 
         def change_design(design: Design) -> Design:
-            return replace(design, parameters=_changed(design.parameters, name, text))
+            return replace(design, parameters=change_text(design.parameters, name, text))
 
-        if is_constant:
-            error = write_project(self.view.context, change_project, f"set {name} to {text}")
-            if error:
-                self.view.context.show_toast(error, "warning")
-        else:
+        if value.component:
             self.view.context.edit(f"Set {name} to {text}", change_design)
-
-
-def _changed(declared: tuple[Declaration, ...], name: str, text: str) -> tuple[Declaration, ...]:
-    return tuple(replace(each, initial=text) if each.name == name else each for each in declared)
-
-
-def _expression(value: Any) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)
+            return
+        error = write_project(self.view.context, change_project, f"set {name} to {text}")
+        if error:
+            self.view.context.show_toast(error, "warning")

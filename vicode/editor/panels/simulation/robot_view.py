@@ -14,7 +14,7 @@ from vicode.model.project import Project
 from vicode.runs import Recording, RunStatus, Simulation, prepare_view
 from vicode.runs.guard_values import evaluate_guards
 from vicode.runs.traces import focus_iteration
-from vicode.runs.why_not import WhyNot, explain
+from vicode.runs.why_not import PastConditions, WhyNot, explain
 from vicode.simulation import IterationResult
 from vicode.simulation.robots import RobotDescription
 
@@ -197,7 +197,7 @@ class RobotView:
         project, design = self.context.workspace.project, self.context.design
         return evaluate_guards(project, design, iteration, _latest_steps(robot, iteration), robot.tuned)
 
-    def why_not(self, recording: Recording, number: int, target: str, lookback: int) -> WhyNot:
+    def why_not(self, recording: Recording, number: int, target: str, past: PastConditions) -> WhyNot:
         """Why a state of the robot is not active in an iteration."""
         robot, iteration = self.robot, recording.iteration(number)
         if robot is None or iteration is None:
@@ -205,7 +205,14 @@ class RobotView:
         project, design = self.context.workspace.project, self.context.design
         steps = _latest_steps(robot, iteration)
         return explain(
-            project, design, recording, number, target=target, latest=steps, tuned=robot.tuned, lookback=lookback
+            project,
+            design,
+            recording,
+            number,
+            target=target,
+            latest=steps,
+            tuned=robot.tuned,
+            past=past,
         )
 
     def _compare_versions(self, robot: WatchedRobot) -> None:

@@ -30,7 +30,7 @@ class Timeline:
         self._series_key: object = None
         self._series = ""
         self._curves: list[PlotSeries] = []
-        self._labels: list[tuple[str, float]] = []
+        self._labels: list[tuple[str, float, float]] = []
         self.choice = ui.select([], value=[], multiple=True, label="Values to plot", on_change=self._draw)
         self.choice.props("dense outlined options-dense stack-label").classes("field plot-choice")
         self.slider = RangeInput("Shown iteration", low=0, high=1, step=1, value=0, on_move=self._go_to)
@@ -86,7 +86,10 @@ class Timeline:
         curves = self._curves
         self.drawing.set_content(add_cursor(self._series, curves, recording.states, simulation.cursor))
         self.names.set_content("".join(_name(curve, simulation.cursor) for curve in curves))
-        labels = (f'<span style="left:{left:.2f}%">{escape(name)}</span>' for name, left in self._labels)
+        labels = (
+            f'<span style="left:{left:.2f}%;max-width:{width:.2f}%">{escape(name)}</span>'
+            for name, left, width in self._labels
+        )
         self.band.set_content("".join(labels))
 
     def _go_to(self, value: Any) -> None:

@@ -23,6 +23,7 @@ class TrustPurpose:
 
 
 SIMULATE = TrustPurpose(languages=("python",), question=texts.TRUST_QUESTION, accept="Trust and simulate")
+REPLAY = TrustPurpose(languages=("python",), question=texts.TRUST_TO_REPLAY, accept="Trust and replay")
 COMPARE = TrustPurpose(languages=("python", "cpp"), question=texts.TRUST_TO_COMPARE, accept="Trust and compare")
 
 

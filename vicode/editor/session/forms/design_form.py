@@ -26,7 +26,7 @@ from vicode.model.design import COMMON, Design
 from vicode.model.project import Project
 
 _SECTIONS: tuple[tuple[DeclarationList, str, str], ...] = (
-    ("parameters", "Parameters", "inputs other components can set"),
+    ("parameters", "Parameters", "values set by the states that modulate this component"),
     ("outputs", "Outputs", "values other components can read"),
     ("variables", "Variables", "internal values"),
 )

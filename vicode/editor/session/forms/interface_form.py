@@ -34,10 +34,10 @@ _ORIGINS = {
 def interface_lists(project: Project, design: Design, ids: ListIds) -> tuple[Node, ...]:
     """The outputs of used components, which expressions can read, and the components that the design drives."""
     return (
-        Heading(text="Inputs", hint="what this machine senses"),
+        Heading(text="Inputs", hint="values that its guards can read"),
         *_used(project, design, ids, "outputs"),
         AddRow(kind="input", detail="Type", options="types", initial=BOOL),
-        Heading(text="Commands", hint="what this machine drives"),
+        Heading(text="Commands", hint="what its states can trigger, such as motions"),
         *_used(project, design, ids, "parameters"),
         AddRow(kind="command", detail="Parameters", hint="speed, turn: int"),
     )

@@ -36,7 +36,7 @@ SCOPE = Paragraph(text="Shared by all designs; saved immediately.", look="empty"
 _COMPONENT_LISTS: tuple[tuple[AdderList, str, str], ...] = (
     ("outputs", "Outputs", "values other components can read"),
     ("variables", "Variables", "values other components can read and set"),
-    ("parameters", "Parameters", "inputs other components can set"),
+    ("parameters", "Parameters", "values set by the states that modulate this component"),
 )
 
 
