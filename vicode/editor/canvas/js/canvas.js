@@ -11,6 +11,7 @@ import { LEGIBLE_ZOOM, LevelOfDetail } from "./level_of_detail.js";
 import { Menu } from "./menu.js";
 import { restoreView, saveView } from "./view_state.js";
 import { Minimap } from "./minimap.js";
+import { Neighborhood } from "./neighborhood.js";
 import { Nudge } from "./nudge.js";
 import { announce, announceOpening } from "./page_events.js";
 import { Painter } from "./painter.js";
@@ -25,6 +26,7 @@ import { Selection } from "./selection.js";
 import { DIAGRAM, EMPTY, STAGE_ROLE, namesOnly, stageName } from "./strings.js";
 import { html } from "./svg.js";
 import { awaitFonts, onFontsLoaded } from "./text_metrics.js";
+import { testApi } from "./test_api.js";
 import { Theme } from "./theme.js";
 import { Toolbar } from "./toolbar.js";
 import { Viewport } from "./viewport.js";
@@ -53,7 +55,7 @@ class Canvas {
     this.painter = new Painter(this.scene, this.router);
     this.#build();
     this.#wire();
-    host.vicode = this.#testApi();
+    host.vicode = testApi(this);
   }
 
   load(view) {
@@ -62,6 +64,7 @@ class Canvas {
     this.gestures.cancel();
     this.painter.clear();
     this.router.clear();
+    this.neighborhood.leave();
     this.scene.load(view);
     this.nudge.reset();
     this.theme.set(view.theme);
@@ -92,6 +95,7 @@ class Canvas {
   centre(of, id) {
     const element = this.scene.find(keyOf(of, id));
     if (!element) return;
+    this.neighborhood.leaveFor(element);
     const { x, y } = this.scene.nameOf(element.key) ?? (this.scene.isDrawable(element) ? this.router.route(element).at : this.viewport.middle());
     this.viewport.centreOn(x, y, Math.max(this.viewport.k, 0.6));
   }
@@ -128,6 +132,7 @@ class Canvas {
     this.activeSeq = seq;
     this.frame.schedule("active", () => {
       this.painter.mark("active", ids.map((id) => keyOf("states", id)));
+      this.selection.updateHighlight();
       this.painter.mark("taken", taken.map((id) => keyOf("transitions", id)));
       this.insets.highlight(inner);
       if (this.isOverview) this.cull();
@@ -144,8 +149,15 @@ class Canvas {
   showLinks(flag) {
     if (this.scene.linksShown === flag) return;
     this.scene.linksShown = flag;
+    this.visibilityChanged();
+  }
+
+  /** Redraws everything after elements were shown or hidden. */
+  visibilityChanged() {
     this.router.clear();
     this.painter.refresh({ touched: [...this.scene.edges.keys()], gone: [], affectedNodes: [...this.scene.nodes.keys()] });
+    this.painter.mountedRect = null;
+    this.selection.updateHighlight();
     this.#sceneChanged();
   }
 
@@ -238,6 +250,7 @@ class Canvas {
   reveal(key) {
     const element = this.scene.find(key);
     if (!element) return;
+    this.neighborhood.leaveFor(element);
     if (this.isOverview) this.centre(element.of, element.id);
     else if (this.scene.nameOf(key)) this.viewport.reveal(nodeRect(this.scene.nameOf(key)));
     else if (this.scene.isDrawable(element)) this.viewport.reveal({ ...this.router.route(element).at, w: 0, h: 0 });
@@ -295,6 +308,7 @@ class Canvas {
     this.guard = new GuardField(this);
     this.preview = new LayoutPreview(this);
     this.insets = new Insets(this);
+    this.neighborhood = new Neighborhood(this);
     this.tooltip = new Tooltip(this);
     this.presence = new PresenceLayer(this);
     this.dots = html("div", { class: "dots" });
@@ -302,7 +316,7 @@ class Canvas {
     this.message = html("div", { class: "message", role: "status" });
     this.empty = html("div", { class: "empty", hidden: true, text: EMPTY });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
-    const above = [this.empty, this.message, this.rename.input, this.guard.input, corner, this.tooltip.element, this.menu.element];
+    const above = [this.empty, this.message, this.rename.input, this.guard.input, corner, this.neighborhood.element, this.tooltip.element, this.menu.element];
     this.stage.append(this.dots, ...this.levelOfDetail.elements, ...this.presence.elements, this.insets.element, ...above);
     this.keyboard = new Keyboard(this);
     this.nudge = new Nudge(this);
@@ -379,22 +393,5 @@ class Canvas {
       for (const field of [this.rename, this.guard]) field.viewChanged();
       this.presence.draw();
     });
-  }
-
-  #testApi() {
-    const frame = ({ x, y, w, h }) => ({ x, y, w, h });
-    return {
-      positions: () => Object.fromEntries([...this.scene.nodes.values()].map((node) => [`${node.of}/${node.id}`, frame(node)])),
-      selection: () => this.selection.items(),
-      view: () => ({ x: this.viewport.x, y: this.viewport.y, k: this.viewport.k, far: this.isOverview, resting: this.viewport.isIdle }),
-      setView: (view) => this.viewport.set(view),
-      screen: (of, id) => {
-        const element = this.scene.find(keyOf(of, id));
-        const at = this.viewport.toScreen(this.scene.nameOf(element.key) ?? this.router.route(element).at);
-        const box = this.stage.getBoundingClientRect();
-        return { x: at.x + box.left, y: at.y + box.top };
-      },
-      mounted: () => this.painter.items.size,
-    };
   }
 }
