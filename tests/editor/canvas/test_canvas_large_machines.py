@@ -140,3 +140,29 @@ def test_a_focus_ends_by_its_button_and_in_a_menu(show: Show) -> None:
     expect(canvas.group("state", "State99")).to_have_count(1)
     canvas.press("3", "3")
     expect(canvas.group("state", "State99")).to_have_count(1)
+
+
+def test_edges_that_leave_the_view_name_their_ends_and_lead_there(show: Show) -> None:
+    states = [{"id": name, "name": name, "x": x, "y": 0} for name, x in (("Here", 0), ("Far", 4000), ("Behind", -4000))]
+    edges = [
+        {"id": f"{source}/0", "source": source, "target": target, "label": "", "order": 1, "of": 1, "kind": "always"}
+        for source, target in (("Here", "Far"), ("Behind", "Here"))
+    ]
+    canvas = show(
+        {"rev": 1, "component": "Robot", "states": states, "transitions": edges, "components": [], "links": []}
+    )
+    labels = canvas.page.locator(".off-screen button")
+    canvas.call("centre", "states", "Here")
+    canvas.wait_until_idle()
+    expect(labels).to_have_count(0)
+    canvas.click(canvas.at("states", "Here"))
+    expect(labels).to_have_text(["→ Far", "← Behind"])
+    far, behind = (label.bounding_box() for label in labels.all())
+    assert far is not None
+    assert behind is not None
+    assert far["x"] > 1366 / 2 > behind["x"]
+    labels.first.click()
+    canvas.wait_until_idle()
+    assert canvas.selection() == {"states/Far"}
+    assert canvas.at("states", "Far")[0] == pytest.approx(1366 / 2, abs=2)
+    expect(labels).to_have_text(["← Here"])

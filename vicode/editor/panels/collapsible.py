@@ -19,6 +19,9 @@ _SCROLL_INTO_VIEW = """
   setTimeout(() => watch.disconnect(), 2000);
 """
 
+_ARROW = "M7.41 8.59 12 13.17l4.59-4.58L18 10l-6 6-6-6 1.41-1.41z"
+"""A shape, as the letters of an icon font would belong to the visible name."""
+
 
 def collapsible_section(
     form: Form,
@@ -52,14 +55,16 @@ def collapsible_section(
         else:
             context.open_sections.discard(key)
 
-    def show_caption(text: str) -> None:
-        section.props["caption"] = text
+    def show_texts(texts: tuple[str, str]) -> None:
+        section.props["label"], section.props["caption"] = texts
+        # Speech control uses what is visible; the role tells whether the section is open.
+        section.props["toggle-aria-label"] = " ".join(texts).strip()
         section.update()
 
     section = ui.expansion(value=key in context.open_sections, on_value_change=lambda event: turn(is_open=event.value))
     section.classes("section").props("dense duration=0")
-    form.watch(title, section.set_text)
-    form.watch(caption, show_caption)
+    section.props["expand-icon"] = _ARROW
+    form.watch(lambda: (title(), caption()), show_texts)
     if key in context.open_sections:
         fill()
     return section

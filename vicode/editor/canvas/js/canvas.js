@@ -13,6 +13,7 @@ import { restoreView, saveView } from "./view_state.js";
 import { Minimap } from "./minimap.js";
 import { Neighborhood } from "./neighborhood.js";
 import { Nudge } from "./nudge.js";
+import { OffScreenEnds } from "./off_screen_ends.js";
 import { announce, announceOpening } from "./page_events.js";
 import { Painter } from "./painter.js";
 import { Tooltip } from "./tooltip.js";
@@ -218,6 +219,7 @@ class Canvas {
   afterGesture() {
     this.painter.refineRoutes();
     this.handles.refresh();
+    this.offScreenEnds.refresh();
     this.levelOfDetail.scheduleCull();
   }
 
@@ -230,6 +232,7 @@ class Canvas {
   /** Called after each change of the selection; `quiet` if Python set it. */
   selectionChanged(quiet) {
     this.handles.refresh();
+    this.offScreenEnds.refresh();
     const [items, seq] = [this.selection.items(), quiet ? this.clientSeq : ++this.clientSeq];
     if (!quiet) announce(this.host, "vicode-select", { items, seq });
     if (!quiet) this.report("select", { items, client_seq: seq });
@@ -281,10 +284,6 @@ class Canvas {
     this.frame.debounce("toast", TOAST_MS, () => this.message.textContent === text && this.showMessage(""));
   }
 
-  drawableEdges() {
-    return [...this.scene.edges.values()].filter((edge) => this.scene.isDrawable(edge)).map((edge) => edge.key);
-  }
-
   #build() {
     this.root = this.host.attachShadow({ mode: "open" });
     this.root.adoptedStyleSheets = [sheet];
@@ -308,6 +307,7 @@ class Canvas {
     this.guard = new GuardField(this);
     this.preview = new LayoutPreview(this);
     this.insets = new Insets(this);
+    this.offScreenEnds = new OffScreenEnds(this);
     this.neighborhood = new Neighborhood(this);
     this.tooltip = new Tooltip(this);
     this.presence = new PresenceLayer(this);
@@ -316,7 +316,7 @@ class Canvas {
     this.message = html("div", { class: "message", role: "status" });
     this.empty = html("div", { class: "empty", hidden: true, text: EMPTY });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
-    const above = [this.empty, this.message, this.rename.input, this.guard.input, corner, this.neighborhood.element, this.tooltip.element, this.menu.element];
+    const above = [this.empty, this.message, this.rename.input, this.guard.input, corner, this.offScreenEnds.element, this.neighborhood.element, this.tooltip.element, this.menu.element];
     this.stage.append(this.dots, ...this.levelOfDetail.elements, ...this.presence.elements, this.insets.element, ...above);
     this.keyboard = new Keyboard(this);
     this.nudge = new Nudge(this);
@@ -353,6 +353,7 @@ class Canvas {
     for (const field of [this.rename, this.guard]) field.viewChanged();
     this.insets.place();
     this.presence.viewChanged();
+    this.offScreenEnds.refresh();
     this.levelOfDetail.viewChanged();
   }
 
@@ -360,6 +361,7 @@ class Canvas {
     saveView(this.scene.component, this.viewport);
     this.levelOfDetail.viewIdle();
     this.handles.refresh();
+    this.offScreenEnds.refresh();
   }
 
   /** The dots are one layer that is only moved and scaled. Repainting them in each frame drops a third of the frames. */

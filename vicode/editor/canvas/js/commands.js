@@ -114,7 +114,7 @@ function editHandlers(canvas) {
     paste: { run: (chord) => (chord ? false : canvas.clipboard.paste()) },
     duplicate: { can: some, run: () => canvas.report("duplicate", { items: selection.itemsWithContent() }) },
     delete: { can: some, run: () => canvas.report("delete", { items: selection.items() }) },
-    "select-all": { run: () => selection.set([...scene.shownNodes(), ...scene.shownFrames()].map(({ key }) => key).concat(canvas.drawableEdges())) },
+    "select-all": { run: () => selection.set([...scene.shownNodes(), ...scene.shownFrames()].map(({ key }) => key).concat(scene.drawableEdges())) },
   };
 }
 

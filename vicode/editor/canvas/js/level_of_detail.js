@@ -84,7 +84,11 @@ export class LevelOfDetail {
 
   /** Redraws the names at the next frame in which nothing moves. */
   scheduleNames() {
-    this.canvas.frame.schedule("names", () => this.canvas.viewport.isIdle && this.#drawNames());
+    this.canvas.frame.schedule("names", () => {
+      if (!this.canvas.viewport.isIdle) return;
+      this.#drawNames();
+      if (!this.far && !this.frozen) this.snapshot.prepare(this.shownZoom);
+    });
   }
 
   /** Redraws the bitmaps after a pause, which is short if they are visible. */

@@ -103,8 +103,8 @@ function claim(rows, label) {
   const [left, right] = [label.x - label.w / 2 - PADDING, label.x + label.w / 2 + PADDING];
   const row = Math.floor(label.y / ROW);
   const others = [row - 1, row, row + 1].flatMap((index) => rows.get(index) ?? []);
-  if (others.some((other) => Math.abs(other.y - label.y) < ROW && left < other.right && other.left < right)) return false;
+  if (others.some((other) => Math.abs(other.y - label.y) < (other.size + label.size) / 2 + PADDING && left < other.right && other.left < right)) return false;
   if (!rows.has(row)) rows.set(row, []);
-  rows.get(row).push({ left, right, y: label.y });
+  rows.get(row).push({ left, right, y: label.y, size: label.size });
   return true;
 }

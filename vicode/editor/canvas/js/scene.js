@@ -97,6 +97,10 @@ export class Scene {
     return this.#isShown(edge.source) && this.#isShown(edge.target) && (this.linksShown || edge.of !== "links");
   }
 
+  drawableEdges() {
+    return [...this.edges.values()].filter((edge) => this.isDrawable(edge)).map(({ key }) => key);
+  }
+
   edgesOf(nodeKey) {
     return [...(this.edgesAt.get(nodeKey) ?? [])].map((key) => this.edges.get(key));
   }

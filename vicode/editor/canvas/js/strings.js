@@ -42,6 +42,7 @@ export const ZOOM_TO_100 = "Zoom to 100% (0)";
 
 export const namesOnly = (percent) => `The whole diagram at ${percent}%: names only. Zoom in to read guards.`;
 
+export const goTo = (name) => `Go to ${name}`;
 export const SHOW_ALL = "Show all (Esc)";
 export const neighborhoodName = (name, steps, shown, all) => `Within ${steps === 1 ? "1 transition" : `${steps} transitions`} of ${name}: ${shown} of ${all} nodes`;
 
