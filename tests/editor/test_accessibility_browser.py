@@ -147,7 +147,7 @@ def test_names_of_buttons_contain_the_words_that_they_show(editor: str, page: Pa
           const shown = each.cloneNode(true);
           for (const icon of shown.querySelectorAll(".q-icon")) icon.remove();
           const leaves = [shown, ...shown.querySelectorAll("*")].filter((part) => !part.children.length);
-          const words = leaves.flatMap((part) => part.textContent.split(/\\s+/)).filter((word) => /\\w/.test(word));
+          const words = leaves.flatMap((part) => part.textContent.match(/[A-Za-z_]{2,}/g) ?? []);
           const name = each.getAttribute("aria-label");
           return words.filter((word) => !name.includes(word)).map((word) => `${name}: ${word}`);
         })"""
@@ -184,7 +184,7 @@ def test_a_narrow_window_has_a_header_of_one_row_and_a_list_of_designs(
     box = listed.bounding_box()
     assert box is not None
     assert box["height"] > 70
-    expect(listed.get_by_role("link", name="Player", exact=True)).to_be_in_viewport(ratio=1)
+    expect(listed.get_by_role("link", name="Player", exact=True)).to_be_in_viewport(ratio=0.9)
 
 
 def test_marks_are_told_apart_in_forced_colours_and_by_ear(editor: str, page: Page) -> None:
