@@ -132,6 +132,53 @@ def _look_at_the_plain_ones(page: Page, look: Callable[[str], None]) -> None:
         look(name)
 
 
+def test_names_of_buttons_contain_the_words_that_they_show(editor: str, page: Page) -> None:
+    open_player(page, editor)
+    unspoken = page.evaluate(
+        """() => [...document.querySelectorAll(":is(button, a, [role=button])[aria-label]")].flatMap((each) => {
+          const shown = each.cloneNode(true);
+          for (const icon of shown.querySelectorAll(".q-icon")) icon.remove();
+          const leaves = [shown, ...shown.querySelectorAll("*")].filter((part) => !part.children.length);
+          const words = leaves.flatMap((part) => part.textContent.match(/[A-Za-z_]{2,}/g) ?? []);
+          const name = each.getAttribute("aria-label");
+          return words.filter((word) => !name.includes(word)).map((word) => `${name}: ${word}`);
+        })"""
+    )
+    assert unspoken == []
+
+
+def test_names_of_nodes_contain_what_they_show(editor: str, page: Page) -> None:
+    """Speech control selects a node by its visible name."""
+    open_player(page, editor)
+    nodes = page.locator("g.node").all()
+    assert len(nodes) > 10
+    for node in nodes:
+        visible = node.locator(".name").text_content() or "?"
+        assert visible.lower() in (node.get_attribute("aria-label") or "").lower()
+
+
+@pytest.mark.parametrize(("width", "height"), [(820, 1180), (683, 384)])
+def test_a_narrow_window_has_a_header_of_one_row_and_a_list_of_designs(
+    editor: str, page: Page, width: int, height: int
+) -> None:
+    page.set_viewport_size({"width": width, "height": height})
+    page.goto(editor + PLAYER)
+    expect(page.locator('g[data-kind="state"]').first).to_be_visible()
+    expect(page.get_by_label("Description").first).to_be_visible()
+    tops = [
+        box["y"] + box["height"] / 2
+        for button in page.locator(".head button").all()
+        if (box := button.bounding_box()) is not None
+    ]
+    assert len(tops) > 6
+    assert max(tops) - min(tops) < 8
+    listed = page.locator(".designs")
+    box = listed.bounding_box()
+    assert box is not None
+    assert box["height"] > 70
+    expect(listed.get_by_role("link", name="Player", exact=True)).to_be_in_viewport(ratio=0.9)
+
+
 def test_marks_are_told_apart_in_forced_colours_and_by_ear(editor: str, page: Page) -> None:
     page.emulate_media(forced_colors="active")
     open_player(page, editor)

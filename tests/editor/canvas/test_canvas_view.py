@@ -216,7 +216,7 @@ def test_hovering_and_selecting_leave_the_rest_of_the_drawing_as_it_is(canvas: C
 def test_a_diagram_fitted_below_the_legible_zoom_shows_large_names_and_says_so(show: Show) -> None:
     scene = player()
     for state in scene["states"]:
-        state.update(x=state["x"] * 4, y=state["y"] * 4)
+        state.update(x=state["x"] * 3, y=state["y"] * 3)
     canvas = show(scene)
     name = canvas.group("state", "LookForBall").locator(".large").first
     expect(name).to_be_visible()

@@ -96,6 +96,11 @@ CANVAS_COMMANDS = (
     CanvasCommand("lay-out", "Auto layout", _ARRANGE, menus=("several", "nothing")),
     CanvasCommand("fit", "Zoom to fit", _VIEW, ("1",), menus=("nothing",)),
     CanvasCommand("zoom-selection", "Zoom to selection", _VIEW, ("2",), menus=_NODES),
+    CanvasCommand("focus-1", "Focus on neighbors", _VIEW, ("3",), menus=("states", "components", "common")),
+    CanvasCommand(
+        "focus-2", "Focus on neighbors within two transitions", _VIEW, ("4",), menus=("states", "components", "common")
+    ),
+    CanvasCommand("show-all", "Show all after a focus on neighbors", _VIEW, menus=("nothing",)),
     CanvasCommand("actual-size", "Zoom to 100%", _VIEW, ("0",), menus=("nothing",)),
     CanvasCommand("zoom-in", "Zoom in", _VIEW, ("+", "=")),
     CanvasCommand("zoom-out", "Zoom out", _VIEW, ("-",)),
@@ -116,7 +121,9 @@ CANVAS_COMMANDS = (
         "add-nearest", "Add nearest node in the arrow direction to selection", _NAVIGATE, _with_arrows("Ctrl+Shift+"),
         keys_label="Ctrl+Shift+Arrow keys",
     ),
-    CanvasCommand("cancel", "Cancel gesture or clear selection", _NAVIGATE, ("Escape",), keys_label="Escape"),
+    CanvasCommand(
+        "cancel", "Cancel gesture, leave neighbors or clear selection", _NAVIGATE, ("Escape",), keys_label="Escape"
+    ),
 )  # fmt: skip
 
 GESTURE_HELP = (

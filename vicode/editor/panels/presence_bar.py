@@ -68,8 +68,8 @@ class PresenceBar:
             else f"{name}{f': {avatar.doing}' if avatar.doing else ''}"
         )
         button = ui.element("button" if avatar.is_me else "div").classes(f"person person-{avatar.user.colour}")
-        # Not through `props(text)`, as names may contain any character.
-        button.props["aria-label"] = label
+        # Speech control uses what is visible. Not through `props(text)`, as names may contain any character.
+        button.props["aria-label"] = f"{get_initials(name)}. {label}"
         button.props["role"] = "button" if avatar.is_me else "img"
         with button:
             ui.label(get_initials(name)).props('aria-hidden="true"')

@@ -124,7 +124,8 @@ class SearchPanel:
 
     def _toggle(self, symbol: str, label: str, toggle: Callable[[], bool], *, is_on: bool) -> None:
         button = ui.button(symbol, color=None).props("flat dense no-caps size=sm").classes("search-toggle")
-        button.props["aria-label"], button.props["aria-pressed"] = label, str(is_on).lower()
+        # Speech control uses what is visible.
+        button.props["aria-label"], button.props["aria-pressed"] = f"{label} ({symbol})", str(is_on).lower()
 
         def flip() -> None:
             button.props(f'aria-pressed="{str(toggle()).lower()}"')

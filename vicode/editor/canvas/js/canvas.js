@@ -11,7 +11,9 @@ import { LEGIBLE_ZOOM, LevelOfDetail } from "./level_of_detail.js";
 import { Menu } from "./menu.js";
 import { restoreView, saveView } from "./view_state.js";
 import { Minimap } from "./minimap.js";
+import { Neighborhood } from "./neighborhood.js";
 import { Nudge } from "./nudge.js";
+import { OffScreenEnds } from "./off_screen_ends.js";
 import { announce, announceOpening } from "./page_events.js";
 import { Painter } from "./painter.js";
 import { Tooltip } from "./tooltip.js";
@@ -24,8 +26,8 @@ import { keyOf, Scene } from "./scene.js";
 import { Selection } from "./selection.js";
 import { DIAGRAM, EMPTY, STAGE_ROLE, namesOnly, stageName } from "./strings.js";
 import { html } from "./svg.js";
-import { testInterface } from "./test_interface.js";
 import { awaitFonts, onFontsLoaded } from "./text_metrics.js";
+import { testApi } from "./test_api.js";
 import { Theme } from "./theme.js";
 import { Toolbar } from "./toolbar.js";
 import { Viewport } from "./viewport.js";
@@ -54,7 +56,7 @@ class Canvas {
     this.painter = new Painter(this.scene, this.router);
     this.#build();
     this.#wire();
-    host.vicode = testInterface(this);
+    host.vicode = testApi(this);
   }
 
   load(view) {
@@ -63,6 +65,7 @@ class Canvas {
     this.gestures.cancel();
     this.painter.clear();
     this.router.clear();
+    this.neighborhood.leave();
     this.scene.load(view);
     this.nudge.reset();
     this.theme.set(view.theme);
@@ -93,6 +96,7 @@ class Canvas {
   centre(of, id) {
     const element = this.scene.find(keyOf(of, id));
     if (!element) return;
+    this.neighborhood.leaveFor(element);
     const { x, y } = this.scene.nameOf(element.key) ?? (this.scene.isDrawable(element) ? this.router.route(element).at : this.viewport.middle());
     this.viewport.centreOn(x, y, Math.max(this.viewport.k, 0.6));
   }
@@ -129,6 +133,7 @@ class Canvas {
     this.activeSeq = seq;
     this.frame.schedule("active", () => {
       this.painter.mark("active", ids.map((id) => keyOf("states", id)));
+      this.selection.updateHighlight();
       this.painter.mark("taken", taken.map((id) => keyOf("transitions", id)));
       this.insets.highlight(inner);
       if (this.isOverview) this.cull();
@@ -145,8 +150,15 @@ class Canvas {
   showLinks(flag) {
     if (this.scene.linksShown === flag) return;
     this.scene.linksShown = flag;
+    this.visibilityChanged();
+  }
+
+  /** Redraws everything after elements were shown or hidden. */
+  visibilityChanged() {
     this.router.clear();
     this.painter.refresh({ touched: [...this.scene.edges.keys()], gone: [], affectedNodes: [...this.scene.nodes.keys()] });
+    this.painter.mountedRect = null;
+    this.selection.updateHighlight();
     this.#sceneChanged();
   }
 
@@ -207,6 +219,7 @@ class Canvas {
   afterGesture() {
     this.painter.refineRoutes();
     this.handles.refresh();
+    this.offScreenEnds.refresh();
     this.levelOfDetail.scheduleCull();
   }
 
@@ -219,6 +232,7 @@ class Canvas {
   /** Called after each change of the selection; `quiet` if Python set it. */
   selectionChanged(quiet) {
     this.handles.refresh();
+    this.offScreenEnds.refresh();
     const [items, seq] = [this.selection.items(), quiet ? this.clientSeq : ++this.clientSeq];
     if (!quiet) announce(this.host, "vicode-select", { items, seq });
     if (!quiet) this.report("select", { items });
@@ -239,6 +253,7 @@ class Canvas {
   reveal(key) {
     const element = this.scene.find(key);
     if (!element) return;
+    this.neighborhood.leaveFor(element);
     if (this.isOverview) this.centre(element.of, element.id);
     else if (this.scene.nameOf(key)) this.viewport.reveal(nodeRect(this.scene.nameOf(key)));
     else if (this.scene.isDrawable(element)) this.viewport.reveal({ ...this.router.route(element).at, w: 0, h: 0 });
@@ -252,16 +267,12 @@ class Canvas {
     else this.viewport.reveal(nodeRect(place));
   }
 
-  /**
-   * Draws a state whose creation is reported next; Python sends its data, or the whole scene if it refuses the state.
-   * Answers to what was reported before do not change its selection.
-   */
+  /** Draws a state whose creation is reported next; Python sends its data. Earlier answers do not change its selection. */
   showCreated(state, select) {
     if (this.scene.nodes.has(keyOf("states", state.id))) return;
     this.apply({ rev: this.scene.rev, upsert: { states: [state] } });
-    if (!select) return;
-    this.clientSeq += 1;
-    this.selection.set([keyOf("states", state.id)], { quiet: true });
+    this.clientSeq += Number(select);
+    if (select) this.selection.set([keyOf("states", state.id)], { quiet: true });
   }
 
   showMessage(text) {
@@ -272,10 +283,6 @@ class Canvas {
   showToast(text) {
     this.showMessage(text);
     this.frame.debounce("toast", TOAST_MS, () => this.message.textContent === text && this.showMessage(""));
-  }
-
-  drawableEdges() {
-    return [...this.scene.edges.values()].filter((edge) => this.scene.isDrawable(edge)).map((edge) => edge.key);
   }
 
   #build() {
@@ -301,6 +308,8 @@ class Canvas {
     this.guard = new GuardField(this);
     this.preview = new LayoutPreview(this);
     this.insets = new Insets(this);
+    this.offScreenEnds = new OffScreenEnds(this);
+    this.neighborhood = new Neighborhood(this);
     this.tooltip = new Tooltip(this);
     this.presence = new PresenceLayer(this);
     this.dots = html("div", { class: "dots" });
@@ -308,7 +317,7 @@ class Canvas {
     this.message = html("div", { class: "message", role: "status" });
     this.empty = html("div", { class: "empty", hidden: true, text: EMPTY });
     const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
-    const above = [this.empty, this.message, this.rename.input, this.guard.input, corner, this.tooltip.element, this.menu.element];
+    const above = [this.empty, this.message, this.rename.input, this.guard.input, corner, this.offScreenEnds.element, this.neighborhood.element, this.tooltip.element, this.menu.element];
     this.stage.append(this.dots, ...this.levelOfDetail.elements, ...this.presence.elements, this.insets.element, ...above);
     this.keyboard = new Keyboard(this);
     this.nudge = new Nudge(this);
@@ -345,6 +354,7 @@ class Canvas {
     for (const field of [this.rename, this.guard]) field.viewChanged();
     this.insets.place();
     this.presence.viewChanged();
+    this.offScreenEnds.refresh();
     this.levelOfDetail.viewChanged();
   }
 
@@ -352,6 +362,7 @@ class Canvas {
     saveView(this.scene.component, this.viewport);
     this.levelOfDetail.viewIdle();
     this.handles.refresh();
+    this.offScreenEnds.refresh();
   }
 
   /** The dots are one layer that is only moved and scaled. Repainting them in each frame drops a third of the frames. */

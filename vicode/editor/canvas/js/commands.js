@@ -114,7 +114,7 @@ function editHandlers(canvas) {
     paste: { run: (chord) => (chord ? false : canvas.clipboard.paste()) },
     duplicate: { can: some, run: () => canvas.report("duplicate", { items: selection.itemsWithContent() }) },
     delete: { can: some, run: () => canvas.report("delete", { items: selection.items() }) },
-    "select-all": { run: () => selection.set([...scene.nodes.keys(), ...canvas.drawableEdges(), ...scene.frames.keys()]) },
+    "select-all": { run: () => selection.set([...scene.shownNodes(), ...scene.shownFrames()].map(({ key }) => key).concat(scene.drawableEdges())) },
   };
 }
 
@@ -138,6 +138,7 @@ function viewHandlers(canvas) {
   const { viewport, selection, scene } = canvas;
   const hasInside = (node) => Boolean(node && (node.of === "states" ? node.data.requires || node.data.modulates : node.data.design));
   const centre = () => viewport.middle();
+  const canFocus = () => scene.nodes.has(selection.single()) && scene.nodes.get(selection.single()).of !== "notes";
   return {
     fit: { run: () => canvas.fit() },
     "zoom-selection": { can: () => selection.keys.size > 0, run: () => canvas.zoomToSelection() },
@@ -145,6 +146,9 @@ function viewHandlers(canvas) {
     "zoom-in": { run: () => viewport.zoomBy(1.25) },
     "zoom-out": { run: () => viewport.zoomBy(0.8) },
     inside: { can: () => hasInside(scene.nodes.get(selection.single())), run: () => canvas.insets.toggle(selection.single()) },
+    "focus-1": { can: canFocus, run: () => canvas.neighborhood.toggle(selection.single(), 1) },
+    "focus-2": { can: canFocus, run: () => canvas.neighborhood.toggle(selection.single(), 2) },
+    "show-all": { can: () => canvas.neighborhood.isOn, run: () => canvas.neighborhood.leave() },
     links: { run: () => canvas.report("command", { name: "links" }) },
     help: { run: () => canvas.report("command", { name: "help" }) },
     breakpoint: { can: () => selection.keys.size > 0, run: () => canvas.report("command", { name: "breakpoint" }) },
@@ -157,7 +161,7 @@ function viewHandlers(canvas) {
 function navigationHandlers(canvas) {
   const { gestures, selection } = canvas;
   const cancel = () => {
-    if (!gestures.cancel()) selection.set([]);
+    if (!gestures.cancel() && !canvas.neighborhood.leave()) selection.set([]);
   };
   return {
     next: { run: () => selectInTabOrder(canvas, 1) },
@@ -199,7 +203,7 @@ function selectInTabOrder(canvas, step) {
 function selectNearest(canvas, direction, keep) {
   const { scene, selection, painter, viewport } = canvas;
   const from = scene.nodes.get(selection.nodes().at(-1)) ?? viewport.middle();
-  const next = nearestInDirection([...scene.nodes.values()], from, direction);
+  const next = nearestInDirection(scene.shownNodes(), from, direction);
   if (!next) return;
   const kept = keep ? [...selection.keys].filter((key) => key !== next.key) : [];
   selection.set([...kept, next.key]);

@@ -74,7 +74,7 @@ export class ConnectMode {
   }
 
   #targets() {
-    return [...this.canvas.scene.nodes.values()].filter((node) => this.gesture.accepts(node));
+    return this.canvas.scene.shownNodes().filter((node) => this.gesture.accepts(node));
   }
 
   #aim(node) {

@@ -2,12 +2,12 @@
 
 /** Returns the keys of all nodes, each followed by its outgoing edges: transitions by priority, then links; last the frames. */
 export function tabOrder(scene) {
-  const nodes = [...scene.nodes.values()].flatMap((node) => {
+  const nodes = scene.shownNodes().flatMap((node) => {
     const leaving = scene.edgesOf(node.key).filter((edge) => edge.source === node.key && scene.isDrawable(edge));
     leaving.sort((a, b) => (a.data.order ?? Infinity) - (b.data.order ?? Infinity) || 0);
     return [node.key, ...leaving.map((edge) => edge.key)];
   });
-  return [...nodes, ...scene.frames.keys()];
+  return [...nodes, ...scene.shownFrames().map(({ key }) => key)];
 }
 
 /** Returns the nearest node in a direction; distance across the direction counts twice. */

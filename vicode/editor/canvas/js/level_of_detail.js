@@ -1,5 +1,6 @@
 // Level of detail: SVG when zoomed in, bitmaps when zoomed out, and a snapshot while many elements are being zoomed.
 import { MAX_PINNED } from "./painter.js";
+import { NameLayer } from "./name_layer.js";
 import { Overview } from "./overview.js";
 import { Snapshot } from "./snapshot.js";
 
@@ -20,7 +21,8 @@ export class LevelOfDetail {
     this.shownZoom = 1;
     this.overview = new Overview(canvas.scene, canvas.viewport, colours);
     this.snapshot = new Snapshot(canvas.painter, canvas.viewport, colours);
-    this.elements = [...this.overview.elements, this.snapshot.element, plane];
+    this.names = new NameLayer(canvas, colours);
+    this.elements = [...this.overview.elements, this.snapshot.element, plane, this.names.element];
     // A press needs mounted elements for its hit test.
     canvas.stage.addEventListener("pointerdown", () => this.#unfreeze(), { capture: true });
   }
@@ -34,6 +36,7 @@ export class LevelOfDetail {
     this.plane.classList.toggle("small", viewport.k < LEGIBLE_ZOOM);
     this.overview.place();
     this.snapshot.place();
+    this.names.place();
     if (this.frozen) return;
     this.#placePlane();
     if (!this.far && this.#isTooDense(1)) this.#setFar(true);
@@ -69,6 +72,7 @@ export class LevelOfDetail {
   }
 
   selectionChanged() {
+    this.scheduleNames();
     if (!this.far) return;
     this.scheduleCull();
     // A small selection is SVG above the bitmap; a large one is part of the bitmap.
@@ -78,6 +82,15 @@ export class LevelOfDetail {
     this.scheduleRedraw();
   }
 
+  /** Redraws the names at the next frame in which nothing moves. */
+  scheduleNames() {
+    this.canvas.frame.schedule("names", () => {
+      if (!this.canvas.viewport.isIdle) return;
+      this.#drawNames();
+      if (!this.far && !this.frozen) this.snapshot.prepare(this.shownZoom);
+    });
+  }
+
   /** Redraws the bitmaps after a pause, which is short if they are visible. */
   scheduleRedraw() {
     const { frame, gestures, viewport, selection } = this.canvas;
@@ -85,6 +98,7 @@ export class LevelOfDetail {
       if (gestures.isDragging() || !viewport.isIdle) return this.scheduleRedraw();
       this.overview.drawCoarse(selection.keys);
       if (this.far) this.overview.drawSharp(selection.keys);
+      this.#drawNames();
     });
   }
 
@@ -92,8 +106,14 @@ export class LevelOfDetail {
     if (this.far && !this.#isTooDense(LEAVING)) this.#setFar(false);
     this.#unfreeze();
     this.cull();
+    this.#drawNames();
     if (this.far) this.overview.drawSharp(this.canvas.selection.keys);
     if (!this.far) this.snapshot.prepare(this.shownZoom);
+  }
+
+  #drawNames() {
+    const isDrawn = this.names.draw(this);
+    this.plane.classList.toggle("named", isDrawn);
   }
 
   #placePlane() {
@@ -139,7 +159,7 @@ export class LevelOfDetail {
   /** Whether too many elements for SVG are visible; `slack` below 1 adds hysteresis for leaving the overview. */
   #isTooDense(slack) {
     const { scene, viewport } = this.canvas;
-    if (scene.nodes.size <= FAR_STATES) return false;
+    if (scene.nodes.size - scene.hidden.size <= FAR_STATES) return false;
     return viewport.k < OVERVIEW_ZOOM / slack || scene.nodeGrid.query(viewport.visibleRect()).size > MAX_VISIBLE_NODES * slack;
   }
 

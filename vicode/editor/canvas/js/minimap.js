@@ -33,10 +33,10 @@ export class Minimap {
     pen.setTransform(2 * scale, 0, 0, 2 * scale, 2 * this.map.x, 2 * this.map.y);
     pen.strokeStyle = this.colours("muted");
     pen.lineWidth = 1 / scale;
-    for (const area of [...this.scene.frames.keys()].map((key) => this.scene.boxOf(key)).filter(Boolean)) pen.strokeRect(area.x, area.y, area.w, area.h);
+    for (const area of this.scene.shownFrames().map(({ key }) => this.scene.boxOf(key)).filter(Boolean)) pen.strokeRect(area.x, area.y, area.w, area.h);
     this.#drawEdges(pen, scale);
     const colourOf = (node) => node.data.severity ?? { states: "box-line", components: "component-line", common: "common", notes: "plate-line" }[node.of];
-    for (const [colour, nodes] of Map.groupBy([...this.scene.nodes.values()], colourOf)) {
+    for (const [colour, nodes] of Map.groupBy(this.scene.shownNodes(), colourOf)) {
       pen.fillStyle = this.colours(colour);
       pen.beginPath();
       for (const { x, y, w, h } of nodes.map(nodeRect)) pen.rect(x, y, Math.max(w, 2.5 / scale), Math.max(h, 2 / scale));

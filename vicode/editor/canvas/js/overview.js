@@ -1,11 +1,9 @@
 // Overview for small zooms: a coarse bitmap of the whole scene and a sharp bitmap of the visible part.
 import { bounds, containsRect, grow, overlaps, nodeRect } from "./geometry.js";
 import { html } from "./svg.js";
-import { FONTS } from "./text_metrics.js";
 
 const COARSE_PIXELS = 1536;
 const SHARP_PIXELS = 4096;
-const NAMES_FROM = 0.19;
 
 export class Overview {
   constructor(scene, viewport, colours) {
@@ -73,14 +71,12 @@ export class Overview {
     pen.setTransform(scale, 0, 0, scale, -region.x * scale, -region.y * scale);
     this.#drawFrames(pen, scale, selected);
     this.#drawEdges(pen, scale);
-    const nodes = [...this.scene.nodes.values()].filter((node) => overlaps(nodeRect(node), region));
+    const nodes = this.scene.shownNodes().filter((node) => overlaps(nodeRect(node), region));
     this.#drawNodes(pen, nodes, scale, selected);
-    if (scale >= NAMES_FROM * Math.min(1, devicePixelRatio)) this.#drawNames(pen, nodes);
   }
 
   #drawFrames(pen, scale, selected) {
     pen.lineWidth = Math.max(1, 0.7 / scale);
-    pen.textBaseline = "middle";
     for (const { key, data } of this.scene.framesInOrder()) {
       const area = this.scene.boxOf(key);
       if (!area) continue;
@@ -88,10 +84,6 @@ export class Overview {
       pen.strokeStyle = this.colours(selected.has(key) ? "accent" : "plate-line");
       pen.fillRect(area.x, area.y, area.w, area.h);
       pen.strokeRect(area.x, area.y, area.w, area.h);
-      pen.font = FONTS.name.replace("14px", "26px");
-      pen.fillStyle = this.colours("muted");
-      pen.textAlign = "left";
-      pen.fillText(data.name, area.x + 14, area.y + 22, area.w - 28);
     }
   }
 
@@ -131,14 +123,6 @@ export class Overview {
       pen.fill();
       pen.stroke();
     }
-  }
-
-  #drawNames(pen, nodes) {
-    pen.font = FONTS.name;
-    pen.textAlign = "center";
-    pen.textBaseline = "middle";
-    pen.fillStyle = this.colours("text");
-    for (const node of nodes) pen.fillText(node.label, node.x, node.y);
   }
 }
 

@@ -13,7 +13,7 @@ import { bringToFront, svg } from "./svg.js";
 
 // Marked elements stay mounted even in the overview, up to this many of each mark.
 export const MAX_PINNED = 150;
-const PINNED = { selected: MAX_PINNED, active: MAX_PINNED, taken: 1, drop: 1, lit: 200, held: 1500 };
+const PINNED = { selected: MAX_PINNED, active: MAX_PINNED, taken: 1, drop: 1, lit: 200, near: 200, held: 1500 };
 
 // During a drag, up to this many edges are fully routed and labeled in each frame; more would drop frames.
 const MAX_FULL_ROUTING = 40;
@@ -36,7 +36,7 @@ export class Painter {
     this.scene = scene;
     this.router = router;
     this.items = new Map();
-    const names = ["selected", "active", "taken", "breakpoint", "drop", "held", "lit", "member", "hover", ...HEAT.map((color) => `heat-${color}`)];
+    const names = ["selected", "active", "taken", "breakpoint", "drop", "held", "near", "lit", "member", "hover", ...HEAT.map((color) => `heat-${color}`)];
     this.marks = new Map(names.map((name) => [name, new Set()]));
     this.layers = Object.fromEntries(LAYER_STACK.flat().map((name) => [name, layer(name, isInset)]));
     this.hitAreas = LAYER_STACK.map(() => svg("rect", { class: "ground" }));
@@ -184,6 +184,12 @@ export class Painter {
     for (const edge of edges) this.#placeEdge(edge);
   }
 
+  /** Dims everything but these elements; nothing if there are none. The layers of the rest are dimmed as a whole. */
+  dimAround(keys) {
+    this.mark("near", keys);
+    this.svgRoots[0].parentNode.classList.toggle("dimming", keys.size > 0);
+  }
+
   focus(key) {
     const item = this.items.get(key);
     (item?.node ?? item?.line ?? item?.frame)?.focus({ preventScroll: true });
@@ -204,7 +210,7 @@ export class Painter {
     const wanted = new Set();
     for (const key of this.scene.nodeGrid.query(rect)) if (overlaps(nodeRect(this.scene.nodes.get(key)), rect)) wanted.add(key);
     for (const key of this.scene.edgeGrid.query(rect)) wanted.add(key);
-    for (const key of this.scene.frames.keys()) wanted.add(key);
+    for (const { key } of this.scene.shownFrames()) wanted.add(key);
     return wanted;
   }
 
@@ -212,7 +218,7 @@ export class Painter {
     const pinned = new Set();
     for (const [name, max] of Object.entries(PINNED)) {
       const keys = this.marks.get(name);
-      if (keys.size <= max) for (const key of keys) pinned.add(key);
+      if (keys.size <= max) for (const key of keys) if (!this.scene.hidden.has(key)) pinned.add(key);
     }
     return pinned;
   }
@@ -318,16 +324,18 @@ export class Painter {
     if (name === "breakpoint") showBreakpoint(this.items.get(key), this.scene.find(key), on);
     for (const part of Object.values(this.items.get(key) ?? {})) {
       if (!part) continue;
-      if (name === "held") this.#hold(part, on);
+      if (name === "held" || name === "near") this.#raise(part, key);
       else part.classList.toggle(name, on);
       if (name in MARKS && part.role === "button") describeMarks(part);
       if (on && name === "lit" && part.nextSibling) bringToFront(part, part.parentNode);
     }
   }
 
-  #hold(part, on) {
-    bringToFront(part, this.heldLayers.get(part.parentNode));
-    if (!on) bakeTransform(part);
+  /** Puts an element above the rest, or back: while it is dragged, or while everything else is dimmed. */
+  #raise(part, key) {
+    const isRaised = ["held", "near"].some((name) => this.marks.get(name).has(key));
+    if (part.parentNode.classList.contains("held") !== isRaised) bringToFront(part, this.heldLayers.get(part.parentNode));
+    if (!isRaised) bakeTransform(part);
   }
 }
 

@@ -3,7 +3,7 @@ import { Grid } from "./grid.js";
 import { frameRect, titlePlace } from "./frames.js";
 import { bounds, containsRect, nodeRect } from "./geometry.js";
 import { EVERY_STATE } from "./strings.js";
-import { truncate, textWidth } from "./text_metrics.js";
+import { truncateMiddle, textWidth } from "./text_metrics.js";
 
 /** Prefix of the keys of links. */
 export const LINKS = "l:";
@@ -29,10 +29,11 @@ export class Scene {
     this.affectedNodes = new Set();
     this.changedRects = [];
     this.linksShown = true;
+    this.hidden = new Set();
   }
 
   load(view) {
-    for (const store of [this.nodes, this.edges, this.frames, this.initialNodes, this.pairs, this.edgesAt, this.nodeGrid, this.edgeGrid]) store.clear();
+    for (const store of [this.nodes, this.edges, this.frames, this.initialNodes, this.pairs, this.edgesAt, this.nodeGrid, this.edgeGrid, this.hidden]) store.clear();
     this.rev = view.rev;
     this.component = view.component;
     this.doc = view.doc ?? "";
@@ -71,13 +72,41 @@ export class Scene {
     this.#index(nodes, this.#edgesAtAll(nodes));
   }
 
-  /** Whether both ends of an edge exist and its kind is visible. */
+  /** Hides nodes with their edges; the spatial index contains only what is shown. */
+  hide(keys) {
+    this.hidden = new Set(keys);
+    this.nodeGrid.clear();
+    this.edgeGrid.clear();
+    this.#index(this.nodes.keys(), this.edges.keys());
+  }
+
+  shownNodes() {
+    return [...this.nodes.values()].filter(({ key }) => !this.hidden.has(key));
+  }
+
+  /** The frames with a state that is shown, or with none at all. */
+  shownFrames() {
+    return [...this.frames.values()].filter((frame) => {
+      const states = this.#statesOf(frame);
+      return !states.length || states.some(({ key }) => !this.hidden.has(key));
+    });
+  }
+
+  /** Whether both ends of an edge are shown and its kind is visible. */
   isDrawable(edge) {
-    return this.nodes.has(edge.source) && this.nodes.has(edge.target) && (this.linksShown || edge.of !== "links");
+    return this.#isShown(edge.source) && this.#isShown(edge.target) && (this.linksShown || edge.of !== "links");
+  }
+
+  drawableEdges() {
+    return [...this.edges.values()].filter((edge) => this.isDrawable(edge)).map(({ key }) => key);
   }
 
   edgesOf(nodeKey) {
     return [...(this.edgesAt.get(nodeKey) ?? [])].map((key) => this.edges.get(key));
+  }
+
+  #isShown(key) {
+    return this.nodes.has(key) && !this.hidden.has(key);
   }
 
   find(key) {
@@ -99,7 +128,7 @@ export class Scene {
 
   /** Returns the frames from back to front. */
   framesInOrder() {
-    return [...this.frames.values()].sort((a, b) => b.data.level - a.data.level);
+    return this.shownFrames().sort((a, b) => b.data.level - a.data.level);
   }
 
   /** Returns the keys of the states of a frame, and of all nodes inside its rectangle. */
@@ -120,7 +149,7 @@ export class Scene {
   }
 
   extent() {
-    return bounds([...[...this.nodes.values()].map(nodeRect), ...[...this.frames.keys()].map((key) => this.boxOf(key)).filter(Boolean)]);
+    return bounds([...this.shownNodes().map(nodeRect), ...this.shownFrames().map(({ key }) => this.boxOf(key)).filter(Boolean)]);
   }
 
   /** Measures all nodes again, after a web font was loaded. */
@@ -215,11 +244,11 @@ export class Scene {
 
   /** Updates the spatial index. */
   #index(nodes, edges) {
-    for (const key of nodes) this.nodeGrid.putRect(key, nodeRect(this.nodes.get(key)));
+    for (const key of nodes) if (!this.hidden.has(key)) this.nodeGrid.putRect(key, nodeRect(this.nodes.get(key)));
     for (const key of edges) {
       const edge = this.edges.get(key);
       const [source, target] = [this.nodes.get(edge.source), this.nodes.get(edge.target)];
-      if (source && target) this.edgeGrid.putLine(key, source, target);
+      if (this.#isShown(edge.source) && this.#isShown(edge.target)) this.edgeGrid.putLine(key, source, target);
     }
   }
 }
@@ -229,8 +258,8 @@ export function sizeOf(of, data) {
   if (of === "notes") return { w: data.w, h: data.h, label: data.lines[0], second: "" };
   if (of === "common") return { w: 140, h: 40, label: EVERY_STATE, second: "" };
   const name = String(of === "states" ? data.name : data.id);
-  const label = truncate(name, "name", 230);
-  const second = of === "components" && data.name !== data.id ? truncate(String(data.name), "small", 200) : "";
+  const label = truncateMiddle(name, "name", 230);
+  const second = of === "components" && data.name !== data.id ? truncateMiddle(String(data.name), "small", 200) : "";
   const room = Math.max(textWidth(label, "name"), textWidth(second, "small")) + (of === "components" ? 64 : 44);
   return { w: Math.max(120, Math.ceil(room / 20) * 20), h: NODE_HEIGHT, label, second };
 }

@@ -2,6 +2,8 @@
 import { keyOf } from "./scene.js";
 
 const MAX_HIGHLIGHTED = 40;
+// In a diagram of more nodes than this, the selection of a single node or edge dims what is not connected to it.
+const MAX_UNDIMMED = 30;
 
 export class Selection {
   constructor(canvas) {
@@ -81,15 +83,27 @@ export class Selection {
   updateHighlight() {
     const isFrame = (key) => this.scene.frames.has(key);
     const elements = this.hovered ? [this.hovered] : this.keys.size <= MAX_HIGHLIGHTED ? [...this.keys] : [];
-    const centre = elements.filter((key) => !isFrame(key));
-    const lit = new Set(centre);
-    for (const key of centre) {
-      const edge = this.scene.edges.get(key);
-      const edges = edge ? [edge] : this.scene.edgesOf(key).filter((candidate) => this.scene.isDrawable(candidate));
-      for (const { key: edgeKey, source, target } of edges) for (const part of [edgeKey, source, target]) lit.add(part);
-    }
-    this.painter.mark("lit", lit);
+    this.painter.mark("lit", this.#connected(elements.filter((key) => !isFrame(key))));
+    this.#dim();
     const frames = [...this.keys].map((key) => this.scene.frames.get(key)).filter(Boolean);
     this.painter.mark("member", frames.flatMap(({ data }) => data.states.map((name) => keyOf("states", name))));
+  }
+
+  /** Dims what is not connected to the selected element; not during a simulation, which shows the active state. */
+  #dim() {
+    const key = this.single();
+    const isDimming = key && !this.scene.frames.has(key) && this.scene.nodes.size > MAX_UNDIMMED && !this.painter.marks.get("active").size;
+    this.painter.dimAround(isDimming ? this.#connected([key]) : new Set());
+  }
+
+  /** Nodes and edges, with the edges of the nodes and the ends of the edges. */
+  #connected(keys) {
+    const found = new Set(keys);
+    for (const key of keys) {
+      const edge = this.scene.edges.get(key);
+      const edges = edge ? [edge] : this.scene.edgesOf(key).filter((candidate) => this.scene.isDrawable(candidate));
+      for (const { key: edgeKey, source, target } of edges) for (const part of [edgeKey, source, target]) found.add(part);
+    }
+    return found;
   }
 }

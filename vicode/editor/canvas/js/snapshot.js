@@ -67,8 +67,12 @@ export class Snapshot {
     const { revision, styleRevision, mountedRect: region } = this.painter;
     const scale = Math.min(zoom * devicePixelRatio, MAX_PIXELS / Math.max(region.w, region.h));
     const pen = this.#begin(region, scale);
-    const groups = Object.values(this.painter.layers).flatMap((layer) => [...layer.children].map((group) => ({ layer, group })));
-    for (const [index, { layer, group }] of groups.entries()) {
+    const groups = Object.values(this.painter.layers).flatMap((layer) => {
+      const opacity = Number(getComputedStyle(layer.ownerSVGElement).opacity);
+      return [...layer.children].map((group) => ({ layer, opacity, group }));
+    });
+    for (const [index, { layer, opacity, group }] of groups.entries()) {
+      this.opacity = opacity;
       this.#drawGroup(pen, group, `${layer.getAttribute("class")} ${group.getAttribute("class")}`);
       // Reading a pixel back forces the browser to paint the recorded operations.
       if (index % STEP === STEP - 1) yield pen.getImageData(0, 0, 1, 1);
@@ -108,8 +112,8 @@ export class Snapshot {
 
   #drawShape(pen, element, style) {
     if (!style.fill && !style.stroke) return;
-    if (element.tagName === "text") writeText(pen, element, style);
-    else drawPath(pen, pathOf(element), style);
+    if (element.tagName === "text") writeText(pen, element, style, this.opacity);
+    else drawPath(pen, pathOf(element), style, this.opacity);
   }
 
   /** Returns the style of an element, cached by its classes and the level of detail, which hides some. */
@@ -139,14 +143,14 @@ function readStyle(style, colours) {
   };
 }
 
-function drawPath(pen, path, style) {
+function drawPath(pen, path, style, opacity) {
   if (style.fill) {
-    pen.globalAlpha = style.fillOpacity;
+    pen.globalAlpha = style.fillOpacity * opacity;
     pen.fillStyle = style.fill;
     pen.fill(path);
   }
   if (style.stroke) {
-    pen.globalAlpha = style.strokeOpacity;
+    pen.globalAlpha = style.strokeOpacity * opacity;
     pen.strokeStyle = style.stroke;
     pen.lineWidth = style.width;
     pen.lineCap = style.cap;
@@ -155,8 +159,8 @@ function drawPath(pen, path, style) {
   }
 }
 
-function writeText(pen, element, style) {
-  pen.globalAlpha = style.fillOpacity;
+function writeText(pen, element, style, opacity) {
+  pen.globalAlpha = style.fillOpacity * opacity;
   pen.fillStyle = style.fill;
   pen.font = style.font;
   pen.textAlign = style.align;

@@ -42,6 +42,10 @@ export const ZOOM_TO_100 = "Zoom to 100% (0)";
 
 export const namesOnly = (percent) => `The whole diagram at ${percent}%: names only. Zoom in to read guards.`;
 
+export const goTo = (name) => `Go to ${name}`;
+export const SHOW_ALL = "Show all (Esc)";
+export const neighborhoodName = (name, steps, shown, all) => `Within ${steps === 1 ? "1 transition" : `${steps} transitions`} of ${name}: ${shown} of ${all} nodes`;
+
 // Descriptions of elements
 export const MARKS = { selected: "selected", active: "active", taken: "last transition taken", breakpoint: "breakpoint", "heat-never": "never in the trace" };
 // The colors of the heat map.

@@ -62,18 +62,29 @@ export function largestLines(name, w, h) {
   return { lines, size: Math.floor(sizeOf(lines) * 10) / 10 };
 }
 
+// No available width fits more characters; this avoids measuring very long texts.
+const MOST_CHARACTERS = 120;
+
 /** Returns the text if it fits, else its beginning and an ellipsis. */
-export function truncate(text, font, room) {
+export const truncate = (text, font, room) => shorten(text, font, room, (line, kept) => `${line.slice(0, kept).trimEnd()}…`);
+
+/** Returns a name if it fits, else its beginning and its end: long names often differ in the last word. */
+export const truncateMiddle = (name, font, room) =>
+  shorten(name, font, room, (line, kept) => {
+    const tail = Math.floor(kept / 2);
+    return `${line.slice(0, kept - tail).trimEnd()}…${tail ? line.slice(-tail).trimStart() : ""}`;
+  });
+
+/** Returns the text if it fits, else what `cut` makes of it with as many characters as fit. */
+function shorten(text, font, room, cut) {
   const line = text.replace(/\s+/g, " ").trim();
-  // No available width fits more; this avoids measuring very long texts.
-  const start = line.length > 120 ? line.slice(0, 120) : line;
-  if (start === line && textWidth(line, font) <= room) return line;
+  let high = Math.min(line.length, MOST_CHARACTERS);
+  if (high === line.length && textWidth(line, font) <= room) return line;
   let low = 0;
-  let high = start.length;
   while (low < high) {
     const middle = Math.ceil((low + high) / 2);
-    if (textWidth(`${start.slice(0, middle)}…`, font) <= room) low = middle;
+    if (textWidth(cut(line, middle), font) <= room) low = middle;
     else high = middle - 1;
   }
-  return `${start.slice(0, low).trimEnd()}…`;
+  return cut(line, low);
 }
