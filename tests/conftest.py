@@ -54,16 +54,18 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     While Playwright's synchronous API is open, no other test of the process may call asyncio.run. Among the files with
     browser tests, those with most tests start first, so that the workers end at about the same time.
 
-    A person tries again when the machine was asleep for a second; so do we, once, and it is told. The nightly run,
-    which asks whether a test ever fails, gives no second try.
+    A person tries again when the machine was asleep for a second; so do we, once, and it is told. Browsers are not
+    alone in this: tests start processes, send signals and wait for sockets. The nightly run, which asks whether a test
+    ever fails, gives no second try.
     """
+    has_second_try = "VICODE_ONE_TRY" not in os.environ
     sizes: Counter[Path] = Counter()
     for item in items:
         if "chromium" in getattr(item, "fixturenames", ()):
             sizes[item.path] += 1
             item.add_marker(pytest.mark.browser)
-            if "VICODE_ONE_TRY" not in os.environ:
-                item.add_marker(pytest.mark.flaky(reruns=1))
+        if has_second_try:
+            item.add_marker(pytest.mark.flaky(reruns=1))
     items.sort(key=lambda item: (item.path in sizes, -sizes[item.path]))
 
 

@@ -9,8 +9,9 @@ from tests.editor.session.conftest import open_design
 from vicode.editor.session import DocumentSession, texts
 from vicode.editor.session.forms.declaration_form import declared_symbol
 from vicode.editor.session.forms.form_data import FormWriter, item_form
+from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.marks import ItemFields, marks_of
-from vicode.editor.session.forms.nodes import iter_fields
+from vicode.editor.session.forms.nodes import Section, iter_fields
 from vicode.editor.view import ItemRef
 from vicode.findings import Finding, FindingSubject, get_rule
 from vicode.model.design import Declaration, Design, State, Use
@@ -46,6 +47,20 @@ def test_values_of_the_design_are_written(document: DocumentSession) -> None:
     assert (design.doc, design.frequency_hz, design.initial) == ("Plays.", 12.5, "B")
     assert (design.time_unit, design.resume) == ("ms", True)
     assert design.members.in_language("python") == "def f(self): ..."
+
+
+@pytest.mark.parametrize(
+    ("project", "design", "is_shown"),
+    [
+        (PROJECT, DESIGN, False),
+        (replace(PROJECT, languages=("python", "xabsl")), DESIGN, True),
+        (PROJECT, replace(DESIGN, time_unit="ms"), True),
+        (PROJECT, replace(DESIGN, arithmetic="xabsl"), True),
+    ],
+)
+def test_xabsl_is_shown_where_it_is_used(project: Project, design: Design, is_shown: bool) -> None:
+    form = item_form(project, design, ItemRef(kind="design", id=""), ListIds())
+    assert any(isinstance(node, Section) and node.title == "XABSL" for node in form) == is_shown
 
 
 def test_a_frequency_that_is_no_number_is_refused(document: DocumentSession) -> None:

@@ -22,6 +22,7 @@ from vicode.editor.session.forms.nodes import (
     Uses,
 )
 from vicode.editor.session.forms.project_form import project_section
+from vicode.editor.session.forms.state_form import uses_xabsl
 from vicode.model.design import COMMON, Design
 from vicode.model.project import Project
 
@@ -54,7 +55,7 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
         ),
         Check(path=("resume",), label=resume.label, value=design.resume),
         *interface_lists(project, design, ids.of_project(project)),
-        _xabsl(design),
+        *((_xabsl(design),) if uses_xabsl(project, design) or design.time_unit else ()),
         Heading(text="Uses", hint="components this design requires or modulates"),
         Uses(rows=tuple(UseLine(alias=use.alias, component=use.component) for use in design.uses)),
         *declared,
