@@ -133,7 +133,7 @@ class Client:
             await asyncio.wait_for(self.socket.disconnect(), 5)
 
     async def _gesture(self, payload: dict[str, Any]) -> None:
-        await self._emit("gesture", {**payload, "rev": self.rev})
+        await self._emit("gesture", {**payload, "rev": self.rev, "seq": 0})
 
     async def _emit(self, event: str, payload: dict[str, Any]) -> None:
         message = {

@@ -133,11 +133,12 @@ def _look_at_the_plain_ones(page: Page, look: Callable[[str], None]) -> None:
 
 
 def test_names_of_buttons_contain_the_words_that_they_show(editor: str, page: Page) -> None:
+    """The caption of a section describes it; it is no part of its name."""
     open_player(page, editor)
     unspoken = page.evaluate(
         """() => [...document.querySelectorAll(":is(button, a, [role=button])[aria-label]")].flatMap((each) => {
           const shown = each.cloneNode(true);
-          for (const icon of shown.querySelectorAll(".q-icon")) icon.remove();
+          for (const icon of shown.querySelectorAll(".q-icon, .q-item__label--caption")) icon.remove();
           const leaves = [shown, ...shown.querySelectorAll("*")].filter((part) => !part.children.length);
           const words = leaves.flatMap((part) => part.textContent.match(/[A-Za-z_]{2,}/g) ?? []);
           const name = each.getAttribute("aria-label");

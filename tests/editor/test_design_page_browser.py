@@ -106,7 +106,9 @@ def test_who_renames_a_state_types_on_in_the_next_field(editor: str, page: Page)
 
 def test_a_declaration_without_a_name_is_told_and_not_taken(editor: str, page: Page) -> None:
     open_player(page, editor)
-    page.get_by_role("group", name="variable kick").get_by_role("textbox", name="Name").fill("")
+    name = page.get_by_role("group", name="variable kick").get_by_role("textbox", name="Name")
+    name.fill("")
+    name.press("Enter")
     expect(page.get_by_text("enter a name")).to_be_visible()
     expect(page.get_by_text("Unsaved changes")).to_have_count(0)
 

@@ -202,6 +202,22 @@ def test_an_agent_is_edited_and_another_one_added(editor: str, page: Page, proje
     assert "seeker" not in file.read_text()
 
 
+def test_inputs_are_typed_one_after_another(editor: str, page: Page, project: Path) -> None:
+    open_player(page, editor)
+    inspector = page.get_by_label("Inspector")
+    inspector.get_by_label("New input").click()
+    for text in ("order_given", "range_left: float", "count: int"):
+        page.keyboard.type(text, delay=10)
+        page.keyboard.press("Enter")
+    for name in ("order_given", "range_left", "count"):
+        expect(inspector.get_by_text(f"sensors.{name}", exact=True)).to_be_visible()
+    written = (project / "forward" / "project.yaml").read_text()
+    assert re.search(r"order_given: (\{type: )?bool", written)
+    assert re.search(r"range_left: (\{type: )?float", written)
+    assert re.search(r"count: (\{type: )?int", written)
+    expect(inspector.get_by_label("New input")).to_be_focused()
+
+
 def test_inputs_and_commands_are_added_in_one_place(editor: str, page: Page, project: Path) -> None:
     file = project / "forward" / "project.yaml"
     before = file.read_text()

@@ -162,3 +162,26 @@ def test_a_state_at_the_origin_is_clicked_at_its_center(show: Callable[[Mapping[
     canvas = show({**scene, "states": placed})
     canvas.page.mouse.click(*canvas.at("states", "GetUp"))
     canvas.wait_for("vicode.selection()[0]?.id === 'GetUp'")
+
+
+@pytest.mark.parametrize("depth", [-0.5, 1, 4])
+@pytest.mark.parametrize("along", [0.3, 0.7])
+def test_a_drag_from_the_border_connects_without_a_pause(canvas: CanvasDriver, depth: float, along: float) -> None:
+    box = canvas.group("state", "GiveUp").locator("rect.box").bounding_box()
+    assert box is not None
+    # The pointer has not been here: no handle is drawn.
+    canvas.page.mouse.move(5, 5)
+    canvas.drag((box["x"] + along * box["width"], box["y"] + depth), canvas.at("states", "FollowBall"))
+    expect(canvas.page.locator("input.guard-field")).to_be_focused()
+    canvas.press("Enter")
+    assert canvas.wait_for_gesture("connect", source="GiveUp", target="FollowBall")
+    assert not canvas.gestures("move")
+
+
+def test_a_drag_from_inside_the_border_moves(canvas: CanvasDriver) -> None:
+    box = canvas.group("state", "GiveUp").locator("rect.box").bounding_box()
+    assert box is not None
+    start = box["x"] + 0.3 * box["width"], box["y"] + 7
+    canvas.drag(start, (start[0] + 60, start[1] + 40))
+    canvas.wait_for_gesture("move")
+    assert not canvas.gestures("connect")

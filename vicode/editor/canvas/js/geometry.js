@@ -7,6 +7,12 @@ export const snap = (value) => Math.round(value / SNAP) * SNAP;
 
 export const nodeRect = (node) => ({ x: node.x - node.w / 2, y: node.y - node.h / 2, w: node.w, h: node.h });
 
+/** Distance of a point from the outline of a node; negative inside. */
+export function distanceToOutline({ x, y, w, h }, at) {
+  const [dx, dy] = [Math.abs(at.x - x) - w / 2, Math.abs(at.y - y) - h / 2];
+  return Math.max(dx, dy) < 0 ? Math.max(dx, dy) : Math.hypot(Math.max(dx, 0), Math.max(dy, 0));
+}
+
 export const rectAround = (x, y, w, h) => ({ x: x - w / 2, y: y - h / 2, w, h });
 
 export const rectBetween = (a, b) => ({

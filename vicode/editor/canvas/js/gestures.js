@@ -2,7 +2,7 @@
 import { ConnectDrag, ReconnectDrag } from "./connect_drags.js";
 import { FrameDrag, MarqueeDrag, MoveDrag, PanDrag } from "./drags.js";
 import { findFreePosition } from "./alignment.js";
-import { distanceToCurve, snap } from "./geometry.js";
+import { distanceToCurve, distanceToOutline, snap } from "./geometry.js";
 import { LabelDrag } from "./label_drag.js";
 import { ConnectMode } from "./connect_mode.js";
 import { CHANGE_SOURCE, CHANGE_TARGET, CONNECT, DRAW_FRAME } from "./strings.js";
@@ -13,6 +13,7 @@ const THRESHOLD = { mouse: 4, pen: 6, touch: 9 };
 const DOUBLE_MS = 400;
 const NO_CLICK = { key: "", time: 0 };
 const BORDER = 28;
+const [BORDER_REACH, SMALL_BOX] = [5, 24];
 
 export class PointerGestures {
   constructor(canvas) {
@@ -133,10 +134,21 @@ export class PointerGestures {
     if (this.drawsFrame) return this.#startFrame();
     if (hit.handle) return new ConnectDrag(canvas, hit.handle);
     if (hit.end) return new ReconnectDrag(canvas, hit.edge, hit.end);
+    const bordered = this.#borderedNode(hit, event);
+    if (bordered) return new ConnectDrag(canvas, bordered.key);
     if (canvas.scene.nodes.has(hit.key) || canvas.scene.frames.has(hit.key)) return new MoveDrag(canvas, hit.key);
     if (hit.isLabel) return new LabelDrag(canvas, hit.key);
     if (hit.key) return null;
     return event.pointerType === "touch" && !this.isAdditive ? new PanDrag(canvas) : new MarqueeDrag(canvas, adds);
+  }
+
+  /** The node from whose border a transition starts here. Of a box that is drawn small, it would leave nothing to move it by. */
+  #borderedNode({ key }, event) {
+    const { scene, viewport } = this.canvas;
+    const { world } = this.#where(event);
+    const node = key ? scene.nodes.get(key) : scene.nodeAt(world.x, world.y, BORDER_REACH / viewport.k);
+    if (!node || node.of === "notes" || event.pointerType === "touch" || Math.min(node.w, node.h) * viewport.k < SMALL_BOX) return null;
+    return Math.abs(distanceToOutline(node, world)) * viewport.k <= BORDER_REACH ? node : null;
   }
 
   #startFrame() {
@@ -250,6 +262,7 @@ export class PointerGestures {
     if (!event) this.pointer = null;
     if (this.drag) return;
     const key = hit.handle ?? (hit.end ? hit.edge : hit.key);
+    this.canvas.stage.classList.toggle("connects", Boolean(event) && Boolean(this.#borderedNode(hit, event)));
     if (this.canvas.selection.hover(key || null)) this.canvas.hoverChanged();
   }
 

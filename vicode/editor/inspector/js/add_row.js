@@ -7,7 +7,7 @@ export const AddRow = {
   components: { Messages },
   template: `
     <div class="adders add-row nicegui-row" @keydown.enter="add">
-      <q-input dense outlined stack-label class="mono add-name" :label="'New ' + node.kind" maxlength="80" v-model="texts.name" v-bind="plain" />
+      <q-input dense outlined stack-label class="mono add-name" :label="'New ' + node.kind" maxlength="80" v-model="texts.name" v-bind="plain" @update:model-value="texts.error = ''" />
       <q-select v-if="node.options" dense outlined options-dense stack-label class="add-detail" :label="node.detail" :aria-label="node.detail + ' of ' + node.kind + 's to add'"
         :options="options" v-model="texts.detail" />
       <q-input v-else dense outlined stack-label class="add-detail" :label="node.detail" :placeholder="node.hint" v-model="texts.detail" v-bind="plain" />
@@ -27,7 +27,9 @@ export const AddRow = {
   methods: {
     add() {
       const { node, texts } = this;
-      const sent = { name: texts.name, detail: texts.detail };
+      // `distance: float`, as in the parameters of a command.
+      const [, name, type] = (node.options && texts.name.match(/^([^:]*):\s*(\S+)\s*$/)) || [null, texts.name, texts.detail];
+      const sent = { name: name.trim(), detail: type };
       texts.error = "";
       Object.assign(texts, { name: "", detail: node.options ? texts.detail : "" });
       this.store.ask(`add-${node.kind}`, { path: "project", text: sent.name, to: sent.detail }, (error) => {

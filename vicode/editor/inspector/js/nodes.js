@@ -126,7 +126,7 @@ export const FormNodes = {
     kind: (node) => KINDS[node.is],
     keyOf(node, index) {
       // Each item has elements of its own, with its own texts.
-      return `${this.store.view.number}|${node.is}|${node.path?.join("/") ?? node.key ?? index}`;
+      return `${this.store.view.number}|${node.is}|${node.path?.join("/") ?? node.key ?? node.kind ?? index}`;
     },
   },
 };
