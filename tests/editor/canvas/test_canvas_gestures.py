@@ -185,3 +185,13 @@ def test_a_drag_from_inside_the_border_moves(canvas: CanvasDriver) -> None:
     canvas.drag(start, (start[0] + 60, start[1] + 40))
     canvas.wait_for_gesture("move")
     assert not canvas.gestures("connect")
+
+
+def test_a_click_on_what_is_selected_is_told(canvas: CanvasDriver) -> None:
+    """Python may be about to select something else."""
+    canvas.click(canvas.at("states", "GiveUp"))
+    canvas.wait_for_gesture("select", items=[{"of": "states", "id": "GiveUp"}])
+    canvas.clear_gestures()
+    canvas.page.wait_for_timeout(450)
+    canvas.click(canvas.at("states", "GiveUp"))
+    canvas.wait_for_gesture("select", items=[{"of": "states", "id": "GiveUp"}])

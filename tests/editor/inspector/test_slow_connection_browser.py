@@ -241,3 +241,26 @@ def test_each_press_on_what_is_there_is_done_once(editor: str, page: Page, proje
         page.get_by_role("button", name="Add Stay").click()
     expect(page.get_by_label("Inspector").get_by_text("stay", exact=True)).to_have_count(3)
     assert save(page, project / "forward" / "player.yaml").count("stay: true") == 3
+
+
+def test_a_connection_that_breaks_loses_no_key(editor: str, page: Page, project: Path, line: SlowConnection) -> None:
+    """The letters, the new state and the command that saves wait for the next connection, in their order."""
+    open_player(page, editor)
+    select_state(page, "Kick")
+    page.get_by_role("textbox", name="Description").press("Control+a")
+    page.keyboard.type("Kick as hard", delay=20)
+    line.cut()
+    page.keyboard.type(" as you can", delay=20)
+    page.keyboard.press("Escape")
+    page.keyboard.press("s")
+    page.keyboard.type("Defend")
+    page.keyboard.press("Enter")
+    page.keyboard.press("Control+s")
+    file = project / "forward" / "player.yaml"
+    for _attempt in range(600):
+        if "\n  Defend:" in file.read_text():
+            break
+        page.wait_for_timeout(100)
+    assert "doc: Kick as hard as you can\n" in file.read_text()
+    assert "\n  Defend:" in file.read_text()
+    expect(state(page, "Defend")).to_be_visible()
