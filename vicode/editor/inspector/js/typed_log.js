@@ -10,7 +10,7 @@ export class TypedLog {
     this.entries = new Map();
   }
 
-  /** Whether texts wait to be restored. */
+  /** Whether no texts wait to be restored. */
   get isEmpty() {
     return this.storage.getItem(this.name) === null;
   }
