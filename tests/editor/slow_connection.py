@@ -11,6 +11,7 @@ class SlowConnection:
     def __init__(self, page: Page) -> None:
         self.is_held = False
         self.waiting: list[tuple[WebSocketRoute, str | bytes]] = []
+        self._is_sending = False
         self._open: list[WebSocketRoute] = []
         page.route_web_socket("**/*", self._connect)
 
@@ -20,7 +21,7 @@ class SlowConnection:
     def release(self) -> None:
         """Hand on all that waits, and all that comes from now on."""
         self.is_held = False
-        self._send(len(self.waiting))
+        self._send_waiting()
 
     def release_until(self, page: Page, words: str) -> None:
         """Hand on what waits, up to the first message that says these words; it may be on the way still."""
@@ -43,16 +44,24 @@ class SlowConnection:
             route.send(message)
         del self.waiting[:count]
 
+    def _send_waiting(self) -> None:
+        """Messages that come while another one is sent wait for their turn, as the page drops older ones."""
+        if self._is_sending:
+            return
+        self._is_sending = True
+        while self.waiting and not self.is_held:
+            route, message = self.waiting.pop(0)
+            route.send(message)
+        self._is_sending = False
+
     def _connect(self, route: WebSocketRoute) -> None:
         server = route.connect_to_server()
 
         def pass_on(message: str | bytes) -> None:
             if route not in self._open:
                 self._open.append(route)
-            if self.is_held:
-                self.waiting.append((route, message))
-            else:
-                route.send(message)
+            self.waiting.append((route, message))
+            self._send_waiting()
 
         server.on_message(pass_on)
 

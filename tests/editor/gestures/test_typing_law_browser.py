@@ -123,10 +123,10 @@ def _read(file: Path) -> dict[str, dict[str, Any]]:
     }
 
 
-@pytest.mark.nightly
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.nightly) for seed in range(1, 9))])
 @pytest.mark.parametrize("key_ms", [0, 30, 120])
 def test_the_saved_design_is_the_one_that_was_typed(
-    editor: str, page: Page, project: Path, line: SlowConnection, console_errors: list[str], key_ms: int
+    editor: str, page: Page, project: Path, line: SlowConnection, console_errors: list[str], key_ms: int, seed: int
 ) -> None:
     file = project / "forward" / "quick.yaml"
     file.write_text("vicode: 1\ncomponent: Quick\n", encoding="utf-8")
@@ -134,7 +134,7 @@ def test_the_saved_design_is_the_one_that_was_typed(
     page.goto(f"{editor}design/forward/Quick")
     page.wait_for_selector(".vicode-canvas[data-ready]")
     page.wait_for_function("window.did_handshake")
-    typist = _Typist(page, line, random.Random(key_ms), key_ms)
+    typist = _Typist(page, line, random.Random(f"{key_ms} {seed}"), key_ms)
     for _number in range(16):
         typist.act()
     page.keyboard.press("Control+s")

@@ -141,6 +141,12 @@ def test_disable_toggles_all_given_items(document: DocumentSession) -> None:
     assert apply_gesture(document, {"kind": "disable", "items": items[2:]}).error
 
 
+def test_connect_by_the_name_of_a_state_that_the_browser_does_not_have_yet(document: DocumentSession) -> None:
+    apply_gesture(document, {"kind": "connect", "source": "B", "target": None, "name": "A", "x": 5, "y": 5})
+    assert [state.name for state in document.design.states] == ["A", "B"]
+    assert arrows(document) == [("A", "B"), ("A", "A"), ("B", "A")]
+
+
 def test_reconnect_moves_an_end(document: DocumentSession) -> None:
     apply_gesture(document, {"kind": "reconnect", "id": "A/0", "end": "target", "state": "A"})
     assert arrows(document)[0] == ("A", "A")

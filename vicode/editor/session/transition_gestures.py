@@ -28,7 +28,9 @@ _MAX_LABEL_OFFSET = 2_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConnectGesture:
-    """Add a transition. Without a target, create a state (see `CreateGesture`) first. The source may be `@common`.
+    """Add a transition. The source may be `@common`.
+
+    Without a target, it leads to the state of this name, or to a new one (see `CreateGesture`).
 
     `guard` is what the user typed, such as "distance < 0.5 after 2 s".
     """
@@ -45,6 +47,9 @@ class ConnectGesture:
     def apply(self, document: DocumentSession) -> EditResult:
         source, target = _require_source(document, self.source), self.target
         guard = change_guard(Guard(), self.guard, document.design.time_unit)
+        if target is None and document.design.state(self.name) is not None:
+            # The state is not in the browser yet.
+            target = self.name
         if target is None:
             at = canvas_point(self.x or 0, self.y or 0)
             return create_state(document, at, self.name, source, guard, select=self.select)

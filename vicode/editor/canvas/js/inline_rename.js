@@ -50,6 +50,7 @@ export class InlineRename {
 
   /** The state was renamed: the field stays open, and its text will rename the state again, or a new one starts from it. */
   stateRenamed(old, name) {
+    this.canvas.selection.stateRenamed(old, name);
     if (this.draft?.source === keyOf("states", old)) this.draft.source = keyOf("states", name);
     if (!this.key || this.key !== keyOf("states", old)) return;
     this.key = keyOf("states", name);

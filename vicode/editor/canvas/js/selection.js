@@ -12,6 +12,7 @@ export class Selection {
     this.painter = canvas.painter;
     this.keys = new Set();
     this.hovered = null;
+    this.renamed = new Map();
   }
 
   /** Sets the selection; `quiet` if Python set it, so that no gesture is reported. */
@@ -45,14 +46,20 @@ export class Selection {
     return true;
   }
 
-  /** Removes deleted elements; returns whether the selection changed. */
+  /** The next change of the scene renames a state, which stays selected. */
+  stateRenamed(old, name) {
+    this.renamed.set(keyOf("states", old), keyOf("states", name));
+  }
+
+  /** Follows renamed states and removes deleted elements; returns whether the selection changed. */
   prune() {
     if (this.hovered && !this.scene.find(this.hovered)) this.hovered = null;
-    const known = [...this.keys].filter((key) => this.scene.find(key));
-    const lost = known.length !== this.keys.size;
+    const known = [...this.keys].map((key) => this.renamed.get(key) ?? key).filter((key) => this.scene.find(key));
+    const isSame = known.length === this.keys.size && known.every((key) => this.keys.has(key));
     this.keys = new Set(known);
+    this.renamed.clear();
     this.updateHighlight();
-    return lost;
+    return !isSame;
   }
 
   /** The only selected key, or null. */

@@ -1,8 +1,8 @@
-"""Steps by keys over a slow line: what the server says of an earlier step does not take the later ones back."""
+"""Keys over a slow line: what the server says of an earlier key does not undo a later one."""
 
 from pathlib import Path
 
-from playwright.sync_api import Page
+from playwright.sync_api import Page, expect
 
 from tests.editor.player_page import open_player, save, select_state
 from tests.editor.slow_connection import SlowConnection
@@ -28,3 +28,20 @@ def test_steps_add_up_over_a_slow_line(editor: str, page: Page, project: Path, l
     line.release()
     page.wait_for_function(f"{PLACE} === {start + 40}")
     assert f"at: [{start + 40}, " in save(page, file)
+
+
+def test_a_renamed_state_stays_selected_before_the_server_selects_it(
+    editor: str, page: Page, line: SlowConnection
+) -> None:
+    open_player(page, editor)
+    select_state(page, "GetUp")
+    line.hold()
+    page.keyboard.press("F2")
+    page.keyboard.type("Rise")
+    page.keyboard.press("Enter")
+    line.release_until(page, '"id":"Rise"')
+    page.wait_for_function("'states/Rise' in document.querySelector('.vicode-canvas').vicode.positions()")
+    page.keyboard.press("n")
+    expect(page.locator("input.rename")).to_be_focused()
+    page.keyboard.press("Escape")
+    line.release()
