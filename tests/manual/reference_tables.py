@@ -160,18 +160,28 @@ def _field_table(value: type) -> str:
     return "".join(["\n| field | type | default | meaning |\n", "|---|---|---|---|\n", *rows])
 
 
+def _body(value: type) -> list[ast.stmt]:
+    """The statements of a class, and of its bases that are not public themselves."""
+    inner = [each for each in value.__bases__ if each.__module__.startswith("vicode") and not _is_public(each)]
+    return [*_syntax(value).body, *(line for base in inner for line in _body(base))]
+
+
+def _is_public(value: type) -> bool:
+    return value.__name__ in vicode.bica.__all__
+
+
 def _constructor(value: type) -> str:
-    for line in _syntax(value).body:
+    for line in _body(value):
         if isinstance(line, ast.FunctionDef) and line.name == "__init__":
             return _signature(value.__name__, line.args, None)
     return ""
 
 
 def _member_sections(value: type) -> Iterator[str]:
-    for line in _syntax(value).body:
+    for line in _body(value):
         if not isinstance(line, ast.FunctionDef) or line.name.startswith("_"):
             continue
-        member = vars(value)[line.name]
+        member = inspect.getattr_static(value, line.name)
         match [ast.unparse(each) for each in line.decorator_list]:
             case ["property"]:
                 yield f"\n### {value.__name__}.{line.name}\n\n"
@@ -196,7 +206,7 @@ def _signature(name: str, arguments: ast.arguments, returns: ast.expr | None) ->
     text = f"{name}({', '.join(parts)}){result}"
     if len(text) > 100:
         text = f"{name}(\n" + "".join(f"    {each},\n" for each in parts) + f"){result}"
-    return f"```text\n{text}\n```\n\n"
+    return f"```text\n{text.replace('BaseRoot', 'Root')}\n```\n\n"
 
 
 def _split_top_level(text: str) -> list[str]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from .errors import make_error_record
 
 if TYPE_CHECKING:
-    from .root import Root
+    from .base_root import BaseRoot
     from .team import CooperativeState
 
 # All other names without a leading underscore are available to designs: aliases, parameters, outputs and variables.
@@ -103,7 +103,7 @@ class Component:
         "world",
     )
 
-    def __init__(self, root: Root) -> None:
+    def __init__(self, root: BaseRoot) -> None:
         self.root = root
         self.world: Any = root.world
         self.state = ""

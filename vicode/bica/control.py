@@ -12,9 +12,9 @@ from .arithmetic import limit
 from .errors import make_error_record
 
 if TYPE_CHECKING:
+    from .base_root import BaseRoot
     from .component import Component
     from .observer import IterationRecord, StepRecord
-    from .root import Root
 
 _MAX_LOGGED = 10
 """So many breakpoints are listed in the log."""
@@ -32,7 +32,7 @@ class InjectedError(Exception):
 class Controller:
     """Applies requests between iterations. What a viewer holds ends when it releases it or disconnects."""
 
-    def __init__(self, root: Root) -> None:
+    def __init__(self, root: BaseRoot) -> None:
         self._root = root
         self._paused_by: object = None
         self._steps_left = 0

@@ -9,7 +9,7 @@ from .errors import print_error
 from .live_server import LiveServer
 
 if TYPE_CHECKING:
-    from .root import Root
+    from .base_root import BaseRoot
 
 ADDRESS, TOKEN, CONTROL, NAME = "VICODE_WATCH", "VICODE_WATCH_TOKEN", "VICODE_WATCH_CONTROL", "VICODE_ROBOT"
 WITHOUT_HOLD = "without-hold"
@@ -22,7 +22,7 @@ class NoHoldError(OSError):
 
 
 def watch_root(
-    root: Root,
+    root: BaseRoot,
     address: str | int = 0,
     *,
     token: str = "",
@@ -60,12 +60,12 @@ def watch_root(
     return server
 
 
-def find_address(root: Root) -> str:
+def find_address(root: BaseRoot) -> str:
     """Return where a root is watched, "" if it is not."""
     return next((each.address for each in _servers if each.shows(root)), "")
 
 
-def watch_from_environment(root: Root) -> None:
+def watch_from_environment(root: BaseRoot) -> None:
     """Watch a root as the environment says; a robot also starts if that is impossible."""
     control = os.environ.get(CONTROL, "")
     try:

@@ -17,8 +17,8 @@ from .errors import print_error
 from .observer import IterationRecord, Observer
 
 if TYPE_CHECKING:
+    from .base_root import BaseRoot
     from .component import Component
-    from .root import Root
 
 _MAX_CHANGES = 256
 _MAX_REQUESTS = 64
@@ -69,7 +69,7 @@ class LiveFeed:
         notify: Called after each published iteration and answer; must not block.
     """
 
-    def __init__(self, root: Root, name: str, notify: Callable[[], None]) -> None:
+    def __init__(self, root: BaseRoot, name: str, notify: Callable[[], None]) -> None:
         self.root, self.name = root, name
         self.newest: tuple[int, Mapping[str, Any]] = (0, {})
         """The number of the newest message, and the message. Read by the thread of the server."""
@@ -223,14 +223,14 @@ class _LiveObserver(Observer):
         self._controller = controller
         self._replaced: list[tuple[Component, dict[str, Any]]] = []
 
-    def attach_all(self, root: Root) -> None:
+    def attach_all(self, root: BaseRoot) -> None:
         for component in root.components:
             names = ("step", "modulate")
             self._replaced.append((component, {name: component.__dict__.get(name) for name in names}))
             self.attach(component)
         root._error_listeners.append(self.add_error)
 
-    def detach_all(self, root: Root) -> None:
+    def detach_all(self, root: BaseRoot) -> None:
         for component, functions in self._replaced:
             for name, function in functions.items():
                 if function is None:
@@ -240,7 +240,7 @@ class _LiveObserver(Observer):
         self._replaced.clear()
         root._error_listeners.remove(self.add_error)
 
-    def bind(self, root: Root, step: Callable[[], None]) -> Callable[[], None]:
+    def bind(self, root: BaseRoot, step: Callable[[], None]) -> Callable[[], None]:
         return lambda: self.observe_iteration(root, step)
 
     def _observe_step(self, component: Component, plain_step: Callable[[], None]) -> None:

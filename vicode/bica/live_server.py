@@ -23,7 +23,7 @@ from .live_feed import Feed, LiveFeed
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .root import Root
+    from .base_root import BaseRoot
 
 PROTOCOL_VERSION = 1
 MAX_LINE_BYTES = 65_536
@@ -76,7 +76,7 @@ class LiveServer:
         self._thread = threading.Thread(target=self._serve, name="vicode-live", daemon=True)
         self._thread.start()
 
-    def add(self, root: Root, name: str = "") -> LiveFeed:
+    def add(self, root: BaseRoot, name: str = "") -> LiveFeed:
         """Let viewers see a root, until it is closed, under a name, by default that of its main component."""
         feed = self.add_feed(name or type(root.main).__name__, lambda unique, wake: LiveFeed(root, unique, wake))
         root._closing.callback(self.remove, feed)
@@ -102,7 +102,7 @@ class LiveServer:
         else:
             self.close()
 
-    def shows(self, root: Root) -> bool:
+    def shows(self, root: BaseRoot) -> bool:
         return not self.is_closed and any(feed.root is root for feed in self._feeds)
 
     def serves(self, address: str | int) -> bool:

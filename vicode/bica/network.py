@@ -21,14 +21,14 @@ from .remote import CALL_LIFETIME_S, LONGEST_CALL_S, RemoteComponent
 from .team_link import TeamLink, TeamRobot
 
 if TYPE_CHECKING:
-    from .root import Root
+    from .base_root import BaseRoot
 
 _MAX_TEXT = 100
 NAME, TEAM = "VICODE_NET", "VICODE_TEAM"
 
 
 def connect_root(
-    root: Root, name: str, *, team: str = "", fields: Sequence[str] | None = None, on_call: bool = False
+    root: BaseRoot, name: str, *, team: str = "", fields: Sequence[str] | None = None, on_call: bool = False
 ) -> Network:
     """Connect a root under a name until it is closed.
 
@@ -50,7 +50,7 @@ def connect_root(
     return network
 
 
-def connect_from_environment(root: Root) -> None:
+def connect_from_environment(root: BaseRoot) -> None:
     """Connect a root as the environment says; a robot also starts if that is impossible."""
     try:
         connect_root(root, os.environ[NAME], team=os.environ.get(TEAM, ""))
@@ -85,7 +85,7 @@ class Network:
         on_call: Whether only calls of other robots step the main component.
     """
 
-    def __init__(self, root: Root, name: str, team: str, fields: Sequence[str], *, on_call: bool) -> None:
+    def __init__(self, root: BaseRoot, name: str, team: str, fields: Sequence[str], *, on_call: bool) -> None:
         self.name = check_name(name)
         self._root, self._is_on_call = root, on_call
         if team:

@@ -16,8 +16,8 @@ from .component import RESERVED_NAMES, Component
 from .timing import replace_step, will_work
 
 if TYPE_CHECKING:
+    from .base_root import BaseRoot
     from .errors import ErrorRecord
-    from .root import Root
 
 TRACE_HEADER = {"vicode-trace": 1, "runtime": "bica"}
 """The first line of a trace: the version of the form and the writer."""
@@ -155,7 +155,7 @@ class Observer:
         if len(self._errors) < _MAX_ERRORS:
             self._errors.append({**asdict(error), "file": Path(error.file).name})
 
-    def observe_iteration(self, root: Root, step: Callable[[], None] | None = None) -> None:
+    def observe_iteration(self, root: BaseRoot, step: Callable[[], None] | None = None) -> None:
         """Step the root component, by default with its method, and pass the record of the iteration to the sink."""
         self._tree, self._errors = [], []
         self.active.clear()
@@ -184,7 +184,7 @@ class Observer:
                 record["calls"] = [*self._calls.values()]
             self._sink(record)
 
-    def _find_passive(self, root: Root) -> tuple[Component, ...]:
+    def _find_passive(self, root: BaseRoot) -> tuple[Component, ...]:
         """The components without work and states, which only provide values."""
         if len(root.components) != self._known_components:
             passive = (each for each in root.components if type(each).work is Component.work and not each._states)

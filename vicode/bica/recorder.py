@@ -19,8 +19,8 @@ from .observer import TRACE_HEADER, Observer
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from .base_root import BaseRoot
     from .observer import IterationRecord
-    from .root import Root
 
 FILE, MINUTES = "VICODE_RECORD", "VICODE_RECORD_MINUTES"
 DEFAULT_MINUTES = 5.0
@@ -199,7 +199,9 @@ def find_segments(path: Path) -> dict[int, list[Path]]:
     return {run: [file for _number, file in sorted(runs[run])] for run in sorted(runs)}
 
 
-def record_root(root: Root, path: str | os.PathLike[str], *, minutes: float, values: bool, **origin: str) -> Recorder:
+def record_root(
+    root: BaseRoot, path: str | os.PathLike[str], *, minutes: float, values: bool, **origin: str
+) -> Recorder:
     """Record a root until it is closed.
 
     Raises:
@@ -216,7 +218,7 @@ def record_root(root: Root, path: str | os.PathLike[str], *, minutes: float, val
     return recorder
 
 
-def record_from_environment(root: Root) -> None:
+def record_from_environment(root: BaseRoot) -> None:
     """Record a root as the environment says; a robot also starts if that is impossible."""
     path = os.environ[FILE]
     try:

@@ -17,7 +17,7 @@ from .errors import describe_exception
 from .observer import ObservedFunction
 
 if TYPE_CHECKING:
-    from .root import Root
+    from .base_root import BaseRoot
 
 STAMP = ".reload"
 """A file whose modification asks for a reload; it is in the first folder of generated code."""
@@ -37,7 +37,7 @@ class Reloader:
         folders: The folders of generated and hand-written code.
     """
 
-    def __init__(self, root: Root, folders: Iterable[str]) -> None:
+    def __init__(self, root: BaseRoot, folders: Iterable[str]) -> None:
         self._root = root
         self._folders = tuple(f"{Path(folder).resolve()}{os.sep}" for folder in folders)
         self._stamp = Path(self._folders[0], STAMP)

@@ -12,7 +12,7 @@ from .net_session import MAX_WAITING, check_name, open_session
 from .net_values import convert, decode, encode
 
 if TYPE_CHECKING:
-    from .root import Root
+    from .base_root import BaseRoot
 
 CALL_LIFETIME_S, LONGEST_CALL_S = 0.5, 10.0
 """So long the other side steps a component after a call; longer if the caller steps it less often."""
@@ -38,7 +38,7 @@ class RemoteComponent(Component):
         is_alive: Whether the other program runs and the outputs are not older than `max_age`.
     """
 
-    def __init__(self, root: Root, remote: str, *, reliable: bool = False, max_age: float = 1.0) -> None:
+    def __init__(self, root: BaseRoot, remote: str, *, reliable: bool = False, max_age: float = 1.0) -> None:
         super().__init__(root)
         robot, _slash, component = remote.partition("/")
         self.data_age = float("inf")

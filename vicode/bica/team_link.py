@@ -12,8 +12,8 @@ from .net_values import convert, decode, encode
 from .team import StateKey, TeamMessage
 
 if TYPE_CHECKING:
+    from .base_root import BaseRoot
     from .net_session import NetSession
-    from .root import Root
 
 ANSWER_TICKS = 4
 """Iterations until the others have answered, if they iterate as often as this robot."""
@@ -64,7 +64,7 @@ class TeamRobot:
 class TeamLink:
     """The team of one root: `hear` before each iteration, `tell` after it."""
 
-    def __init__(self, root: Root, session: NetSession, name: str, team: str, fields: Sequence[str]) -> None:
+    def __init__(self, root: BaseRoot, session: NetSession, name: str, team: str, fields: Sequence[str]) -> None:
         self.robots: dict[str, TeamRobot] = {}
         self._root, self._name, self._fields = root, name, tuple(fields)
         self._sender = session.sender(f"vicode/{name}/team/{team}")

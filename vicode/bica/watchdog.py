@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Self
 from .errors import print_error
 
 if TYPE_CHECKING:
-    from .root import Root
+    from .base_root import BaseRoot
 
 _CHECKS_PER_LIMIT = 4
 
@@ -26,7 +26,7 @@ class Watchdog:
         now_s: The time, in seconds.
     """
 
-    def __init__(self, root: Root, limit_s: float, now_s: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, root: BaseRoot, limit_s: float, now_s: Callable[[], float] = time.monotonic) -> None:
         self._root, self._limit_s, self._now_s = root, limit_s, now_s
         self._begun_s: float | None = None
         self._handled_s: float | None = None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from .component import Component
 
 if TYPE_CHECKING:
-    from .root import Root
+    from .base_root import BaseRoot
 
 
 class XabslComponent(Component):
@@ -16,7 +16,7 @@ class XabslComponent(Component):
 
     __slots__ = ("_cells", "_restarted_in")
 
-    def __init__(self, root: Root) -> None:
+    def __init__(self, root: BaseRoot) -> None:
         super().__init__(root)
         self._restarted_in = -1
         self._cells: dict[str, dict[str, Any]] = {}

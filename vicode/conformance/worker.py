@@ -6,7 +6,7 @@ import importlib
 import json
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from enum import Enum
 from typing import Any
@@ -79,7 +79,7 @@ class _PythonRobot:
         self.root.team.priority, self.root.team.ticks = number, job["team_ticks"]
         self._components: dict[str, Component] = {type(each).__name__: each for each in self.root.components}
         self._enumerations = _load_enumerations(job["component"])
-        for stub in _prepare_stubs(self.root, job):
+        for stub in _prepare_stubs(self.root.components, job):
             stub.set_initial_values(self._enumerations)
         self.set_inputs({key: each.initial for key, each in inputs.items()})
 
@@ -116,7 +116,7 @@ def _run_simulator(job: Mapping[str, Any]) -> list[tuple[int, Any]]:
     inputs = _read_inputs(job)
     host = RunHost(decode_setup(job["setup"].encode()), CapturedOutput())
     enumerations = _load_enumerations(decode_setup(job["setup"].encode()).component)
-    stubs = {each.stub.component: each for each in _prepare_stubs(host.main.root, job)}
+    stubs = {each.stub.component: each for each in _prepare_stubs(host.main.root.components, job)}
     iterations: list[tuple[int, Any]] = []
 
     def set_inputs(values: Mapping[tuple[str, str], Any]) -> None:
@@ -139,9 +139,9 @@ def _run_simulator(job: Mapping[str, Any]) -> list[tuple[int, Any]]:
     return iterations
 
 
-def _prepare_stubs(root: Root, job: Mapping[str, Any]) -> list[StubComponent]:
-    """The stubs of a root; they get the declared frequencies, which hand-written classes have."""
-    stubs = [each for each in root.components if isinstance(each, StubComponent)]
+def _prepare_stubs(components: Iterable[Component], job: Mapping[str, Any]) -> list[StubComponent]:
+    """The stubs among components; they get the declared frequencies, which hand-written classes have."""
+    stubs = [each for each in components if isinstance(each, StubComponent)]
     for stub in stubs:
         stub.set_frequency(job["frequencies"].get(stub.stub.component) or 0)
     return stubs
