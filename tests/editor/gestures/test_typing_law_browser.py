@@ -109,7 +109,18 @@ class _Typist:
 
 
 _IS_DRAWN = "name => `states/${name}` in document.querySelector('.vicode-canvas').vicode.positions()"
-_PLACE = "name => document.querySelector('.vicode-canvas').vicode.screen('states', name)"
+# Where a state stands once the view has come to rest.
+_PLACE = """async name => {
+  const find = () => document.querySelector('.vicode-canvas').vicode.screen('states', name);
+  let [place, frames] = [find(), 0];
+  while (frames < 5) {
+    await new Promise(requestAnimationFrame);
+    const next = find();
+    frames = next.x === place.x && next.y === place.y ? frames + 1 : 0;
+    place = next;
+  }
+  return place;
+}"""
 
 
 def _read(file: Path) -> dict[str, dict[str, Any]]:
