@@ -1,36 +1,30 @@
 """Matches the members of a new collection to those of the old one."""
 
 from collections.abc import Sequence
-from difflib import SequenceMatcher
 from typing import cast
 
+from vicode.matching import Match, match_equal, match_similar, unmatched
 from vicode.store.schema_types import FormatValue
 
-_MIN_SIMILARITY = 0.5
-_MAX_COMPARISONS = 20_000
 
-
-def match_names(old: Sequence[tuple[str, FormatValue]], new: Sequence[tuple[str, FormatValue]]) -> list[int | None]:
+def match_names(old: Sequence[tuple[str, FormatValue]], new: Sequence[tuple[str, FormatValue]]) -> list[Match]:
     """For each new pair the index of the old pair with the same name, or else with equal or similar content."""
     indices = {name: index for index, (name, _value) in enumerate(old)}
     matches = [indices.get(name) for name, _value in new]
     old_values, new_values = [value for _name, value in old], [value for _name, value in new]
-    _match_equal(old_values, new_values, matches)
+    match_equal(old_values, new_values, matches)
     _match_similar(old_values, new_values, matches)
     return matches
 
 
-def match_items(old: Sequence[FormatValue], new: Sequence[FormatValue]) -> list[int | None]:
+def match_items(old: Sequence[FormatValue], new: Sequence[FormatValue]) -> list[Match]:
     """For each new item the index of the matching old item, None if there is none.
 
     Items match in this order: equal items of a common subsequence, equal items that moved, items with the same id,
     changed items between matched neighbors, similar items.
     """
-    matches: list[int | None] = [None] * len(new)
-    for block in SequenceMatcher(None, old, new, autojunk=False).get_matching_blocks():
-        for offset in range(block.size):
-            matches[block.b + offset] = block.a + offset
-    _match_equal(old, new, matches)
+    matches: list[Match] = [None] * len(new)
+    match_equal(old, new, matches)
     _match_ids(old, new, matches)
     _match_gaps(len(old), matches)
     _match_similar(old, new, matches)
@@ -61,24 +55,8 @@ def _as_dict(value: FormatValue) -> dict[str, FormatValue]:
     return dict(cast("tuple[tuple[str, FormatValue], ...]", value))
 
 
-def _unmatched(count: int, matches: list[int | None]) -> tuple[list[int], list[int]]:
-    matched = set(matches)
-    old_left = [index for index in range(count) if index not in matched]
-    return old_left, [index for index, match in enumerate(matches) if match is None]
-
-
-def _match_equal(old: Sequence[FormatValue], new: Sequence[FormatValue], matches: list[int | None]) -> None:
-    old_left, new_left = _unmatched(len(old), matches)
-    by_value: dict[FormatValue, list[int]] = {}
-    for index in reversed(old_left):
-        by_value.setdefault(old[index], []).append(index)
-    for index in new_left:
-        if by_value.get(new[index]):
-            matches[index] = by_value[new[index]].pop()
-
-
-def _match_ids(old: Sequence[FormatValue], new: Sequence[FormatValue], matches: list[int | None]) -> None:
-    old_left, new_left = _unmatched(len(old), matches)
+def _match_ids(old: Sequence[FormatValue], new: Sequence[FormatValue], matches: list[Match]) -> None:
+    old_left, new_left = unmatched(len(old), matches)
     by_id = {_get_id(old[index]): index for index in reversed(old_left)}
     for index in new_left:
         id_ = _get_id(new[index])
@@ -90,7 +68,7 @@ def _get_id(value: FormatValue) -> FormatValue | None:
     return _as_dict(value).get("id") if isinstance(value, tuple) and _is_pairs(value) else None
 
 
-def _match_gaps(old_count: int, matches: list[int | None]) -> None:
+def _match_gaps(old_count: int, matches: list[Match]) -> None:
     """Match unmatched items between the same neighbors if their number is unchanged."""
     matched = set(matches)
     for first, last in _gaps(matches):
@@ -106,7 +84,7 @@ def _match_gaps(old_count: int, matches: list[int | None]) -> None:
             matches[first:last] = old_gap
 
 
-def _gaps(matches: list[int | None]) -> list[tuple[int, int]]:
+def _gaps(matches: list[Match]) -> list[tuple[int, int]]:
     gaps: list[tuple[int, int]] = []
     start: int | None = None
     for index, match in enumerate([*matches, -1]):
@@ -118,17 +96,5 @@ def _gaps(matches: list[int | None]) -> list[tuple[int, int]]:
     return gaps
 
 
-def _match_similar(old: Sequence[FormatValue], new: Sequence[FormatValue], matches: list[int | None]) -> None:
-    old_left, new_left = _unmatched(len(old), matches)
-    if len(old_left) * len(new_left) > _MAX_COMPARISONS:
-        return
-    scored = [
-        (-similarity(old[before], new[after]), abs(before - after), before, after)
-        for before in old_left
-        for after in new_left
-    ]
-    matched: set[int] = set()
-    for score, _distance, before, after in sorted(scored):
-        if -score >= _MIN_SIMILARITY and before not in matched and matches[after] is None:
-            matches[after] = before
-            matched.add(before)
+def _match_similar(old: Sequence[FormatValue], new: Sequence[FormatValue], matches: list[Match]) -> None:
+    match_similar(len(old), matches, lambda before, after: similarity(old[before], new[after]))

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TypeGuard
 
-from vicode.model.sequences import longest_increasing_subsequence
+from vicode.matching import find_unmoved
 from vicode.store.member_spans import (
     MemberSpan,
     blank_lines_start,
@@ -216,9 +216,7 @@ class Patcher:
 
     def _restructure(self, node: YamlMapping | YamlSequence, target: TargetCollection, spans: list[MemberSpan]) -> None:
         """Add, remove and move members with their lines."""
-        unmoved = longest_increasing_subsequence(
-            member.old_index for member in target.members if member.old_index is not None
-        )
+        unmoved = find_unmoved(member.old_index for member in target.members)
         used_indices = {member.old_index for member in target.members}
         column = spans[0].key_start - line_start(self.text, spans[0].key_start)
         spaced = self._is_spaced(spans)
@@ -285,9 +283,7 @@ class Patcher:
 
     def _patch_flow(self, node: YamlMapping | YamlSequence, target: TargetCollection, *, is_restructured: bool) -> None:
         spans = _flow_spans(node)
-        unmoved = longest_increasing_subsequence(
-            member.old_index for member in target.members if member.old_index is not None
-        )
+        unmoved = find_unmoved(member.old_index for member in target.members)
         first = min(unmoved)
         anchor: int | None = None
         for member in target.members:

@@ -5,6 +5,7 @@ from dataclasses import fields
 from typing import Any, Protocol
 
 from vicode.findings import DesignPath
+from vicode.matching import find_unmoved
 from vicode.model.design import Declaration, Point
 from vicode.model.diff.changes import (
     Change,
@@ -15,7 +16,6 @@ from vicode.model.diff.changes import (
     describe_values,
 )
 from vicode.model.merge.matching import Matches, item_key, match_items
-from vicode.model.sequences import longest_increasing_subsequence
 
 Subject = Callable[[Any], str]
 Content = Callable[[Any], str]
@@ -192,7 +192,7 @@ def _diff_order(
     """The items that changed their place among those in both lists."""
     kept = sorted(matches)
     ranks = {index: rank for rank, index in enumerate(sorted(matches.values()))}
-    unmoved = longest_increasing_subsequence(matches[index] for index in kept)
+    unmoved = find_unmoved(matches[index] for index in kept)
     moved = [(rank, matches[index]) for rank, index in enumerate(kept) if matches[index] not in unmoved]
     if any(rank == ranks[target] for rank, target in moved):
         # Places do not describe an item that moved past others and has its old place again.

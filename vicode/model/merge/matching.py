@@ -3,9 +3,9 @@
 from collections import Counter
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import fields, replace
-from difflib import SequenceMatcher
 from typing import Any
 
+from vicode.matching import Match, match_equal
 from vicode.model.decisions import retarget
 from vicode.model.design import Call, Declaration, Design, DiagramFrame, DiagramNote, State, Transition, Use
 from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, RemoteReference
@@ -98,19 +98,11 @@ def _item_id(item: Any) -> Hashable:
 
 
 def _match_equal(old: Sequence[Any], new: Sequence[Any], matches: Matches) -> Matches:
-    """Add equal items: first those in the same order, then moved ones."""
-    matched, taken = dict(matches), set(matches.values())
-    for block in SequenceMatcher(None, old, new, autojunk=False).get_matching_blocks():
-        for step in range(block.size):
-            if block.a + step not in matched and block.b + step not in taken:
-                matched[block.a + step] = block.b + step
-                taken.add(block.b + step)
-    for index, item in enumerate(old):
-        target = next((to for to, candidate in enumerate(new) if to not in taken and candidate == item), None)
-        if index not in matched and target is not None:
-            matched[index] = target
-            taken.add(target)
-    return matched
+    by_new: list[Match] = [None] * len(new)
+    for index, to in matches.items():
+        by_new[to] = index
+    match_equal(old, new, by_new)
+    return {index: to for to, index in enumerate(by_new) if index is not None}
 
 
 def _match_neighbours(

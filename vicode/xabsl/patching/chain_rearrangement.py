@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from vicode.matching import Match
 from vicode.xabsl import tree
 from vicode.xabsl.patching.decision_chains import Chain, doc_tokens, else_token
-from vicode.xabsl.patching.list_edits import Match
 from vicode.xabsl.patching.source_edits import SourceEdits
 from vicode.xabsl.tokens import DOC
 

@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 
+from vicode.matching import find_unmoved
 from vicode.xabsl import tree
 from vicode.xabsl.lexer import Comment
 from vicode.xabsl.patching.chain_rearrangement import ChainRearrangement
 from vicode.xabsl.patching.decision_chains import Chain, ChainBranch, doc_tokens, else_token, read_chain, test_alone
 from vicode.xabsl.patching.doc_edits import edit_words
 from vicode.xabsl.patching.expression_edits import edit_expression
-from vicode.xabsl.patching.list_edits import match_items, text_similarity, unmoved
+from vicode.xabsl.patching.list_edits import match_items, text_similarity
 from vicode.xabsl.patching.source_edits import PatchError, SourceEdits, indented
 from vicode.xabsl.printer import print_node
 
@@ -101,7 +102,7 @@ class DecisionEdits:
             for test, branch in zip(after.tests, after.branches, strict=False)
         ]
         matches = match_items(keys, new_keys, lambda one, other: _similarity(before.tests[one], after.tests[other]))
-        kept = unmoved(matches)
+        kept = find_unmoved(matches)
         added = [
             "" if match is not None else self._print_test(test, old)
             for test, match in zip(after.tests, matches, strict=True)

@@ -3,9 +3,10 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from vicode.matching import Match
 from vicode.xabsl import tree
 from vicode.xabsl.patching.doc_edits import edit_words
-from vicode.xabsl.patching.list_edits import ListStyle, Match, edit_list
+from vicode.xabsl.patching.list_edits import ListStyle, edit_list
 from vicode.xabsl.patching.source_edits import SourceEdits, indented
 from vicode.xabsl.printer import print_node
 from vicode.xabsl.tokens import DOC

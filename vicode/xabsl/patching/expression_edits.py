@@ -4,8 +4,9 @@ from collections.abc import Sequence
 from dataclasses import fields, replace
 from typing import Any
 
+from vicode.matching import Match, find_unmoved
 from vicode.xabsl import tree
-from vicode.xabsl.patching.list_edits import Match, match_items, text_similarity, unmoved
+from vicode.xabsl.patching.list_edits import match_items, text_similarity
 from vicode.xabsl.patching.source_edits import SourceEdits
 from vicode.xabsl.printer import print_node
 
@@ -134,7 +135,7 @@ def _edit_operands(file: SourceEdits, old: tree.BinaryNode, before: tree.BinaryN
     matches = match_items(keys, new_keys, lambda one, other: text_similarity(keys[one], new_keys[other]))
     if len(befores) == len(afters) and None in matches:
         matches = list(range(len(afters)))
-    kept = unmoved(matches)
+    kept = find_unmoved(matches)
     if len(kept) < len([match for match in matches if match is not None]) or not kept:
         return False
     for after_operand, match in zip(afters, matches, strict=True):

@@ -5,14 +5,12 @@ from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 
+from vicode.matching import Match, find_unmoved, match_equal, match_similar
 from vicode.xabsl import tree
 from vicode.xabsl.patching.source_edits import SourceEdits
 
-_MIN_SIMILARITY = 0.5
 _BLANK_LINE_BEFORE = re.compile(r"\n[ \t\r]*\n\Z")
 _BLANK_LINE_OR_END = re.compile(r"[ \t]*(?:\r?\n|\}|\Z)")
-Match = int | None
-"""The index of the old item that a new item continues; None for an added item."""
 
 
 def match_items(
@@ -26,34 +24,14 @@ def match_items(
         similarity: The similarity of an old and a new item, from 0 to 1.
     """
     matches: list[Match] = [None] * len(new)
-    for block in SequenceMatcher(None, old, new, autojunk=False).get_matching_blocks():
-        matches[block.b : block.b + block.size] = range(block.a, block.a + block.size)
-    for index, key in enumerate(new):
-        if matches[index] is None:
-            matches[index] = next((at for at, other in enumerate(old) if other == key and at not in matches), None)
-    left = [at for at in range(len(old)) if at not in matches]
-    added = [index for index, match in enumerate(matches) if match is None]
-    scored = [(-similarity(at, index), abs(at - index), at, index) for at in left for index in added]
-    for score, _distance, at, index in sorted(scored):
-        if -score >= _MIN_SIMILARITY and at not in matches and matches[index] is None:
-            matches[index] = at
+    match_equal(old, new, matches)
+    match_similar(len(old), matches, similarity)
     return matches
 
 
 def text_similarity(old: str, new: str) -> float:
     """The share of words that two texts have in common."""
     return SequenceMatcher(None, old.split(), new.split(), autojunk=False).ratio()
-
-
-def unmoved(matches: Sequence[Match]) -> set[int]:
-    """The old items of a longest sequence that keeps its order."""
-    chains: list[list[int]] = [[]]
-    for match in matches:
-        if match is not None:
-            before = [chain for chain in chains if not chain or chain[-1] < match]
-            chains.append([*max(before, key=len), match])
-    longest = max(chains, key=len)
-    return set(longest)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -99,7 +77,7 @@ def edit_list(
         style: Where the list stands.
     """
     chunks = [_chunk(file, item.first_token, item.last_token) for item in items]
-    kept = unmoved(matches)
+    kept = find_unmoved(matches)
     texts = [
         _Text(file.read(chunks[match].start, chunks[match].end), chunks[match].is_lines)
         if match is not None

@@ -6,12 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from vicode.matching import Match
 from vicode.xabsl import tree
 from vicode.xabsl.compiler import CompileResult
 from vicode.xabsl.lexer import Comment
 from vicode.xabsl.parser import ParsedFile, parse
 from vicode.xabsl.patching.declaration_edits import edit_agent, edit_declarations, edit_doc
-from vicode.xabsl.patching.list_edits import ListStyle, Match, edit_list
+from vicode.xabsl.patching.list_edits import ListStyle, edit_list
 from vicode.xabsl.patching.option_edits import OptionVersion, edit_option
 from vicode.xabsl.patching.program_items import DeclaredItem, Key, agents, declarations, iter_items, namespaces, options
 from vicode.xabsl.patching.renames import Renames, find_renames, rename
