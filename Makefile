@@ -14,7 +14,7 @@ PYTHON = $(shell for name in python3 python3.14 python3.13 python3.12 python3.11
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help edit test fast check nightly versions bench gen pictures reference vscode clean chromium gpp neovim
+.PHONY: help edit test fast lint check nightly versions bench gen pictures reference vscode clean chromium gpp neovim
 
 help:  ## list these commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-9s  %s\n", $$1, $$2}' Makefile
@@ -28,11 +28,13 @@ test: $(VENV)/.ready-test chromium gpp neovim  ## pass every test, a real browse
 fast: $(VENV)/.ready-test gpp neovim  ## pass the tests that need no browser
 	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
 
-check: $(VENV)/.ready-dev gpp neovim  ## format, lint, types, architecture, fast tests (about six minutes)
+lint: $(VENV)/.ready-dev  ## format, lint, types, import contracts
 	$(BIN)/ruff format --check
 	$(BIN)/ruff check
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+check: lint gpp neovim  ## lint, and the fast tests (about six minutes)
 	@$(PYTEST) $(PARALLEL) -m "not browser and not nightly"
 
 nightly: $(VENV)/.ready-test chromium gpp neovim versions  ## the long runs: fuzzing, other Pythons and versions, the browser tests 20 times

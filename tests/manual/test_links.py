@@ -1,9 +1,10 @@
-"""Links between the documents lead to files and headings that exist, and the index lists every page once."""
+"""Links between the documents lead somewhere, the index lists every page once, and every row belongs to a table."""
 
 import re
 from pathlib import Path
 
 import pytest
+from markdown_it import MarkdownIt
 
 from tests.manual.code_blocks import ROOT
 
@@ -27,6 +28,17 @@ def test_the_index_lists_every_page_once() -> None:
     links = [path for path, _ in _LINK.findall((DOCS / "index.md").read_text(encoding="utf-8"))]
     pages = [path.relative_to(DOCS).as_posix() for path in DOCS.rglob("*.md") if path.name != "index.md"]
     assert sorted(links) == sorted([*pages, "../CONTRIBUTING.md"])
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_row_belongs_to_a_table(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    shown: set[int] = set()
+    for token in MarkdownIt().enable("table").parse(text):
+        if token.type in ("table_open", "fence") and token.map:
+            shown.update(range(*token.map))
+    rows = [number for number, line in enumerate(text.split("\n")) if line.startswith("|")]
+    assert [number + 1 for number in rows if number not in shown] == []
 
 
 def _without_blocks(page: Path) -> str:
