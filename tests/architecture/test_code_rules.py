@@ -55,6 +55,12 @@ FORBIDDEN_TEXT = (
         "run or delete the test, or say which program is missing",
         "code",
     ),
+    # What users may type instead of a key is quoted, or a misspelled line of a design.
+    (
+        r"(?i)(?<![\"\w])\w*(colou[r]|neighbou[r]|behaviou[r]|centr[e]\b|centr[e]d)(?!\"|: red)",
+        "spell it the American way",
+        "code",
+    ),
     (r"\bnew Functio[n]\(", "pass data instead of code", "code"),
     (r"(?<![\w.])/(wor[k]|hom[e]|roo[t]|User[s])/", "use a relative path", "text"),
     (r"\b(pypi\.or[g]|pythonhosted\.or[g]|registry\.npmjs\.or[g]|jfrog\.i[o])", "do not name registry hosts", "text"),

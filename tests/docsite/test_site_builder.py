@@ -196,7 +196,7 @@ def test_lines_of_code_lead_back(forward: tuple[OutputFile, ...]) -> None:
         assert "component-Player.html#state-WatchBall-1" in links
 
 
-def test_drawings_have_no_colours_of_their_own(forward: tuple[OutputFile, ...]) -> None:
+def test_drawings_have_no_colors_of_their_own(forward: tuple[OutputFile, ...]) -> None:
     text = page(forward, "component-Player.html")
     drawing = text[text.index("<svg") : text.index("</svg>")]
     assert re.findall(r'(?:fill|stroke)="(?!none|var\(--drawn-)[^"]*"', drawing) == []

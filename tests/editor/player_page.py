@@ -50,14 +50,14 @@ def select_transition(page: Page, key: str) -> None:
     expect(page.get_by_label("Inspector").get_by_text("Transition from")).to_be_visible()
 
 
-def centre_of(page: Page, name: str) -> Point:
+def center_of(page: Page, name: str) -> Point:
     """The middle of a state's box on the screen."""
     shape = state(page, name).locator("rect.box")
     shape.wait_for()
     box = shape.bounding_box()
     if box is None:
         # It was drawn anew between the two questions.
-        return centre_of(page, name)
+        return center_of(page, name)
     return (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
 
 

@@ -18,7 +18,7 @@ expect.set_options(timeout=20_000)
 
 def complaints(page: Page, within: str | None = None) -> list[str]:
     """What axe finds, one line a thing."""
-    # A colour on its way to another is neither.
+    # A color on its way to another is neither.
     page.wait_for_function("document.getAnimations().every((each) => each.playState !== 'running')")
     violations = AXE.run(page, context=within, options=OPTIONS).response["violations"]
     nodes = ((each["id"], node) for each in violations for node in each["nodes"])
@@ -44,9 +44,9 @@ def open_player(page: Page, url: str) -> None:
     expect(page.get_by_label("Description").first).to_be_visible()
 
 
-@pytest.mark.parametrize("colours", ["light", pytest.param("dark", marks=pytest.mark.nightly)])
-def test_axe_finds_nothing(editor: str, page: Page, colours: str) -> None:
-    page.emulate_media(color_scheme="dark" if colours == "dark" else "light", reduced_motion="reduce")
+@pytest.mark.parametrize("colors", ["light", pytest.param("dark", marks=pytest.mark.nightly)])
+def test_axe_finds_nothing(editor: str, page: Page, colors: str) -> None:
+    page.emulate_media(color_scheme="dark" if colors == "dark" else "light", reduced_motion="reduce")
     open_player(page, editor)
     found = {"design": complaints(page)}
     page.get_by_label("Inspector").get_by_text("Project Forward").click()
@@ -80,9 +80,9 @@ def test_axe_finds_nothing(editor: str, page: Page, colours: str) -> None:
     assert not text, text
 
 
-@pytest.mark.parametrize("colours", ["light", pytest.param("dark", marks=pytest.mark.nightly)])
-def test_axe_finds_nothing_in_what_opens_over_the_page(editor: str, page: Page, project: Path, colours: str) -> None:
-    page.emulate_media(color_scheme="dark" if colours == "dark" else "light", reduced_motion="reduce")
+@pytest.mark.parametrize("colors", ["light", pytest.param("dark", marks=pytest.mark.nightly)])
+def test_axe_finds_nothing_in_what_opens_over_the_page(editor: str, page: Page, project: Path, colors: str) -> None:
+    page.emulate_media(color_scheme="dark" if colors == "dark" else "light", reduced_motion="reduce")
     open_player(page, editor)
     found: dict[str, list[str]] = {}
 
@@ -97,7 +97,7 @@ def test_axe_finds_nothing_in_what_opens_over_the_page(editor: str, page: Page, 
         expect(page.get_by_role("dialog")).to_have_count(0)
 
     # Dialogs made of the same parts are left to the nightly run.
-    if colours == "dark":
+    if colors == "dark":
         _look_at_the_plain_ones(page, look)
     page.keyboard.press("Control+k")
     page.keyboard.type("ball")
@@ -180,7 +180,7 @@ def test_a_narrow_window_has_a_header_of_one_row_and_a_list_of_designs(
     expect(listed.get_by_role("link", name="Player", exact=True)).to_be_in_viewport(ratio=0.9)
 
 
-def test_marks_are_told_apart_in_forced_colours_and_by_ear(editor: str, page: Page) -> None:
+def test_marks_are_told_apart_in_forced_colors_and_by_ear(editor: str, page: Page) -> None:
     page.emulate_media(forced_colors="active")
     open_player(page, editor)
     # States are heard before the arrows between them, though they are painted after them.
@@ -226,13 +226,13 @@ def test_a_page_is_dark_before_anything_has_loaded(editor: str, page: Page, cons
     console_errors.clear()
 
 
-def test_chosen_colours_are_kept(editor: str, page: Page) -> None:
+def test_chosen_colors_are_kept(editor: str, page: Page) -> None:
     page.emulate_media(color_scheme="light")
     open_player(page, editor)
     page.get_by_role("button", name="View", exact=True).click()
     page.get_by_role("menuitem", name="Theme").click()
     expect(page.locator("body.body--dark")).to_be_attached()
-    page.wait_for_function("document.cookie.includes('vicode_colours=dark')")
+    page.wait_for_function("document.cookie.includes('vicode_colors=dark')")
     page.reload()
     expect(page.locator("body.body--dark")).to_be_attached()
     assert page.evaluate("getComputedStyle(document.documentElement).backgroundColor") == "rgb(17, 22, 30)"

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.diagram.diagram_designs import ring_design
-from tests.editor.player_page import centre_of, open_player, select_state, state
+from tests.editor.player_page import center_of, open_player, select_state, state
 from vicode.store import save_design, write_text
 
 PLACES = "document.querySelector('.vicode-canvas').vicode.positions()"
@@ -27,7 +27,7 @@ def test_a_layout_is_shown_and_left_with_escape_or_taken_with_enter(editor: str,
     shown = page.evaluate(PLACES)
     assert shown != before
     # While it is shown one may look around, and changes nothing.
-    page.mouse.dblclick(*centre_of(page, "Kick"))
+    page.mouse.dblclick(*center_of(page, "Kick"))
     page.keyboard.press("Delete")
     expect(page.locator("input.rename")).to_be_hidden()
     page.keyboard.press("Escape")
@@ -51,7 +51,7 @@ def test_only_what_is_selected_is_laid_out_and_applied_by_mouse(editor: str, pag
     before = page.evaluate(PLACES)
     select_state(page, "LookForBall")
     page.keyboard.down("Shift")
-    page.mouse.click(*centre_of(page, "WatchBall"))
+    page.mouse.click(*center_of(page, "WatchBall"))
     page.keyboard.up("Shift")
     begin(page)
     expect(page.get_by_text("Preview: 2 states")).to_be_visible()

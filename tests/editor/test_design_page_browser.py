@@ -10,7 +10,7 @@ from playwright.sync_api import Page, expect
 from tests.editor.player_page import (
     PLAYER,
     Point,
-    centre_of,
+    center_of,
     create_state,
     empty_corner,
     label,
@@ -46,10 +46,10 @@ def test_what_a_person_does(editor: str, page: Page, project: Path) -> None:
     open_player(page, editor)
 
     # Drag a state.
-    x, y = centre_of(page, "LookForBall")
+    x, y = center_of(page, "LookForBall")
     drag(page, (x, y), (x - 40, y + 30))
     expect(page.get_by_text("Unsaved changes")).to_be_visible()
-    assert centre_of(page, "LookForBall") != (x, y)
+    assert center_of(page, "LookForBall") != (x, y)
 
     # Add a state where nothing is, and name it at once.
     create_state(page, "Celebrate")
@@ -153,7 +153,7 @@ def test_a_double_click_on_a_label_opens_its_guard(editor: str, page: Page, proj
     expect(page.get_by_label("When", exact=True)).to_have_text("not kicker.busy")
 
     # What was typed just now is taken over by a press on the drawing, and by the key that saves.
-    kick = centre_of(page, "Kick")
+    kick = center_of(page, "Kick")
     page.get_by_label("After (seconds in this state)").fill("8")
     page.mouse.click(*kick)
     expect(page.get_by_label("State", exact=True)).to_have_value("Kick")

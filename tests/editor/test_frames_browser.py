@@ -4,7 +4,7 @@ from pathlib import Path
 
 from playwright.sync_api import Page, expect
 
-from tests.editor.player_page import centre_of, open_player, save, select_state, state
+from tests.editor.player_page import center_of, open_player, save, select_state, state
 
 
 def test_a_frame_is_made_renamed_dragged_and_deleted(editor: str, page: Page, project: Path) -> None:
@@ -28,12 +28,12 @@ def test_a_frame_is_made_renamed_dragged_and_deleted(editor: str, page: Page, pr
     page.keyboard.type("Find the ball")
     page.keyboard.press("Enter")
     expect(page.get_by_label("Title", exact=True)).to_have_value("Find the ball")
-    before = [centre_of(page, name) for name in ("LookForBall", "FollowBall", "SearchNet")]
+    before = [center_of(page, name) for name in ("LookForBall", "FollowBall", "SearchNet")]
     page.mouse.move(*grip)
     page.mouse.down()
     page.mouse.move(grip[0] - 5, grip[1] + 60, steps=4)
     page.mouse.up()
-    after = [centre_of(page, name) for name in ("LookForBall", "FollowBall", "SearchNet")]
+    after = [center_of(page, name) for name in ("LookForBall", "FollowBall", "SearchNet")]
     assert [old != new for old, new in zip(before, after, strict=True)] == [True, True, False]
     assert "frames:\n  Find the ball: [LookForBall, FollowBall]\n" in save(page, project / "forward" / "player.yaml")
     expect(members).to_have_count(2)
@@ -49,7 +49,7 @@ def test_frame_states_takes_the_states_of_a_rectangle(editor: str, page: Page) -
     open_player(page, editor)
     stage = page.locator("main.design-view").bounding_box()
     assert stage is not None
-    first, last = centre_of(page, "AlignFront"), centre_of(page, "AlignLateral")
+    first, last = center_of(page, "AlignFront"), center_of(page, "AlignLateral")
     page.mouse.click(stage["x"] + 30, stage["y"] + stage["height"] - 40, button="right")
     page.get_by_role("menuitem", name="Frame states…").click()
     page.mouse.move(last[0], first[1])

@@ -287,9 +287,9 @@ def test_untrusted_texts_are_escaped_in_the_simulation(editor: str, page: Page, 
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("colours", ["light", "dark"])
-def test_axe_reports_nothing_during_a_simulation(editor: str, page: Page, colours: str) -> None:
-    page.emulate_media(color_scheme="dark" if colours == "dark" else "light", reduced_motion="reduce")
+@pytest.mark.parametrize("colors", ["light", "dark"])
+def test_axe_reports_nothing_during_a_simulation(editor: str, page: Page, colors: str) -> None:
+    page.emulate_media(color_scheme="dark" if colors == "dark" else "light", reduced_motion="reduce")
     open_simulation(page, editor)
     found = complaints(page)
     page.keyboard.press("F10")

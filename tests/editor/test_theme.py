@@ -1,4 +1,4 @@
-"""The colours of pages and canvas: every pair that is read on each other has enough contrast, light and dark."""
+"""The colors of pages and canvas: every pair that is read on each other has enough contrast, light and dark."""
 
 import re
 from pathlib import Path
@@ -44,7 +44,7 @@ DRAWN += [
 
 
 def tokens(sheet: str, selector: str) -> dict[str, str]:
-    """The colours that a rule gives."""
+    """The colors that a rule gives."""
     body = re.search(re.escape(selector) + r"\s*\{(.*?)\}", sheet, re.DOTALL)
     assert body is not None
     return dict(re.findall(r"--([\w-]+):\s*(#[0-9a-f]{6})", body.group(1)))
@@ -56,8 +56,8 @@ def contrast(one: str, other: str) -> float:
     return (lighter + 0.05) / (darker + 0.05)
 
 
-def luminance(colour: str) -> float:
-    parts = [int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5)]
+def luminance(color: str) -> float:
+    parts = [int(color[at : at + 2], 16) / 255 for at in (1, 3, 5)]
     red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
@@ -77,19 +77,19 @@ def test_the_canvas_can_be_read(theme: str) -> None:
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_pages_and_canvas_share_their_colours(theme: str) -> None:
+def test_pages_and_canvas_share_their_colors(theme: str) -> None:
     page = themes(PAGES, ":root", "body.body--dark")[theme]
     canvas = themes(CANVAS, ".stage", '.stage[data-theme="dark"]')[theme]
     shared = ("paper", "text", "muted", "accent")
     assert {name: canvas[name] for name in shared} == {name: page[name] for name in shared}
 
 
-def test_the_first_paint_has_the_colour_of_the_page() -> None:
+def test_the_first_paint_has_the_color_of_the_page() -> None:
     look = (ROOT / "pages" / "theme.py").read_text(encoding="utf-8")
     for theme in themes(PAGES, ":root", "body.body--dark").values():
         assert f"background: {theme['paper']};" in look
 
 
-def too_pale(colours: dict[str, str], pairs: list[tuple[str, str, float]]) -> list[str]:
-    measured = [(front, back, contrast(colours[front], colours[back]), least) for front, back, least in pairs]
+def too_pale(colors: dict[str, str], pairs: list[tuple[str, str, float]]) -> list[str]:
+    measured = [(front, back, contrast(colors[front], colors[back]), least) for front, back, least in pairs]
     return [f"{front} on {back}: {ratio:.2f} < {least}" for front, back, ratio, least in measured if ratio < least]

@@ -24,7 +24,7 @@ _COUNT = "            kicks += 1;\n"
 _NARROW = "bica::abs(perception.neck_pan) < 20.0"
 _AT_FEET = "perception.bottom_camera and perception.neck_tilt > near_tilt"
 _FEET = "guard of FollowBall → SearchNet: "
-_CENTRED = "abs(perception.ball_y) < centred"
+_CENTERED = "abs(perception.ball_y) < centered"
 _END = "name_of(side), bearing);\n    // </vicode>\n"
 _PRINT = '    std::printf("kicked\\n");\n'
 _INCLUDE = '#include "forward/player.hpp"\n'
@@ -45,13 +45,13 @@ PLAYER_EDITS: dict[str, PlayerEdit] = {
     ),
     "removed call of a region": _one("            do_watch_ball();\n", "", reason="but its code was not"),
     # Tests
-    "dropped operand": _one(f" &&\n                {_NARROW}", "", f"{_FEET}{_AT_FEET} and {_CENTRED}"),
+    "dropped operand": _one(f" &&\n                {_NARROW}", "", f"{_FEET}{_AT_FEET} and {_CENTERED}"),
     "added operand": _one(
         "(perception.ball_seen) {",
         "(perception.ball_seen && kicks < 3) {",
         "guard of LookForBall → FollowBall: perception.ball_seen and kicks < 3",
     ),
-    "number": _one("< 20.0", "< 25", f"{_FEET}{_AT_FEET} and abs(perception.neck_pan) < 25 and {_CENTRED}"),
+    "number": _one("< 20.0", "< 25", f"{_FEET}{_AT_FEET} and abs(perception.neck_pan) < 25 and {_CENTERED}"),
     "truth of a number": _one(
         "(perception.ball_seen) {",
         "(perception.ball_seen && !kicks) {",
@@ -60,7 +60,7 @@ PLAYER_EDITS: dict[str, PlayerEdit] = {
     "function of the standard library": _one(
         _NARROW,
         "std::abs(perception.neck_pan) < 21.0",
-        f"{_FEET}{_AT_FEET} and abs(perception.neck_pan) < 21 and {_CENTRED}",
+        f"{_FEET}{_AT_FEET} and abs(perception.neck_pan) < 21 and {_CENTERED}",
     ),
     "function of C": _one(_NARROW, "abs(perception.neck_pan) < 21.0", reason="abs"),
     "whole number divided": _one("< 20.0", "< 41 / 2", reason="generates other code"),

@@ -10,7 +10,7 @@ from vicode.findings import Finding, Severity, render_text
 
 _MAX_BYTES = 2_000_000
 _XABSL_SUFFIXES = (".xabsl", ".yabsl")
-_COLOURS = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
+_COLORS = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 
 
 def format_findings(findings: Iterable[Finding], encoding: str = "") -> str:
@@ -37,8 +37,8 @@ def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False, enco
     from rich.text import Text
 
     shown = Text(text.rstrip("\n"))
-    for severity, colour in _COLOURS.items():
-        shown.highlight_regex(rf"(?m)(?<=: ){severity} [A-Z]\d+|^{severity} [A-Z]\d+", colour)
+    for severity, color in _COLORS.items():
+        shown.highlight_regex(rf"(?m)(?<=: ){severity} [A-Z]\d+|^{severity} [A-Z]\d+", color)
     shown.highlight_regex(r"(?m)^ +\^+$", "bold green")
     Console(file=stream, soft_wrap=True).print(shown)
 

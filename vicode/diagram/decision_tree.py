@@ -225,11 +225,11 @@ class _TreeRenderer:
             groups=tuple(groups),
         )
 
-    def _centre(self, node: _TreeNode) -> Point:
+    def _center(self, node: _TreeNode) -> Point:
         return (self.column_lefts[node.column] + node.width / 2, node.row * _ROW_HEIGHT)
 
     def _node(self, node: _TreeNode) -> ShapeGroup:
-        pal, (x, y), half = self.palette, self._centre(node), node.width / 2
+        pal, (x, y), half = self.palette, self._center(node), node.width / 2
         fill, text = (pal.faint, pal.muted) if node.is_disabled else (pal.box, pal.text)
         dash = (4.0, 4.0) if node.is_disabled or node.kind in ("stay", "folded") else ()
         h = _BOX_HEIGHT / 2
@@ -282,12 +282,12 @@ class _TreeRenderer:
         )
 
     def _points(self, open_edge: _OpenEdge, node: _TreeNode) -> Iterator[Point]:
-        x, y = self._centre(node)
+        x, y = self._center(node)
         top = y - _BOX_HEIGHT / 2
         if not open_edge.node.kind:
             yield from ((self._spine_x(node), top - 20), (self._spine_x(node), top))
             return
-        from_x, from_y = self._centre(open_edge.node)
+        from_x, from_y = self._center(open_edge.node)
         if open_edge.is_yes:
             yield from ((from_x + open_edge.node.width / 2, from_y), (x - node.width / 2, y))
             return

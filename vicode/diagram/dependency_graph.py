@@ -120,11 +120,11 @@ def place_in_columns(names: list[str], uses: UsesByComponent) -> dict[str, Point
     columns: dict[int, list[str]] = defaultdict(list)
     for name in names:
         columns[depths[name]].append(name)
-    neighbours = _neighbours(uses)
+    neighbors = _neighbors(uses)
     for _sweep in range(_SWEEPS):
         for depth in sorted(columns):
             rows = {name: row - len(column) / 2 for column in columns.values() for row, name in enumerate(column)}
-            columns[depth].sort(key=lambda name: _barycenter(rows, name, neighbours[name]))
+            columns[depth].sort(key=lambda name: _barycenter(rows, name, neighbors[name]))
     positions: dict[str, Point] = {}
     left = 0.0
     for depth in sorted(columns):
@@ -164,15 +164,15 @@ def _depths(names: list[str], uses: UsesByComponent) -> dict[str, int]:
     return depths
 
 
-def _neighbours(uses: UsesByComponent) -> Mapping[str, set[str]]:
-    neighbours: dict[str, set[str]] = defaultdict(set)
+def _neighbors(uses: UsesByComponent) -> Mapping[str, set[str]]:
+    neighbors: dict[str, set[str]] = defaultdict(set)
     for user, found in uses.items():
         for used in found:
-            neighbours[user].add(used)
-            neighbours[used].add(user)
-    return neighbours
+            neighbors[user].add(used)
+            neighbors[used].add(user)
+    return neighbors
 
 
-def _barycenter(rows: Mapping[str, float], name: str, neighbours: set[str]) -> float:
-    found = [rows[each] for each in neighbours if each in rows]
+def _barycenter(rows: Mapping[str, float], name: str, neighbors: set[str]) -> float:
+    found = [rows[each] for each in neighbors if each in rows]
     return sum(found) / len(found) if found else rows[name]

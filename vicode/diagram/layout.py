@@ -59,18 +59,18 @@ class LayoutService:
         """Like the function `compute_layout`; waiting for the worker counts towards the timeout."""
         graph = build_layout_graph(design, only)
         try:
-            centres = self._request_positions(graph, timeout_s) if graph.nodes else {}
+            centers = self._request_positions(graph, timeout_s) if graph.nodes else {}
         except _GraphvizFailedError as reason:
             note = f"{reason}; used a layered layout instead"
             return LayoutResult(
                 layout=fit_layout(design, layered_positions(design, only), only), method=LayoutMethod.LAYERS, note=note
             )
         layers = layered_positions(design, only)
-        larger = screens_needed(centres.values()) / screens_needed(layers.values())
-        if screens_needed(centres.values()) > _MAX_SCREENS and larger > _MAX_GROWTH:
+        larger = screens_needed(centers.values()) / screens_needed(layers.values())
+        if screens_needed(centers.values()) > _MAX_SCREENS and larger > _MAX_GROWTH:
             note = f"the Graphviz layout is {larger:.1f} times as large; used a layered layout instead"
             return LayoutResult(layout=fit_layout(design, layers, only), method=LayoutMethod.LAYERS, note=note)
-        return LayoutResult(layout=fit_layout(design, centres, only), method=LayoutMethod.GRAPHVIZ)
+        return LayoutResult(layout=fit_layout(design, centers, only), method=LayoutMethod.GRAPHVIZ)
 
     def close(self) -> None:
         """Stop the worker; a running request falls back to layers. A later request starts a new one."""
@@ -197,7 +197,7 @@ def _read_answer(line: str, graph: LayoutGraph) -> dict[str, Point]:
     answer = json.loads(line)
     if "error" in answer:
         raise _GraphvizFailedError(f"Graphviz could not be run ({answer['error']})")
-    centres = {id_: (float(x), float(y)) for id_, (x, y) in answer["positions"].items()}
-    if centres.keys() != {node.id for node in graph.nodes}:
+    centers = {id_: (float(x), float(y)) for id_, (x, y) in answer["positions"].items()}
+    if centers.keys() != {node.id for node in graph.nodes}:
         raise _GraphvizFailedError("Graphviz returned an incomplete layout")
-    return centres
+    return centers

@@ -16,24 +16,24 @@ _STEPS = 60
 _SCREEN, _BOX = Size(width=1280, height=800), Size(width=MIN_WIDTH, height=60)
 
 
-def fit_layout(design: Design, centres: Mapping[str, Point], only: Collection[str] | None) -> NodeLayout:
+def fit_layout(design: Design, centers: Mapping[str, Point], only: Collection[str] | None) -> NodeLayout:
     """Positions of the whole design, given new centers by id of all nodes or of the states in `only`."""
-    layout = _fit_nodes(design, centres, only)
+    layout = _fit_nodes(design, centers, only)
     if not design.notes:
         return layout
     notes = follow_states(design, complete_layout(design), layout, _occupied_by_others(design, layout, ()))
     return replace(layout, notes={name: _snapped(at, (0, 0)) for name, at in notes.items()})
 
 
-def _fit_nodes(design: Design, centres: Mapping[str, Point], only: Collection[str] | None) -> NodeLayout:
-    states = {name: centres[id_] for name, id_ in state_ids(design).items() if id_ in centres}
+def _fit_nodes(design: Design, centers: Mapping[str, Point], only: Collection[str] | None) -> NodeLayout:
+    states = {name: centers[id_] for name, id_ in state_ids(design).items() if id_ in centers}
     if only is not None:
         return _fit_part(design, states)
-    uses = {alias: centres[id_] for alias, id_ in use_ids(design).items() if id_ in centres}
-    common = centres.get(COMMON_ID)
-    if not centres:
+    uses = {alias: centers[id_] for alias, id_ in use_ids(design).items() if id_ in centers}
+    common = centers.get(COMMON_ID)
+    if not centers:
         return complete_layout(design)
-    left, top = min(x for x, _y in centres.values()), min(y for _x, y in centres.values())
+    left, top = min(x for x, _y in centers.values()), min(y for _x, y in centers.values())
     by = (ORIGIN[0] - left, ORIGIN[1] - top)
     moved = move_nodes(
         design,
@@ -52,16 +52,16 @@ def layered_positions(design: Design, only: Collection[str] | None) -> dict[str,
         return {state_ids(design)[name]: at for name, at in complete_layout(part).states.items()}
     uses = tuple(replace(use, at=None) for use in design.uses)
     placement = complete_layout(replace(design, states=states, uses=uses, common=replace(design.common, at=None)))
-    centres = {id_: placement.states[name] for name, id_ in state_ids(design).items()}
-    centres |= {id_: placement.uses[alias] for alias, id_ in use_ids(design).items()}
+    centers = {id_: placement.states[name] for name, id_ in state_ids(design).items()}
+    centers |= {id_: placement.uses[alias] for alias, id_ in use_ids(design).items()}
     if design.common.transitions or design.common.actions:
-        centres[COMMON_ID] = placement.common
-    return centres
+        centers[COMMON_ID] = placement.common
+    return centers
 
 
-def screens_needed(centres: Collection[Point]) -> float:
+def screens_needed(centers: Collection[Point]) -> float:
     """How many screens of 1280 by 800 pixels boxes with these centers need in their larger dimension."""
-    xs, ys = [x for x, _y in centres] or [0.0], [y for _x, y in centres] or [0.0]
+    xs, ys = [x for x, _y in centers] or [0.0], [y for _x, y in centers] or [0.0]
     return max((max(xs) - min(xs) + _BOX.width) / _SCREEN.width, (max(ys) - min(ys) + _BOX.height) / _SCREEN.height)
 
 

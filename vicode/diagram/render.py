@@ -172,9 +172,9 @@ class _DiagramRenderer:
             head = PathShape(commands=tip, fill=pal.modulates)
         else:
             is_common = edge.source == "common"
-            colour = pal.common if is_common else pal.edge
-            drawn = PathShape(commands=shaft, stroke=colour, width=1.6, dash=_dash(edge))
-            head = PathShape(commands=tip, fill=colour)
+            color = pal.common if is_common else pal.edge
+            drawn = PathShape(commands=shaft, stroke=color, width=1.6, dash=_dash(edge))
+            head = PathShape(commands=tip, fill=color)
         is_echo = route.label is not None
         return ShapeGroup(
             title=edge.title,
@@ -203,8 +203,8 @@ class _DiagramRenderer:
         x += label.icon_width
         if label.text:
             is_off = route.edge.disabled
-            colour = pal.muted if is_off else pal.text
-            shapes.append(TextShape(x=x, y=y, text=label.text, fill=colour, font=LABEL_FONT, is_struck_through=is_off))
+            color = pal.muted if is_off else pal.text
+            shapes.append(TextShape(x=x, y=y, text=label.text, fill=color, font=LABEL_FONT, is_struck_through=is_off))
         edge = route.edge
         ends = (edge.source, edge.target)
         return ShapeGroup(title=edge.title, css_class="label", shapes=tuple(shapes), href=edge.href, end_keys=ends)
@@ -249,17 +249,17 @@ class _DiagramRenderer:
 
     def _badges(self, marks: tuple[tuple[str, int], ...], at: Point) -> Iterable[PathShape | TextShape]:
         pal = self.palette
-        colours = {"requires": pal.requires, "modulates": pal.modulates}
+        colors = {"requires": pal.requires, "modulates": pal.modulates}
         widths = [_BADGES[name][0] + (3 + 7 * len(str(count)) if count else 0) for name, count in marks]
         x = at[0] - (sum(widths) + _BADGE_GAP * (len(marks) - 1)) / 2
         for (name, count), width in zip(marks, widths, strict=True):
-            colour = colours.get(name, pal.muted)
-            fill = colour if name == "modulates" else ""
+            color = colors.get(name, pal.muted)
+            fill = color if name == "modulates" else ""
             yield PathShape(
-                commands=polylines_path(*_BADGES[name][1], at=(x, at[1])), fill=fill, stroke=colour, width=1.4
+                commands=polylines_path(*_BADGES[name][1], at=(x, at[1])), fill=fill, stroke=color, width=1.4
             )
             if count:
-                yield TextShape(x=x + _BADGES[name][0] + 3, y=at[1], text=str(count), fill=colour, font=SMALL_FONT)
+                yield TextShape(x=x + _BADGES[name][0] + 3, y=at[1], text=str(count), fill=color, font=SMALL_FONT)
             x += width + _BADGE_GAP
 
     def _component(self, node: DiagramNode) -> Iterable[PathShape | TextShape]:
@@ -290,21 +290,21 @@ class _DiagramRenderer:
         yield TextShape(x=x + 4, y=y, text=node.label, fill=pal.text, font=Font(size=13, bold=True), is_centered=True)
 
 
-def _name_text(node: DiagramNode, colour: str, *, rise: float) -> TextShape:
+def _name_text(node: DiagramNode, color: str, *, rise: float) -> TextShape:
     return TextShape(
         x=node.center[0],
         y=node.center[1] + rise,
         text=node.label,
-        fill=colour,
+        fill=color,
         font=NAME_FONT,
         is_centered=True,
         is_struck_through=node.disabled,
     )
 
 
-def _subtitle_text(node: DiagramNode, colour: str) -> TextShape:
+def _subtitle_text(node: DiagramNode, color: str) -> TextShape:
     return TextShape(
-        x=node.center[0], y=node.center[1] + 12, text=node.subtitle, fill=colour, font=SMALL_FONT, is_centered=True
+        x=node.center[0], y=node.center[1] + 12, text=node.subtitle, fill=color, font=SMALL_FONT, is_centered=True
     )
 
 

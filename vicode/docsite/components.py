@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from vicode.docsite.decisions import CodeLinks, code_blocks, numbered_decisions, pseudocode_lines, transition_rows
-from vicode.docsite.diagrams import draw_decision_tree, draw_design, draw_neighbourhood
+from vicode.docsite.diagrams import draw_decision_tree, draw_design, draw_neighborhood
 from vicode.docsite.doc_text import render_doc
 from vicode.docsite.findings import finding_rows
 from vicode.docsite.name_linker import NameLinker, join_spans, plain_text
@@ -60,7 +60,7 @@ def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView
         columns=frozenset(name for row in transitions for name in ("timer", "doc_html") if getattr(row, name)),
         common=_common(design, linker, inputs) if has_common else None,
         states=tuple(_state(design, state, linker, inputs) for state in design.states),
-        neighbourhood_svg=draw_neighbourhood(design, project, addresses),
+        neighborhood_svg=draw_neighborhood(design, project, addresses),
         uses=tuple(use_rows(design, linker)),
         used_by=inputs.used_by,
         root_of=join_spans(

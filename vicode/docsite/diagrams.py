@@ -115,7 +115,7 @@ def draw_folders(
     return _render_svg(Diagram(nodes=nodes, edges=edges), title)
 
 
-def draw_neighbourhood(design: Design, project: Project, addresses: SiteUrls) -> str:
+def draw_neighborhood(design: Design, project: Project, addresses: SiteUrls) -> str:
     """A component with its users and used components, "" if there are none; edges link to the user."""
     name = design.component
     figure = neighborhood_diagram(project, name, addresses.has_design)

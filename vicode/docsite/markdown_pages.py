@@ -14,7 +14,7 @@ from vicode.languages import LANGUAGES
 from vicode.output import OutputFile
 from vicode.templating import render
 
-_COLOUR = re.compile(r'(?<= )(fill|stroke)="var\(--drawn-([a-z-]+)\)"')
+_COLOR = re.compile(r'(?<= )(fill|stroke)="var\(--drawn-([a-z-]+)\)"')
 _LINK = re.compile(r'<a ([^>]*?) href="[^"]*">')
 _FENCES = {each.title: each.fence for each in LANGUAGES.values()}
 _SECTIONS = {
@@ -94,8 +94,8 @@ class MarkdownFormatter:
 
 def standalone_svg(svg: str) -> str:
     """Convert an embedded diagram to an image: fixed colors, no links."""
-    coloured = _COLOUR.sub(lambda found: f'{found[1]}="{getattr(LIGHT, found[2].replace("-", "_"))}"', svg)
-    return "<!-- vicode docs -->\n" + _LINK.sub(r"<g \1>", coloured).replace("</a>", "</g>")
+    colored = _COLOR.sub(lambda found: f'{found[1]}="{getattr(LIGHT, found[2].replace("-", "_"))}"', svg)
+    return "<!-- vicode docs -->\n" + _LINK.sub(r"<g \1>", colored).replace("</a>", "</g>")
 
 
 def _page(template: str, marker: MarkdownFormatter, views: Mapping[str, object]) -> str:

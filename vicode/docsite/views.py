@@ -201,7 +201,7 @@ class ComponentPageView:
     columns: frozenset[str]
     common: StateView | None
     states: tuple[StateView, ...]
-    neighbourhood_svg: str
+    neighborhood_svg: str
     uses: tuple[UseRow, ...]
     used_by: tuple[UseRow, ...]
     root_of: RichText

@@ -37,8 +37,8 @@ lost_after: Final = 2.0
 pan_threshold: Final = 35
 # In the bottom camera, a head as low as this has the ball at the feet (in deg)
 near_tilt: Final = 20
-# So near to the middle of the image the ball counts as centred (in deg)
-centred: Final = 12
+# So near to the middle of the image the ball counts as centered (in deg)
+centered: Final = 12
 # Up to this bearing of the net the front kick is the best (in deg)
 front_limit: Final = 22
 # Up to this bearing of the net the diagonal kick is the best (in deg)

@@ -15,7 +15,7 @@ from field.walk import Walk
 from .declarations import (
     Kick,
     Side,
-    centred,
+    centered,
     diagonal_angle,
     diagonal_limit,
     front_limit,
@@ -115,7 +115,7 @@ class Player(Component):
                 self.perception.bottom_camera
                 and self.perception.neck_tilt > near_tilt
                 and abs(self.perception.neck_pan) < 20
-                and abs(self.perception.ball_y) < centred
+                and abs(self.perception.ball_y) < centered
             ):
                 self._change_to("SearchNet")
                 return

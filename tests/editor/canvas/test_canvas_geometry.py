@@ -26,7 +26,7 @@ def arrange(function: str, command: str) -> dict[str, tuple[int, int]]:
     ("command", "centers"),
     [
         ("align-left", {"start": (120, 100), "go": (140, 140), "stop": (120, 320)}),
-        ("align-centre", {"start": (290, 100), "go": (290, 140), "stop": (290, 320)}),
+        ("align-center", {"start": (290, 100), "go": (290, 140), "stop": (290, 320)}),
         ("align-right", {"start": (460, 100), "go": (440, 140), "stop": (460, 320)}),
         ("align-top", {"start": (120, 100), "go": (440, 100), "stop": (400, 100)}),
         ("align-middle", {"start": (120, 210), "go": (440, 210), "stop": (400, 210)}),

@@ -127,7 +127,7 @@ def test_a_focus_shows_what_is_within_some_transitions_until_escape(show: Show) 
     canvas.click(canvas.at("states", "State31"))
     canvas.press("3")
     expect(nodes).to_have_count(len(within_one))
-    canvas.call("centre", "states", "State99")
+    canvas.call("center", "states", "State99")
     expect(canvas.group("state", "State99")).to_be_visible()
 
 
@@ -152,7 +152,7 @@ def test_edges_that_leave_the_view_name_their_ends_and_lead_there(show: Show) ->
         {"rev": 1, "component": "Robot", "states": states, "transitions": edges, "components": [], "links": []}
     )
     labels = canvas.page.locator(".off-screen button")
-    canvas.call("centre", "states", "Here")
+    canvas.call("center", "states", "Here")
     canvas.wait_until_idle()
     expect(labels).to_have_count(0)
     canvas.click(canvas.at("states", "Here"))

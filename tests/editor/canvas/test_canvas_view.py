@@ -127,7 +127,7 @@ def test_links_can_be_hidden(canvas: CanvasDriver) -> None:
 def test_a_press_on_the_minimap_centers_the_view_there(canvas: CanvasDriver) -> None:
     minimap = canvas.page.locator(".minimap")
     expect(minimap).to_be_hidden()
-    canvas.call("centre", "states", "LookForBall")
+    canvas.call("center", "states", "LookForBall")
     canvas.page.locator(".stage").focus()
     canvas.press("+", "+", "+", "+")
     expect(minimap).to_be_visible()
@@ -147,7 +147,7 @@ def test_a_large_machine_is_a_bitmap_when_zoomed_out_and_svg_when_zoomed_in(show
     canvas.drag((x, y), (x + 60, y + 30))
     assert canvas.wait_for_gesture("move")["items"][0]["id"] == "State210"
     assert canvas.position("states/State210") != before
-    canvas.call("centre", "states", "State0")
+    canvas.call("center", "states", "State0")
     canvas.wait_for("!vicode.view().far")
     expect(canvas.group("state", "State0")).to_be_visible()
     assert canvas.evaluate("mounted()") < 700
@@ -155,7 +155,7 @@ def test_a_large_machine_is_a_bitmap_when_zoomed_out_and_svg_when_zoomed_in(show
 
 def test_many_elements_zoom_as_a_snapshot_and_react_to_a_click(show: Show) -> None:
     canvas = show(machine(400))
-    canvas.call("centre", "states", "State210")
+    canvas.call("center", "states", "State210")
     canvas.wait_for("!vicode.view().far")
     canvas.wait_until_idle()
     canvas.wait_for("vicode.mounted() > 250")

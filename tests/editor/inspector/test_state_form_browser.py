@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.editor.player_page import (
-    centre_of,
+    center_of,
     create_state,
     empty_corner,
     findings,
@@ -41,7 +41,7 @@ def test_what_is_typed_after_a_double_click_is_the_name(
     open_player(page, editor)
     before = player_file(project).read_text()
     line.hold()
-    page.mouse.dblclick(*centre_of(page, "Kick"))
+    page.mouse.dblclick(*center_of(page, "Kick"))
     page.keyboard.type("Individual", delay=key_ms)
     page.keyboard.press("Enter")
     line.release()

@@ -11,7 +11,7 @@ def test_users_are_guests_until_they_choose_a_name() -> None:
     users = UserDirectory()
     first, second = users.get_or_create_user("1"), users.get_or_create_user("2", "  Ana\n<b>  ")
     assert (first.name, second.name) == ("Guest 1", "Ana <b>")
-    assert first.colour != second.colour
+    assert first.color != second.color
     assert users.get_or_create_user("1", "Ben") == users.get_or_create_user("1")
     assert len(users.get_or_create_user("3", "x" * 99).name) == 24
     assert users.get_or_create_user("2", "\x07").name == "Ana <b>"

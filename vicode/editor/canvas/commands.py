@@ -82,7 +82,7 @@ CANVAS_COMMANDS = (
     ),
     CanvasCommand("select-all", "Select all", _EDIT, ("Ctrl+A",), menus=("nothing",)),
     CanvasCommand("align-left", "Align left edges", _ARRANGE, ("Alt+A",), menus=("several",)),
-    CanvasCommand("align-centre", "Align centers", _ARRANGE, ("Alt+H",), menus=("several",)),
+    CanvasCommand("align-center", "Align centers", _ARRANGE, ("Alt+H",), menus=("several",)),
     CanvasCommand("align-right", "Align right edges", _ARRANGE, ("Alt+D",), menus=("several",)),
     CanvasCommand("align-top", "Align top edges", _ARRANGE, ("Alt+W",), menus=("several",)),
     CanvasCommand("align-middle", "Align middles", _ARRANGE, ("Alt+V",), menus=("several",)),

@@ -110,9 +110,9 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._selected = selected
         self._send_selection()
 
-    def centre(self, of: str, identity: str) -> None:
+    def center(self, of: str, identity: str) -> None:
         """Center one element at a readable zoom."""
-        self._call("centre", of, identity)
+        self._call("center", of, identity)
 
     def scroll_to_initial(self, of: str, identity: str) -> None:
         """Center one element when the page is mounted, or only scroll to it if the browser restores an earlier view."""

@@ -19,7 +19,7 @@ class RemoteUser(TypedDict):
     """Another user: color number, selection, and pointer position (None: outside the canvas)."""
 
     name: str
-    colour: int
+    color: int
     items: list[dict[str, str]]
     pointer: dict[str, float] | None
 

@@ -91,7 +91,7 @@ class CanvasController:
     def center_on(self, item: ItemRef) -> None:
         """Scroll an item to the middle of the canvas, if it is drawn."""
         if any(node["id"] == item.id for node in self.scene.get(item.kind, ()) or () if isinstance(node, dict)):
-            self.canvas.centre(item.kind, item.id)
+            self.canvas.center(item.kind, item.id)
 
     def scroll_to_initial(self, item: ItemRef) -> None:
         self.canvas.scroll_to_initial(item.kind, item.id)

@@ -62,7 +62,7 @@ def _other_user(presence: Presence) -> RemoteUser:
     point = presence.pointer
     return {
         "name": presence.user.name,
-        "colour": presence.user.colour,
+        "color": presence.user.color,
         "items": [item_json(item) for item in presence.selected if item.kind != "design"],
         "pointer": {"x": point[0], "y": point[1]} if point else None,
     }

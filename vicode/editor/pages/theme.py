@@ -10,7 +10,7 @@ from vicode.editor.panels.code_editor import CodeEditorFactory
 
 _STYLE_SHEET = Path(__file__).parent / "theme.css"
 _DESCRIPTION = "vicode: editor, checker, simulator and code generator for state machines of robots"
-_COOKIE = "vicode_colours"
+_COOKIE = "vicode_colors"
 _MODES = {"dark": True, "light": False}
 _NEXT = {None: True, True: False, False: None}
 _NAMES = {None: "Theme: system", True: "Theme: dark", False: "Theme: light"}

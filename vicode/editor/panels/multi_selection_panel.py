@@ -20,7 +20,7 @@ _NOUNS = {
 }
 _ALIGN = (
     ("align-left", "align_horizontal_left", "Align left edges (Alt+A)"),
-    ("align-centre", "align_horizontal_center", "Align centers (Alt+H)"),
+    ("align-center", "align_horizontal_center", "Align centers (Alt+H)"),
     ("align-right", "align_horizontal_right", "Align right edges (Alt+D)"),
     ("align-top", "align_vertical_top", "Align top edges (Alt+W)"),
     ("align-middle", "align_vertical_center", "Align middles (Alt+V)"),

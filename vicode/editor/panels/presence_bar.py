@@ -67,7 +67,7 @@ class PresenceBar:
             if avatar.is_me
             else f"{name}{f': {avatar.doing}' if avatar.doing else ''}"
         )
-        button = ui.element("button" if avatar.is_me else "div").classes(f"person person-{avatar.user.colour}")
+        button = ui.element("button" if avatar.is_me else "div").classes(f"person person-{avatar.user.color}")
         # Speech control uses what is visible. Not through `props(text)`, as names may contain any character.
         button.props["aria-label"] = f"{get_initials(name)}. {label}"
         button.props["role"] = "button" if avatar.is_me else "img"

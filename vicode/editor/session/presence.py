@@ -12,18 +12,18 @@ from vicode.model.design import Point
 DISK_USER = "disk"
 """The user id of edits by other programs."""
 
-COLOUR_COUNT = 8
+COLOR_COUNT = 8
 _MAX_NAME_LENGTH = 24
 _MAX_USERS = 1000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class User:
-    """A user in a browser; `colour` is an index below COLOUR_COUNT."""
+    """A user in a browser; `color` is an index below COLOR_COUNT."""
 
     id: str
     name: str
-    colour: int
+    color: int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,7 +54,7 @@ class UserDirectory:
                 self._known.pop(oldest)
                 self._open_sections.pop(oldest, None)
             guest = self._first_free_guest_name()
-            known = User(id=id_, name=wanted or guest, colour=len(self._known) % COLOUR_COUNT)
+            known = User(id=id_, name=wanted or guest, color=len(self._known) % COLOR_COUNT)
         elif wanted:
             known = replace(known, name=wanted)
         self._known[id_] = known

@@ -28,7 +28,7 @@ REMOVE_TRANSITION = "remove transition"
 PASTE_TRANSITIONS = "paste transitions"
 ALIGNMENTS = {
     "align-left": "align left edges",
-    "align-centre": "align centers",
+    "align-center": "align centers",
     "align-right": "align right edges",
     "align-top": "align top edges",
     "align-middle": "align middles",

@@ -10,7 +10,7 @@ _NAME_HEIGHT = 14
 """The space above each curve for its name."""
 _MAX_POINTS = 300
 _MIN_LABEL_WIDTH = 46
-_COLOURS = 6
+_COLORS = 6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,7 +63,7 @@ def _strip(curve: PlotSeries, index: int, count: int) -> str:
 
     path = _path(curve.values, count, y_of)
     ground = f'<rect class="plot-ground" x="0" y="{top}" width="{WIDTH}" height="{STRIP}"/>'
-    return f'{ground}<path class="plot-line c{index % _COLOURS}" d="{path}"/>'
+    return f'{ground}<path class="plot-line c{index % _COLORS}" d="{path}"/>'
 
 
 def _path(values: Sequence[float], count: int, y_of: Callable[[float], float]) -> str:
@@ -110,9 +110,9 @@ def _band(states: Sequence[str], top: int, count: int) -> str:
     parts = []
     for state, start, end in _merge_narrow(state_runs(states), count):
         x, width = WIDTH * start / count, WIDTH * (end - start) / count
-        colour = order.index(state) % _COLOURS
+        color = order.index(state) % _COLORS
         parts.append(
-            f'<rect class="plot-state c{colour}" x="{x:.1f}" y="{top}" width="{width:.1f}" height="{BAND}">'
+            f'<rect class="plot-state c{color}" x="{x:.1f}" y="{top}" width="{width:.1f}" height="{BAND}">'
             f"<title>{escape(state)}</title></rect>"
         )
     return "".join(parts)

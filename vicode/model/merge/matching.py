@@ -18,10 +18,10 @@ def match_items(old: Sequence[Any], new: Sequence[Any], *, is_keyed: bool) -> Ma
     """Match items of `old` with items of `new`, by name if `is_keyed`."""
     if is_keyed:
         matches = _match_by(item_key, old, new)
-        return _match_neighbours(old, new, matches, _is_renamed)
+        return _match_neighbors(old, new, matches, _is_renamed)
     matches = _match_by(_item_id, old, new)
     matches = _match_equal(old, new, matches)
-    return _match_neighbours(old, new, matches, _is_similar)
+    return _match_neighbors(old, new, matches, _is_similar)
 
 
 def item_key(item: Any) -> Hashable:
@@ -105,7 +105,7 @@ def _match_equal(old: Sequence[Any], new: Sequence[Any], matches: Matches) -> Ma
     return {index: to for to, index in enumerate(by_new) if index is not None}
 
 
-def _match_neighbours(
+def _match_neighbors(
     old: Sequence[Any], new: Sequence[Any], matches: Matches, is_same: Callable[[Any, Any], bool]
 ) -> Matches:
     """Match similar items whose previous or next item is matched."""

@@ -8,7 +8,7 @@ const MAX_TRIES = 400;
 
 const SIDES = {
   left: (box, all) => ({ x: all.x + box.w / 2 }),
-  centre: (_box, all) => ({ x: all.x + all.w / 2 }),
+  center: (_box, all) => ({ x: all.x + all.w / 2 }),
   right: (box, all) => ({ x: all.x + all.w - box.w / 2 }),
   top: (box, all) => ({ y: all.y + box.h / 2 }),
   middle: (_box, all) => ({ y: all.y + all.h / 2 }),

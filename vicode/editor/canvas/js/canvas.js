@@ -93,17 +93,17 @@ class Canvas {
     if (seq === this.clientSeq) this.selection.set(items.map(({ of, id }) => keyOf(of, id)), { quiet: true });
   }
 
-  centre(of, id) {
+  center(of, id) {
     const element = this.scene.find(keyOf(of, id));
     if (!element) return;
     this.neighborhood.leaveFor(element);
     const { x, y } = this.scene.nameOf(element.key) ?? (this.scene.isDrawable(element) ? this.router.route(element).at : this.viewport.middle());
-    this.viewport.centreOn(x, y, Math.max(this.viewport.k, 0.6));
+    this.viewport.centerOn(x, y, Math.max(this.viewport.k, 0.6));
   }
 
   /** Centers an element as the page opens; a view restored from the browser's history only reveals it. */
   scrollToInitial(of, id) {
-    return this.restoredView ? this.reveal(keyOf(of, id)) : this.centre(of, id);
+    return this.restoredView ? this.reveal(keyOf(of, id)) : this.center(of, id);
   }
 
   fit() {
@@ -111,7 +111,7 @@ class Canvas {
     const extent = bounds([this.scene.extent(), this.router.extent()].filter(Boolean));
     this.fitPending = false;
     if (extent) this.viewport.fit(extent);
-    else this.viewport.centreOn(0, 0, 1);
+    else this.viewport.centerOn(0, 0, 1);
     const { x, y, k } = this.viewport;
     this.fitted = { x, y, k };
     if (k < LEGIBLE_ZOOM) this.showToast(namesOnly(Math.round(k * 100)));
@@ -254,7 +254,7 @@ class Canvas {
     const element = this.scene.find(key);
     if (!element) return;
     this.neighborhood.leaveFor(element);
-    if (this.isOverview) this.centre(element.of, element.id);
+    if (this.isOverview) this.center(element.of, element.id);
     else if (this.scene.nameOf(key)) this.viewport.reveal(nodeRect(this.scene.nameOf(key)));
     else if (this.scene.isDrawable(element)) this.viewport.reveal({ ...this.router.route(element).at, w: 0, h: 0 });
     this.frame.flush();
@@ -263,7 +263,7 @@ class Canvas {
 
   /** Scrolls a rectangle with the center (x, y) into view, at a readable zoom. */
   revealPlace(place) {
-    if (this.isOverview) this.viewport.centreOn(place.x, place.y, Math.max(this.viewport.k, 0.6));
+    if (this.isOverview) this.viewport.centerOn(place.x, place.y, Math.max(this.viewport.k, 0.6));
     else this.viewport.reveal(nodeRect(place));
   }
 
@@ -290,13 +290,13 @@ class Canvas {
     this.root.adoptedStyleSheets = [sheet];
     this.stage = html("div", { class: "stage", tabindex: "0", role: "application", "aria-roledescription": STAGE_ROLE });
     this.root.append(this.stage);
-    const colours = (name) => this.theme.colour(name);
+    const colors = (name) => this.theme.color(name);
     this.viewport = new Viewport(this.stage, this.frame);
-    this.minimap = new Minimap(this.scene, this.viewport, colours);
+    this.minimap = new Minimap(this.scene, this.viewport, colors);
     // Screen readers read nodes first, although they are painted last.
     const readingOrder = { role: "group", "aria-label": DIAGRAM, "aria-owns": "nodes edges links frames" };
-    this.levelOfDetail = new LevelOfDetail(this, html("div", { class: "plane", ...readingOrder }, this.painter.svgRoots), colours);
-    this.theme = new Theme(this.stage, () => this.#coloursChanged());
+    this.levelOfDetail = new LevelOfDetail(this, html("div", { class: "plane", ...readingOrder }, this.painter.svgRoots), colors);
+    this.theme = new Theme(this.stage, () => this.#colorsChanged());
     this.toolbar = new Toolbar(this);
     this.selection = new Selection(this);
     this.gestures = new PointerGestures(this);
@@ -375,9 +375,9 @@ class Canvas {
     this.dots.style.transform = `translate(${wrap(x)}px, ${wrap(y)}px) scale(${scale})`;
   }
 
-  #coloursChanged() {
-    this.levelOfDetail.coloursChanged();
-    this.frame?.schedule("colours", () => {
+  #colorsChanged() {
+    this.levelOfDetail.colorsChanged();
+    this.frame?.schedule("colors", () => {
       this.minimap.draw();
       this.levelOfDetail.scheduleRedraw();
     });

@@ -126,7 +126,7 @@ function arrangeHandlers(canvas) {
     run: () => canvas.moveNodes(work(boxes(), how), how),
   });
   return {
-    ...Object.fromEntries(["left", "centre", "right", "top", "middle", "bottom"].map((side) => [`align-${side}`, arranging(2, align, `align-${side}`)])),
+    ...Object.fromEntries(["left", "center", "right", "top", "middle", "bottom"].map((side) => [`align-${side}`, arranging(2, align, `align-${side}`)])),
     "distribute-across": arranging(3, distribute, "distribute-across"),
     "distribute-down": arranging(3, distribute, "distribute-down"),
     nudge: { run: (chord) => nudge(canvas, selection.movable().map((key) => scene.nodes.get(key)), directionOf(chord), chord.startsWith("Shift+") ? 1 : SNAP) },
@@ -137,12 +137,12 @@ function arrangeHandlers(canvas) {
 function viewHandlers(canvas) {
   const { viewport, selection, scene } = canvas;
   const hasInside = (node) => Boolean(node && (node.of === "states" ? node.data.requires || node.data.modulates : node.data.design));
-  const centre = () => viewport.middle();
+  const center = () => viewport.middle();
   const canFocus = () => scene.nodes.has(selection.single()) && scene.nodes.get(selection.single()).of !== "notes";
   return {
     fit: { run: () => canvas.fit() },
     "zoom-selection": { can: () => selection.keys.size > 0, run: () => canvas.zoomToSelection() },
-    "actual-size": { run: () => viewport.centreOn(centre().x, centre().y, 1) },
+    "actual-size": { run: () => viewport.centerOn(center().x, center().y, 1) },
     "zoom-in": { run: () => viewport.zoomBy(1.25) },
     "zoom-out": { run: () => viewport.zoomBy(0.8) },
     inside: { can: () => hasInside(scene.nodes.get(selection.single())), run: () => canvas.insets.toggle(selection.single()) },

@@ -13,15 +13,15 @@ const LEAVING = 0.88;
 const THAW_MS = 300;
 
 export class LevelOfDetail {
-  constructor(canvas, plane, colours) {
+  constructor(canvas, plane, colors) {
     this.canvas = canvas;
     this.plane = plane;
     this.far = false;
     this.frozen = false;
     this.shownZoom = 1;
-    this.overview = new Overview(canvas.scene, canvas.viewport, colours);
-    this.snapshot = new Snapshot(canvas.painter, canvas.viewport, colours);
-    this.names = new NameLayer(canvas, colours);
+    this.overview = new Overview(canvas.scene, canvas.viewport, colors);
+    this.snapshot = new Snapshot(canvas.painter, canvas.viewport, colors);
+    this.names = new NameLayer(canvas, colors);
     this.elements = [...this.overview.elements, this.snapshot.element, plane, this.names.element];
     // A press needs mounted elements for its hit test.
     canvas.stage.addEventListener("pointerdown", () => this.#unfreeze(), { capture: true });
@@ -66,7 +66,7 @@ export class LevelOfDetail {
     this.scheduleRedraw();
   }
 
-  coloursChanged() {
+  colorsChanged() {
     this.overview.invalidate();
     this.snapshot.invalidate();
   }

@@ -7,10 +7,10 @@ const HEIGHT = 116;
 const MAX_LINES = 400;
 
 export class Minimap {
-  constructor(scene, viewport, colours) {
+  constructor(scene, viewport, colors) {
     this.scene = scene;
     this.viewport = viewport;
-    this.colours = colours;
+    this.colors = colors;
     this.canvas = html("canvas", { width: WIDTH * 2, height: HEIGHT * 2 });
     this.frame = html("div", { class: "frame" });
     this.element = html("div", { class: "minimap", "aria-hidden": "true" }, [this.canvas, this.frame]);
@@ -31,13 +31,13 @@ export class Minimap {
     const scale = Math.min(WIDTH / area.w, HEIGHT / area.h);
     this.map = { scale, x: (WIDTH - area.w * scale) / 2 - area.x * scale, y: (HEIGHT - area.h * scale) / 2 - area.y * scale };
     pen.setTransform(2 * scale, 0, 0, 2 * scale, 2 * this.map.x, 2 * this.map.y);
-    pen.strokeStyle = this.colours("muted");
+    pen.strokeStyle = this.colors("muted");
     pen.lineWidth = 1 / scale;
     for (const area of this.scene.shownFrames().map(({ key }) => this.scene.boxOf(key)).filter(Boolean)) pen.strokeRect(area.x, area.y, area.w, area.h);
     this.#drawEdges(pen, scale);
-    const colourOf = (node) => node.data.severity ?? { states: "box-line", components: "component-line", common: "common", notes: "plate-line" }[node.of];
-    for (const [colour, nodes] of Map.groupBy(this.scene.shownNodes(), colourOf)) {
-      pen.fillStyle = this.colours(colour);
+    const colorOf = (node) => node.data.severity ?? { states: "box-line", components: "component-line", common: "common", notes: "plate-line" }[node.of];
+    for (const [color, nodes] of Map.groupBy(this.scene.shownNodes(), colorOf)) {
+      pen.fillStyle = this.colors(color);
       pen.beginPath();
       for (const { x, y, w, h } of nodes.map(nodeRect)) pen.rect(x, y, Math.max(w, 2.5 / scale), Math.max(h, 2 / scale));
       pen.fill();
@@ -48,7 +48,7 @@ export class Minimap {
   /** Draws the edges, unless there are too many to be readable. */
   #drawEdges(pen, scale) {
     if (this.scene.edges.size > MAX_LINES) return;
-    pen.strokeStyle = this.colours("plate-line");
+    pen.strokeStyle = this.colors("plate-line");
     pen.lineWidth = 0.75 / scale;
     pen.beginPath();
     for (const edge of this.scene.edges.values()) {
@@ -74,7 +74,7 @@ export class Minimap {
     const go = (event) => {
       const box = this.element.getBoundingClientRect();
       if (!this.map) return;
-      this.viewport.centreOn((event.clientX - box.left - this.map.x) / this.map.scale, (event.clientY - box.top - this.map.y) / this.map.scale);
+      this.viewport.centerOn((event.clientX - box.left - this.map.x) / this.map.scale, (event.clientY - box.top - this.map.y) / this.map.scale);
     };
     this.element.addEventListener("pointerdown", (event) => {
       event.stopPropagation();

@@ -16,9 +16,9 @@ const PADDING = 2;
 const ROW = LARGEST + 2 * PADDING;
 
 export class NameLayer {
-  constructor(canvas, colours) {
+  constructor(canvas, colors) {
     this.canvas = canvas;
-    this.colours = colours;
+    this.colors = colors;
     this.element = html("canvas", { class: "bitmap names" });
     this.taken = null;
     this.shown = [];
@@ -69,7 +69,7 @@ export class NameLayer {
     const text = truncateMiddle(frame.data.name, "name", (FRAME_ROOM * MEASURED) / FRAME_SIZE);
     const w = (textWidth(text, "name") * FRAME_SIZE) / MEASURED;
     const at = viewport.toScreen({ x: area.x, y: area.y });
-    return { text, size: FRAME_SIZE, x: at.x + 4 + w / 2, y: at.y + FRAME_SIZE, w, colour: "muted" };
+    return { text, size: FRAME_SIZE, x: at.x + 4 + w / 2, y: at.y + FRAME_SIZE, w, color: "muted" };
   }
 
   #paint() {
@@ -80,12 +80,12 @@ export class NameLayer {
     const pen = this.element.getContext("2d");
     pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, margin * devicePixelRatio, margin * devicePixelRatio);
     Object.assign(pen, { textAlign: "center", textBaseline: "middle", lineJoin: "round", lineWidth: 3 });
-    pen.strokeStyle = this.colours("paper");
-    for (const { text, size, x, y, colour, isDim } of this.shown) {
+    pen.strokeStyle = this.colors("paper");
+    for (const { text, size, x, y, color, isDim } of this.shown) {
       pen.globalAlpha = isDim ? DIMMED : 1;
       pen.font = FONTS.name.replace("14px", `${size}px`);
       pen.strokeText(text, x, y);
-      pen.fillStyle = this.colours(colour);
+      pen.fillStyle = this.colors(color);
       pen.fillText(text, x, y);
     }
   }
@@ -95,7 +95,7 @@ export class NameLayer {
 function nodeLabel(node, viewport) {
   const natural = textWidth(node.label, "name");
   const size = Math.min(LARGEST, Math.max(SMALLEST, Math.floor((MEASURED * (node.w * viewport.k - 6)) / natural)));
-  return { key: node.key, text: node.label, size, ...viewport.toScreen(node), w: (natural * size) / MEASURED, colour: "text" };
+  return { key: node.key, text: node.label, size, ...viewport.toScreen(node), w: (natural * size) / MEASURED, color: "text" };
 }
 
 /** Takes the place of a label if it is free. */

@@ -56,7 +56,7 @@ export class OffScreenEnds {
     const button = html("button", { type: "button", tabindex: "-1", text, title: goTo(other.data.name ?? other.label), style: `left: ${rect.x}px; top: ${rect.y}px` });
     button.addEventListener("click", () => {
       selection.set([other.key]);
-      viewport.centreOn(other.x, other.y);
+      viewport.centerOn(other.x, other.y);
       this.canvas.focus();
     });
     return button;

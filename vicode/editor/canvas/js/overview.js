@@ -6,10 +6,10 @@ const COARSE_PIXELS = 1536;
 const SHARP_PIXELS = 4096;
 
 export class Overview {
-  constructor(scene, viewport, colours) {
+  constructor(scene, viewport, colors) {
     this.scene = scene;
     this.viewport = viewport;
-    this.colours = colours;
+    this.colors = colors;
     this.coarse = { canvas: html("canvas", { class: "bitmap" }), region: null, scale: 1 };
     this.sharp = { canvas: html("canvas", { class: "bitmap" }), region: null, scale: 1 };
     this.elements = [this.coarse.canvas, this.sharp.canvas];
@@ -66,7 +66,7 @@ export class Overview {
     canvas.width = Math.max(1, Math.round(region.w * scale));
     canvas.height = Math.max(1, Math.round(region.h * scale));
     const pen = canvas.getContext("2d", { alpha: false });
-    pen.fillStyle = this.colours("paper");
+    pen.fillStyle = this.colors("paper");
     pen.fillRect(0, 0, canvas.width, canvas.height);
     pen.setTransform(scale, 0, 0, scale, -region.x * scale, -region.y * scale);
     this.#drawFrames(pen, scale, selected);
@@ -80,8 +80,8 @@ export class Overview {
     for (const { key, data } of this.scene.framesInOrder()) {
       const area = this.scene.boxOf(key);
       if (!area) continue;
-      pen.fillStyle = this.colours(data.color ? `color-${data.color}` : "faint");
-      pen.strokeStyle = this.colours(selected.has(key) ? "accent" : "plate-line");
+      pen.fillStyle = this.colors(data.color ? `color-${data.color}` : "faint");
+      pen.strokeStyle = this.colors(selected.has(key) ? "accent" : "plate-line");
       pen.fillRect(area.x, area.y, area.w, area.h);
       pen.strokeRect(area.x, area.y, area.w, area.h);
     }
@@ -89,10 +89,10 @@ export class Overview {
 
   #drawEdges(pen, scale) {
     const edges = [...this.scene.edges.values()].filter((edge) => this.scene.isDrawable(edge));
-    const colourOf = (edge) => (edge.of === "links" ? edge.data.kind : edge.source === "common" ? "common" : "edge");
+    const colorOf = (edge) => (edge.of === "links" ? edge.data.kind : edge.source === "common" ? "common" : "edge");
     pen.lineWidth = Math.max(1.4, 0.5 / scale);
-    for (const [colour, group] of Map.groupBy(edges, colourOf)) {
-      pen.strokeStyle = this.colours(colour);
+    for (const [color, group] of Map.groupBy(edges, colorOf)) {
+      pen.strokeStyle = this.colors(color);
       pen.globalAlpha = 0.55;
       pen.beginPath();
       for (const edge of group) {
@@ -115,7 +115,7 @@ export class Overview {
       return node.of === "states" && node.data.initial ? "initial" : node.of;
     };
     for (const [look, group] of Map.groupBy(nodes, lookOf)) {
-      const [fill, stroke] = (LOOKS[look] ?? [`color-${look}`, "box-line"]).map((name) => this.colours(name));
+      const [fill, stroke] = (LOOKS[look] ?? [`color-${look}`, "box-line"]).map((name) => this.colors(name));
       pen.fillStyle = fill;
       pen.strokeStyle = stroke;
       pen.beginPath();

@@ -24,7 +24,7 @@ export class PresenceLayer {
     stage.addEventListener("pointerleave", () => this.#pointAt(null));
   }
 
-  /** Shows other users, each as `{name, colour, items, pointer}`. */
+  /** Shows other users, each as `{name, color, items, pointer}`. */
   show(others) {
     this.others = others;
     this.canvas.frame.schedule("presence", () => {
@@ -69,7 +69,7 @@ export class PresenceLayer {
       const shape = box
         ? svg("rect", { x: box.x, y: box.y, width: box.w, height: box.h, rx: 12 + GAP })
         : svg("path", { d: pathOf(route.curve, { x: route.curve[6], y: route.curve[7] }) });
-      shape.setAttribute("class", `outline person-${person.colour}`);
+      shape.setAttribute("class", `outline person-${person.color}`);
       shape.setAttribute("data-at", element.key);
       return shape;
     });
@@ -77,13 +77,13 @@ export class PresenceLayer {
 
   #tag(person, at) {
     const label = html("span", { class: "tag-name", text: person.name });
-    this.placed.push({ element: html("div", { class: `tag person-${person.colour}` }, [label]), at });
+    this.placed.push({ element: html("div", { class: `tag person-${person.color}` }, [label]), at });
   }
 
   #pointerOf(person) {
     const arrow = svg("svg", { viewBox: "0 0 16 20", width: 16, height: 20 }, [svg("path", { d: ARROW })]);
     const label = html("span", { class: "tag-name", text: person.name });
-    const element = html("div", { class: `pointer person-${person.colour}` }, [arrow, label]);
+    const element = html("div", { class: `pointer person-${person.color}` }, [arrow, label]);
     this.placed.push({ element, at: person.pointer });
     return element;
   }

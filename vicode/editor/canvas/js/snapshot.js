@@ -7,10 +7,10 @@ const MAX_PIXELS = 4096;
 const STEP = 20;
 
 export class Snapshot {
-  constructor(painter, viewport, colours) {
+  constructor(painter, viewport, colors) {
     this.painter = painter;
     this.viewport = viewport;
-    this.colours = colours;
+    this.colors = colors;
     this.element = html("canvas", { class: "bitmap snapshot" });
     this.styles = new Map();
     this.taken = null;
@@ -85,7 +85,7 @@ export class Snapshot {
     this.element.width = Math.round(region.w * scale);
     this.element.height = Math.round(region.h * scale);
     const pen = this.element.getContext("2d", { alpha: false, willReadFrequently: true });
-    pen.fillStyle = this.colours("paper");
+    pen.fillStyle = this.colors("paper");
     pen.fillRect(0, 0, this.element.width, this.element.height);
     pen.setTransform(scale, 0, 0, scale, -region.x * scale, -region.y * scale);
     pen.textBaseline = "middle";
@@ -120,14 +120,14 @@ export class Snapshot {
   #styleOf(element, context) {
     const level = this.painter.svgRoots[0].parentNode.className;
     const name = `${level} ${context}|${element.tagName} ${element.getAttribute("class")}`;
-    if (!this.styles.has(name)) this.styles.set(name, readStyle(getComputedStyle(element), this.colours));
+    if (!this.styles.has(name)) this.styles.set(name, readStyle(getComputedStyle(element), this.colors));
     return this.styles.get(name);
   }
 }
 
-function readStyle(style, colours) {
+function readStyle(style, colors) {
   // The only pattern is the hatching of disabled nodes; its background color replaces it.
-  const plain = (value) => (value.startsWith("url(") ? colours("faint") : value);
+  const plain = (value) => (value.startsWith("url(") ? colors("faint") : value);
   const paint = (value) => (value === "none" || value === "rgba(0, 0, 0, 0)" ? null : plain(value));
   return {
     isHidden: style.display === "none",

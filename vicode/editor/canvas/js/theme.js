@@ -5,7 +5,7 @@ export class Theme {
     this.stage = stage;
     this.onChange = onChange;
     this.preference = "auto";
-    this.colours = new Map();
+    this.colors = new Map();
     this.system = matchMedia("(prefers-color-scheme: dark)");
     this.refresh = () => this.#refresh();
     this.system.addEventListener("change", this.refresh);
@@ -20,9 +20,9 @@ export class Theme {
   }
 
   /** Returns the value of a color of the style sheet, for bitmaps. */
-  colour(name) {
-    if (!this.colours.has(name)) this.colours.set(name, getComputedStyle(this.stage).getPropertyValue(`--${name}`).trim());
-    return this.colours.get(name);
+  color(name) {
+    if (!this.colors.has(name)) this.colors.set(name, getComputedStyle(this.stage).getPropertyValue(`--${name}`).trim());
+    return this.colors.get(name);
   }
 
   dispose() {
@@ -34,7 +34,7 @@ export class Theme {
     const theme = this.#resolve();
     if (theme === this.stage.dataset.theme) return;
     this.stage.dataset.theme = theme;
-    this.colours.clear();
+    this.colors.clear();
     this.onChange();
   }
 

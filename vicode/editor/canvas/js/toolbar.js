@@ -18,7 +18,7 @@ export class Toolbar {
       button("fit", ZOOM_TO_FIT, () => canvas.fit()),
     ]);
     const { viewport } = canvas;
-    this.zoom.addEventListener("click", () => viewport.centreOn(viewport.middle().x, viewport.middle().y, 1));
+    this.zoom.addEventListener("click", () => viewport.centerOn(viewport.middle().x, viewport.middle().y, 1));
     for (const name of ["pointerdown", "pointermove", "dblclick"]) this.element.addEventListener(name, (event) => event.stopPropagation());
   }
 

@@ -77,7 +77,7 @@ export class Viewport {
     this.zoomAt({ x: this.width / 2, y: this.height / 2 }, factor);
   }
 
-  centreOn(x, y, k = this.k) {
+  centerOn(x, y, k = this.k) {
     this.set({ k, x: this.width / 2 - x * k, y: this.height / 2 - y * k });
   }
 
@@ -105,6 +105,6 @@ export class Viewport {
   revealAny(points) {
     const seen = this.visibleRect();
     const isSeen = ([x, y]) => x > seen.x && x < seen.x + seen.w && y > seen.y && y < seen.y + seen.h;
-    if (points.length && !points.some(isSeen)) this.centreOn(...points[0]);
+    if (points.length && !points.some(isSeen)) this.centerOn(...points[0]);
   }
 }
