@@ -1,6 +1,5 @@
 """Starts the editor's server: one process, reachable only from this machine by default."""
 
-import ast
 import asyncio
 import atexit
 import gc
@@ -132,12 +131,10 @@ def _open_library(
 
 
 def _start_autosave(library: "Library") -> "AutosaveService":
-    from vicode.editor.session.autosave import DELAY_VARIABLE, AutosaveService
+    from vicode.editor.session.autosave import AutosaveService, read_delay_s
     from vicode.editor.session.recovery import open_recovery_store
 
-    # For tests: a design that nobody saves stays unsaved.
-    delay_s = float(os.environ.get(DELAY_VARIABLE, "1"))
-    autosave = AutosaveService(library, open_recovery_store(), delay_s)
+    autosave = AutosaveService(library, open_recovery_store(), read_delay_s())
     # A second Ctrl-C skips the shutdown of the server.
     atexit.register(autosave.close)
     return autosave
@@ -146,10 +143,9 @@ def _start_autosave(library: "Library") -> "AutosaveService":
 def _prepare_process() -> None:
     from vicode.editor.connection_limits import raise_file_limit
     from vicode.editor.malformed_messages import shorten_socket_errors
-    from vicode.model.python_parser import serialize_calls
+    from vicode.editor.props_parser import serialize_props_parser
 
-    # NiceGUI 3.18 parses props with it; CPython must not parse in two threads at once: see `model.python_parser`.
-    ast.literal_eval = serialize_calls(ast.literal_eval)
+    serialize_props_parser()
     raise_file_limit()
     shorten_socket_errors()
     _end_on_hangup()

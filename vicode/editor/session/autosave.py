@@ -1,6 +1,7 @@
 """Autosave and recovery: journals unsaved designs, saves idle ones, and restores what a killed server left."""
 
 import contextlib
+import os
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -17,8 +18,8 @@ from vicode.editor.session.workspace import DiskConflictError, Workspace
 from vicode.model.merge import merge_designs
 from vicode.store import read_design
 
-DELAY_VARIABLE = "VICODE_AUTOSAVE_S"
-_AUTOSAVE_DELAY_S = 1.0
+_DELAY_VARIABLE = "VICODE_AUTOSAVE_S"
+_DELAY_S = 1.0
 _EDITOR_CHECK_INTERVAL_S = 2.0
 
 
@@ -28,7 +29,7 @@ class AutosaveService:
 
     library: Library
     recovery: RecoveryStore
-    delay_s: float = _AUTOSAVE_DELAY_S
+    delay_s: float = _DELAY_S
     clock: Callable[[], float] = time.time
 
     def __post_init__(self) -> None:
@@ -124,6 +125,11 @@ class AutosaveService:
         for workspace in self.library.workspaces:
             for document in workspace.documents:
                 yield workspace, document
+
+
+def read_delay_s() -> float:
+    """The delay before a design is saved. Tests lengthen it, so that what nobody saves stays unsaved."""
+    return float(os.environ.get(_DELAY_VARIABLE, _DELAY_S))
 
 
 def format_diff(lost: RecoverableDesign) -> str:
