@@ -31,8 +31,8 @@ TRUST_TO_COMPARE = (
     "the answer is remembered for this user."
 )
 SANDBOXED = (
-    "It runs in a sandbox: it can read this folder and installed software, write nothing but temporary files, and has no "
-    "network. It may still use up memory, disk space and processor time."
+    "It runs in a sandbox: it can read this folder and installed software, write nothing but temporary files, and has "
+    "no network. It may still use up memory, disk space and processor time."
 )
 TRUST_NOT_REMEMBERED = "The folder is trusted until the editor ends: the state folder cannot be written"
 NOT_TRUSTED = "The folder is not trusted, so its code does not run. Restart to be asked again."
