@@ -10,12 +10,12 @@ import os
 import re
 import shutil
 import subprocess
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+import weakref
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import mkdtemp
 
 # For the calls that need the real git folder: they find the repository, and read and write its configuration and HEAD.
 _OPTIONS = ("-c", "core.fsmonitor=false", "-c", "core.hooksPath=/dev/null", "--no-pager", "--literal-pathspecs")
@@ -231,20 +231,24 @@ class Repository:
         variables = {"GIT_INDEX_FILE": str(self.git_folder / "index"), **kept, **_PRIVATE_ENVIRONMENT, **environment}
         variables["GIT_WORK_TREE"] = str(self.root)
         settings = [part for setting in self._settings for part in ("-c", setting)]
-        with self._private_folder() as folder:
-            variables["GIT_DIR"] = folder
-            command = [*settings, *_PRIVATE_OPTIONS, "-C", str(self.root), *arguments]
-            return _call_git(command, variables, content=content, is_private=True)
+        variables["GIT_DIR"] = str(self._update_private_folder())
+        command = [*settings, *_PRIVATE_OPTIONS, "-C", str(self.root), *arguments]
+        return _call_git(command, variables, content=content, is_private=True)
 
-    @contextmanager
-    def _private_folder(self) -> Iterator[str]:
-        with TemporaryDirectory(prefix="vicode-git-") as name:
-            folders = [self.common_folder, *([self.git_folder] if self.git_folder != self.common_folder else [])]
-            _link(Path(name), folders)
-            # git accepts no link in its place.
-            shutil.copyfile(self.git_folder / "HEAD", Path(name, "HEAD"), follow_symlinks=False)
-            Path(name, "config").write_text(self._format, encoding="utf-8")
-            yield name
+    @cached_property
+    def _private_folder(self) -> Path:
+        folder = Path(mkdtemp(prefix="vicode-git-"))
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        (folder / "config").write_text(self._format, encoding="utf-8")
+        return folder
+
+    def _update_private_folder(self) -> Path:
+        """Link entries that are new, and copy HEAD: git accepts no link in its place."""
+        _link(self._private_folder, list(dict.fromkeys((self.common_folder, self.git_folder))))
+        head, copy = (self.git_folder / "HEAD").read_bytes(), self._private_folder / "HEAD"
+        if not copy.exists() or copy.read_bytes() != head:
+            copy.write_bytes(head)
+        return self._private_folder
 
     @property
     def _environment(self) -> dict[str, str]:
@@ -335,11 +339,16 @@ def _checked(done: "subprocess.CompletedProcess[bytes]") -> bytes:
 
 
 def _link(target: Path, folders: Sequence[Path]) -> None:
-    """Link the entries of folders; folders of the same name are merged, and of other entries the last one counts."""
+    """Link the entries of folders that have no link yet.
+
+    Folders of the same name are merged; of other entries, the last one counts.
+    """
     for name in {entry.name for folder in folders for entry in folder.iterdir()}.difference(_NOT_LINKED):
         found = [folder / name for folder in folders if os.path.lexists(folder / name)]
+        if (target / name).is_symlink():
+            continue
         if len(found) > 1 and all(map(Path.is_dir, found)):
-            (target / name).mkdir()
+            (target / name).mkdir(exist_ok=True)
             _link(target / name, found)
         else:
             (target / name).symlink_to(found[-1])
