@@ -93,6 +93,6 @@ $(VENV)/.ready: pyproject.toml | $(BIN)/python
 	@touch $@
 
 $(VENV)/.ready-%: pyproject.toml | $(BIN)/python
-	@echo "Installing vicode[$*] into $(VENV) (once, about a minute)."
+	@echo "Installing vicode with its extra $* into $(VENV) (once, about a minute)."
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[$*]'
 	@touch $@

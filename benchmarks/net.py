@@ -1,6 +1,6 @@
 """Cost of components in other processes: age under overload, round trips and bare zenoh, time per iteration.
 
-Run it with `python -m benchmarks.net`; needs `vicode[net]`. Both processes are on this machine.
+Run it with `python -m benchmarks.net`; needs `vicode-fsm[net]`. Both processes are on this machine.
 """
 
 from __future__ import annotations

@@ -229,7 +229,7 @@ def test_a_root_has_one_name(make_root: MakeRoot) -> None:
 
 def test_a_missing_extra_is_one_line(net_port: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "zenoh", None)
-    with pytest.raises(NetworkError, match=r"pip install 'vicode\[net\]'"):
+    with pytest.raises(NetworkError, match=r"pip install 'vicode-fsm\[net\]'"):
         Root(RemoteEyes)
 
 

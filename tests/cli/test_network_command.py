@@ -108,7 +108,7 @@ def test_a_missing_extra_is_one_line(search: Path, capfd: pytest.CaptureFixture[
     (search / "zenoh.py").write_text("raise ImportError\n")
     assert vicode("run", "searcher.yaml", "--profile", "split", "--ticks", "1") == 2
     printed = capfd.readouterr().err
-    assert "zenoh, which is not installed: pip install 'vicode[net]'" in printed
+    assert "zenoh, which is not installed: pip install 'vicode-fsm[net]'" in printed
     assert "Traceback" not in printed
 
 

@@ -134,4 +134,4 @@ def test_the_export_says_which_package_is_missing(
     record("one", 0.1)
     monkeypatch.setitem(sys.modules, "mcap.writer", None)
     assert vicode("trace", "export", "one", "--mcap", "one.mcap") == 2
-    assert "pip install 'vicode[mcap]'" in capsys.readouterr().err
+    assert "pip install 'vicode-fsm[mcap]'" in capsys.readouterr().err

@@ -36,7 +36,7 @@ def can(act):
     except OSError:
         return False
     return True
-folder, temporary = sys.argv[1:]
+folder, temporary, editor = sys.argv[1:]
 print(json.dumps({
     "outside": os.path.exists(os.path.join(folder, "..", "secret")),
     "shadow": os.path.exists("/etc/shadow"),
@@ -45,7 +45,7 @@ print(json.dumps({
     "write temporary": can(lambda: open(os.path.join(temporary, "new.txt"), "w")),
     "network": can(lambda: socket.socket(socket.AF_INET, socket.SOCK_DGRAM).connect(("192.0.2.1", 9))),
     "interfaces": [name for _index, name in socket.if_nameindex()],
-    "parents": can(lambda: os.kill(int(os.environ["EDITOR_PID"]), 0)),
+    "parents": can(lambda: os.kill(int(editor), 0)),
     "processes": resource.getrlimit(resource.RLIMIT_NPROC)[0] <= 64,
     "files": resource.getrlimit(resource.RLIMIT_FSIZE)[0] <= 1 << 30,
     "root": os.getuid() == 0,
@@ -65,8 +65,7 @@ def start(code: str, *arguments: str, is_isolated: bool, folder: Path) -> "subpr
     command = launch_command(
         [sys.executable, "-c", code, *arguments], (str(folder),), make_temporary(), is_isolated=is_isolated
     )
-    environment = {**os.environ, "EDITOR_PID": str(os.getpid())}
-    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder, env=environment)
+    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder)
 
 
 def is_running(mark: str) -> bool:
@@ -139,10 +138,9 @@ def test_the_sandbox_contains_only_what_was_given(tmp_path: Path) -> None:
     (folder / "own.txt").write_text("own")
     (tmp_path / "secret").write_text("secret")
     temporary = make_temporary()
-    command = [sys.executable, "-c", LOOK, str(folder), str(temporary / "files")]
+    command = [sys.executable, "-c", LOOK, str(folder), str(temporary / "files"), str(os.getpid())]
     launched = launch_command(command, (str(folder),), temporary, is_isolated=True)
-    environment = {**os.environ, "EDITOR_PID": str(os.getpid())}
-    done = subprocess.run(launched, capture_output=True, text=True, cwd=folder, env=environment, check=True)
+    done = subprocess.run(launched, capture_output=True, text=True, cwd=folder, check=True)
     assert json.loads(done.stdout) == {
         "outside": False,
         "shadow": False,

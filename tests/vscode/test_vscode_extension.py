@@ -61,4 +61,6 @@ def test_an_error_is_shown_as_text(tmp_path: Path) -> None:
 
 def test_a_missing_command_is_named() -> None:
     shown = open_diagram(ROOT / "designs/meeting/meet.yaml", ["no-such-vicode"])
-    assert "no-such-vicode was not found. Install it with &#39;pip" in shown["html"].replace("'", "&#39;")
+    assert "no-such-vicode was not found. Install vicode from a checkout (&#39;pip" in shown["html"].replace(
+        "'", "&#39;"
+    )

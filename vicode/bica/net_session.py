@@ -185,7 +185,7 @@ def _import_zenoh() -> ModuleType:
     try:
         import zenoh  # noqa: PLC0415 - optional
     except ImportError as error:
-        message = "robots connect over zenoh, which is not installed: pip install 'vicode[net]'"
+        message = "robots connect over zenoh, which is not installed: pip install 'vicode-fsm[net]'"
         raise NetworkError(f"{message} (on a robot without vicode: pip install eclipse-zenoh)") from error
     return zenoh
 

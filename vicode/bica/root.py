@@ -94,7 +94,7 @@ class Root(BaseRoot):
     def connect(
         self, name: str, *, team: str = "", fields: Sequence[str] | None = None, on_call: bool = False
     ) -> Network:
-        """Connect to other robots, which read and call the components of this one; needs `vicode[net]`.
+        """Connect to other robots, which read and call the components of this one; needs `vicode-fsm[net]`.
 
         Without the variable VICODE_NET_CONFIG, only programs of this machine are found.
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from vicode.simulated_robot.world_map import WorldMap
 
 T = TypeVar("T")
-MISSING_EXTRA = "vicode: simulated robots need pymunk; install it with: pip install 'vicode[sim]'"
+MISSING_EXTRA = "vicode: simulated robots need pymunk; install it with: pip install 'vicode-fsm[sim]'"
 _DEFAULT_SECONDS = 60.0
 
 

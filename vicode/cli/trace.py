@@ -55,7 +55,9 @@ def _add_diff(parser: argparse.ArgumentParser) -> None:
 
 def _add_export(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("trace", metavar="TRACE", help="a trace, or the name of a robot's record")
-    parser.add_argument("--mcap", metavar="FILE", required=True, help="the file to write; needs the extra vicode[mcap]")
+    parser.add_argument(
+        "--mcap", metavar="FILE", required=True, help="the file to write; needs the extra vicode-fsm[mcap]"
+    )
 
 
 def _stats(args: argparse.Namespace) -> int:

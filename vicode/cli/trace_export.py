@@ -25,7 +25,7 @@ def export_mcap(iterations: "Iterable[IterationResult]", out: Path) -> int:
     try:
         from mcap.writer import Writer
     except ImportError as error:
-        raise OSError("the package mcap is missing; install it with: pip install 'vicode[mcap]'") from error
+        raise OSError("the package mcap is missing; install it with: pip install 'vicode-fsm[mcap]'") from error
     part = out.with_name(f"{out.name}.part")
     try:
         with part.open("wb") as stream:

@@ -3,17 +3,21 @@
 Run as a script with the standard library only: `python launcher.py CONFIG`, where CONFIG is a `LaunchConfig` as JSON.
 
 In the sandbox, the program sees the given folders and no other files, has no network, and cannot see or signal other
-processes. It consists of namespaces of Linux: user, mount, network, process, and IPC (`man 7 namespaces`).
+processes. It consists of namespaces of Linux: user, mount, network, process, and IPC (`man 7 namespaces`), and a filter
+of system calls (`man 2 seccomp`). Every mount is read-only except the temporary files: if the editor runs as root, the
+program still owns root's files, also those in /proc/sys and /dev.
 """
 
 from __future__ import annotations
 
 import contextlib
 import ctypes
+import errno
 import json
 import os
 import resource
 import signal
+import struct
 import sys
 import time
 from typing import TYPE_CHECKING, Any, TypedDict
@@ -21,8 +25,9 @@ from typing import TYPE_CHECKING, Any, TypedDict
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-_PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER, _PR_SET_NO_NEW_PRIVS = 1, 36, 38
-_CLONE_NEWNS = 0x00020000
+_PR_SET_PDEATHSIG, _PR_SET_SECCOMP, _PR_SET_CHILD_SUBREAPER, _PR_SET_NO_NEW_PRIVS = 1, 22, 36, 38
+_SECCOMP_MODE_FILTER = 2
+_CLONE_NEWNS, _CLONE_NEWUSER = 0x00020000, 0x10000000
 # Mount, IPC, user, process and network namespaces.
 _NAMESPACES = _CLONE_NEWNS | 0x08000000 | 0x10000000 | 0x20000000 | 0x40000000
 _MS_RDONLY, _MS_NOSUID, _MS_NODEV, _MS_REMOUNT, _MS_BIND, _MS_REC, _MS_PRIVATE = 1, 2, 4, 32, 4096, 16384, 1 << 18
@@ -36,7 +41,24 @@ _SYSTEM_PATHS = (
     *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/opt"),
     *("/etc/ld.so.cache", "/etc/localtime", "/etc/alternatives"),
 )
-_DEVICES = ("null", "zero", "full", "random", "urandom")
+# Not zero: a shared mapping of it is memory that no limit counts.
+_DEVICES = ("null", "full", "random", "urandom")
+_VARIABLES = (
+    *("PATH", "HOME", "TMPDIR", "LANG", "LANGUAGE", "TZ", "TERM", "VIRTUAL_ENV", "LD_LIBRARY_PATH"),
+    *("CC", "CXX", "CPATH", "CPLUS_INCLUDE_PATH", "LIBRARY_PATH", "CCACHE_DISABLE", "OMP_NUM_THREADS"),
+)
+_VARIABLE_PREFIXES = ("LC_", "PYTHON")
+# Numbers of system calls on x86_64 and aarch64 (`asm/unistd.h`).
+_ARCHITECTURES = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
+_FORBIDDEN_CALLS = (
+    *((319, 279), (447, 447), (29, 194)),  # memory that no limit counts: memfd_create, memfd_secret, shmget
+    *((272, 97), (308, 268)),  # namespaces: unshare, setns
+    *((248, 217), (249, 218), (250, 219)),  # keys of the user: add_key, request_key, keyctl
+    *((425, 425), (321, 280), (323, 282), (298, 241)),  # io_uring_setup, bpf, userfaultfd, perf_event_open
+)
+_CLONE, _CLONE3, _MMAP = (56, 220), (435, 435), (9, 222)
+_MAP_SHARED, _MAP_ANONYMOUS = 1, 32
+_FIRST_X32_CALL = 0x40000000
 _INNER_ID = 1000
 _MAX_PROCESSES, _MAX_FILES, _MAX_FILE_BYTES = 64, 256, 64 << 20
 
@@ -71,7 +93,7 @@ def main() -> int:
             # The launcher keeps its own root.
             libc.check(libc.unshare(_CLONE_NEWNS))
             _enter_root(libc, config, folder)
-            _run_first_process(config["command"])
+            _run_first_process(libc, config["command"])
         os.execv(config["command"][0], config["command"])
     signal.signal(signal.SIGTERM, lambda *_: _end(config, 128 + signal.SIGTERM))
     signal.signal(signal.SIGABRT, lambda *_: os.kill(child, signal.SIGABRT))
@@ -106,6 +128,12 @@ class _Libc:
     def mount(self, source: str, target: str, kind: str = "", flags: int = 0, options: str = "") -> None:
         self.check(self._mount(source.encode(), target.encode(), kind.encode(), flags, options.encode()))
 
+    def filter_calls(self) -> None:
+        """Refuse some system calls of this process and its children; needs PR_SET_NO_NEW_PRIVS."""
+        lines = ctypes.create_string_buffer(_call_filter())
+        program = ctypes.create_string_buffer(struct.pack("@HP", (len(lines) - 1) // 8, ctypes.addressof(lines)))
+        self.check(self.prctl(_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.c_void_p(ctypes.addressof(program)), 0, 0))
+
     def unmount(self, target: str) -> None:
         self.check(self._umount(target.encode(), _MNT_DETACH))
 
@@ -127,25 +155,27 @@ def _enter_root(libc: _Libc, config: LaunchConfig, folder: str) -> None:
     """Make the given folders the only files."""
     root = config["root"]
     libc.mount("none", "/", flags=_MS_REC | _MS_PRIVATE)
-    libc.mount("tmpfs", root, "tmpfs", _MS_NOSUID | _MS_NODEV, "size=64m,mode=755")
+    libc.mount("tmpfs", root, "tmpfs", _MS_NOSUID | _MS_NODEV, "size=64m,nr_inodes=64k,mode=755")
     bound: list[str] = []
     for path in sorted({*_SYSTEM_PATHS, *config["readable"]}, key=len):
         if os.path.islink(path) and path in _SYSTEM_PATHS:
             os.makedirs(os.path.dirname(root + path), exist_ok=True)
             os.symlink(os.readlink(path), root + path)
         elif os.path.exists(path) and not _is_below(path, bound):
-            _bind(libc, path, root + path, is_writable=False)
+            _bind(libc, path, root + path)
             bound.append(path)
     for name in ("/tmp", "/dev/shm", "/proc", "/old"):  # noqa: S108 - in the new root
         os.makedirs(root + name, exist_ok=True)
-    for path in config["writable"]:
-        _bind(libc, path, root + path, is_writable=True)
     for device in _DEVICES:
         with open(f"{root}/dev/{device}", "w", encoding="ascii"):
             libc.mount(f"/dev/{device}", f"{root}/dev/{device}", flags=_MS_BIND)
     with contextlib.suppress(OSError):
         # Some containers hide parts of /proc; the program does without.
-        libc.mount("proc", f"{root}/proc", "proc")
+        libc.mount("proc", f"{root}/proc", "proc", _MS_NOSUID | _MS_NODEV)
+    for target in _mounts_below(root):
+        _make_read_only(libc, target)
+    for path in config["writable"]:
+        _bind(libc, path, root + path)
     libc.check(libc.syscall(_PIVOT_ROOT[os.uname().machine], root.encode(), f"{root}/old".encode()))
     os.chdir("/")
     libc.unmount("/old")
@@ -154,22 +184,36 @@ def _enter_root(libc: _Libc, config: LaunchConfig, folder: str) -> None:
     libc.check(libc.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0))
 
 
-def _bind(libc: _Libc, source: str, target: str, *, is_writable: bool) -> None:
+def _bind(libc: _Libc, source: str, target: str) -> None:
     os.makedirs(target if os.path.isdir(source) else os.path.dirname(target), exist_ok=True)
     if not os.path.isdir(source):
         open(target, "w", encoding="ascii").close()
     libc.mount(source, target, flags=_MS_BIND | _MS_REC)
-    if not is_writable:
-        given = os.statvfs(source).f_flag
-        kept = sum(flag for bit, flag in _KEPT_FLAGS.items() if given & bit)
-        libc.mount("none", target, flags=_MS_REMOUNT | _MS_BIND | _MS_RDONLY | kept)
+
+
+def _mounts_below(root: str) -> list[str]:
+    """The mounts in a folder, also those that came with a mounted folder."""
+    with open("/proc/self/mountinfo", "rb") as file:
+        escaped = [line.split(b" ")[4] for line in file]
+    points = [os.fsdecode(point.decode("unicode_escape").encode("latin-1")) for point in escaped]
+    return [point for point in points if point.startswith(f"{root}/")]
+
+
+def _make_read_only(libc: _Libc, target: str) -> None:
+    try:
+        given = os.statvfs(target).f_flag
+    except (PermissionError, FileNotFoundError):
+        # The program cannot reach it either.
+        return
+    kept = sum(flag for bit, flag in _KEPT_FLAGS.items() if given & bit)
+    libc.mount("none", target, flags=_MS_REMOUNT | _MS_BIND | _MS_RDONLY | kept)
 
 
 def _is_below(path: str, folders: Iterable[str]) -> bool:
     return any(path == folder or path.startswith(f"{folder.rstrip('/')}/") for folder in folders)
 
 
-def _run_first_process(command: list[str]) -> None:
+def _run_first_process(libc: _Libc, command: list[str]) -> None:
     """Be the first process of the namespace, which the kernel treats specially; the program is the second."""
     child = os.fork()
     if child == 0:
@@ -179,13 +223,47 @@ def _run_first_process(command: list[str]) -> None:
             (resource.RLIMIT_FSIZE, _MAX_FILE_BYTES),
         ):
             resource.setrlimit(limit, (most, most))
-        os.execv(command[0], command)
+        libc.filter_calls()
+        os.execve(command[0], command, _environment())
     signal.signal(signal.SIGABRT, lambda *_: os.kill(child, signal.SIGABRT))
     for descriptor in (0, 1):
         os.dup2(os.open(os.devnull, os.O_RDWR), descriptor)
     status = _wait_for(child)
     # A signal cannot end this process as it ended the program: tell the launcher its number.
     os._exit(os.waitstatus_to_exitcode(status) if os.WIFEXITED(status) else 128 + os.WTERMSIG(status))
+
+
+def _environment() -> dict[str, str]:
+    """The variables that the program sees: others may be passwords."""
+    kept = {
+        name: value for name, value in os.environ.items() if name in _VARIABLES or name.startswith(_VARIABLE_PREFIXES)
+    }
+    return kept if os.path.isdir(kept.get("TMPDIR", "")) else {**kept, "TMPDIR": "/tmp"}  # noqa: S108 - in the sandbox
+
+
+def _call_filter() -> bytes:
+    """The filter of system calls as instructions of BPF (`linux/filter.h`, `linux/seccomp.h`)."""
+    load, equal, at_least, mask, answer = 0x20, 0x15, 0x35, 0x54, 0x06
+    allow, refuse = 0x7FFF0000, 0x00050000
+    machine = os.uname().machine
+    index = list(_ARCHITECTURES).index(machine)
+
+    def refuse_if(argument: int, bits: int, call: tuple[int, int], error: int) -> list[tuple[int, int, int, int]]:
+        start = 16 + 8 * argument
+        return [
+            *((equal, 0, 4, call[index]), (load, 0, 0, start), (mask, 0, 0, bits), (equal, 0, 1, bits)),
+            *((answer, 0, 0, refuse | error), (load, 0, 0, 0)),
+        ]
+
+    lines = [(load, 0, 0, 4), (equal, 1, 0, _ARCHITECTURES[machine]), (answer, 0, 0, refuse | errno.EPERM)]
+    lines += [(load, 0, 0, 0), (at_least, 0, 1, _FIRST_X32_CALL), (answer, 0, 0, refuse | errno.EPERM)]
+    for call in _FORBIDDEN_CALLS:
+        lines += [(equal, 0, 1, call[index]), (answer, 0, 0, refuse | errno.EPERM)]
+    # The flags of clone3 are in memory; the C library uses clone instead.
+    lines += [(equal, 0, 1, _CLONE3[index]), (answer, 0, 0, refuse | errno.ENOSYS)]
+    lines += refuse_if(0, _CLONE_NEWUSER, _CLONE, errno.EPERM)
+    lines += refuse_if(3, _MAP_SHARED | _MAP_ANONYMOUS, _MMAP, errno.ENOMEM)
+    return b"".join(struct.pack("=HBBI", *line) for line in [*lines, (answer, 0, 0, allow)])
 
 
 def _wait_for(child: int) -> int:

@@ -38,7 +38,8 @@ def limit_memory(bytes_: int) -> None:
     """Make allocations above this limit fail with `MemoryError`, and disable core dumps."""
     _soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
     most = bytes_ if hard == resource.RLIM_INFINITY else min(bytes_, hard)
-    resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
+    # The hard limit, too: the code must not raise it.
+    resource.setrlimit(resource.RLIMIT_DATA, (most, most))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 

@@ -56,7 +56,7 @@ function run(args, uri) {
 }
 
 function missing(program) {
-  return `${program} was not found. Install it with 'pip install vicode', or set vicode.command in the settings.`;
+  return `${program} was not found. Install vicode from a checkout ('pip install /path/to/vicode'), or set vicode.command in the settings.`;
 }
 
 async function startLanguageServer(output) {

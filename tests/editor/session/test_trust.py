@@ -1,7 +1,13 @@
 """Which folders are trusted, and which need no trust as they contain no code."""
 
+import py_compile
+import subprocess
+import sys
+import sysconfig
 from dataclasses import replace
 from pathlib import Path
+
+import pytest
 
 from vicode.editor.panels.simulation.trust_dialog import COMPARE
 from vicode.editor.session import Workspace
@@ -40,3 +46,43 @@ def test_only_a_folder_with_code_needs_trust(tmp_path: Path, workspace: Workspac
     assert contains_code(empty, with_cpp, COMPARE.languages)
     (empty / "math.py").write_text("")
     assert contains_code(empty, Project(name="p", designs=(design,)))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *(
+            "math.py",
+            "evil.pyc",
+            "evil.so",
+            "evil.abi3.so",
+            f"evil{sysconfig.get_config_var('EXT_SUFFIX')}",
+            "evil.pyd",
+        ),
+        *("space/evil.pyc", "a/b/c/evil.py", "__pycache__/evil.cpython-311.pyc", ".hidden/evil.py"),
+    ],
+)
+def test_each_kind_of_module_is_code(tmp_path: Path, name: str) -> None:
+    assert not contains_code(tmp_path, Project(name="p"))
+    file = tmp_path / name
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text("")
+    assert contains_code(tmp_path, Project(name="p"))
+
+
+def test_whatever_python_imports_is_code(tmp_path: Path) -> None:
+    source, folder = tmp_path / "source.py", tmp_path / "project"
+    source.write_text("print('ran')\n")
+    folder.mkdir()
+    (tmp_path / "elsewhere").mkdir()
+    py_compile.compile(str(source), str(tmp_path / "elsewhere" / "inner.pyc"))
+    (folder / "linked").symlink_to(tmp_path / "elsewhere")
+    done = subprocess.run([sys.executable, "-c", "import linked.inner"], cwd=folder, capture_output=True, check=True)
+    assert done.stdout == b"ran\n"
+    assert contains_code(folder, Project(name="p"))
+    (folder / "linked").unlink()
+    (folder / "data").mkdir()
+    (folder / "link").symlink_to("data")
+    (folder / "notes.txt").write_text("")
+    (folder / "map.py.yaml").write_text("")
+    assert not contains_code(folder, Project(name="p"))

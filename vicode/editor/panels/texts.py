@@ -30,7 +30,10 @@ TRUST_TO_COMPARE = (
     "Comparing languages runs the Python and C++ code of this folder. Trust it only if you know where it comes from; "
     "the answer is remembered for this user."
 )
-SANDBOXED = "It runs in a sandbox: it can read this folder, write nothing but temporary files, and has no network."
+SANDBOXED = (
+    "It runs in a sandbox: it can read this folder and installed software, write nothing but temporary files, and has "
+    "no network. It may still use up memory, disk space and processor time."
+)
 TRUST_NOT_REMEMBERED = "The folder is trusted until the editor ends: the state folder cannot be written"
 NOT_TRUSTED = "The folder is not trusted, so its code does not run. Restart to be asked again."
 NOT_TRUSTED_TO_COMPARE = "The folder is not trusted, so its code does not run. Compare again to be asked again."

@@ -1,6 +1,8 @@
 """The folders whose Python code the user trusts, remembered in the user's state folder."""
 
+import os
 from collections.abc import Collection
+from importlib.machinery import all_suffixes
 from pathlib import Path
 
 from vicode.model.project import Project
@@ -8,6 +10,8 @@ from vicode.model.traversal import iter_code
 from vicode.output import write_atomically
 
 _FILE = "trusted"
+# Modules of this interpreter, and of others: compiled files are imported without their source.
+_MODULE_SUFFIXES = (*all_suffixes(), ".py", ".pyc", ".pyd", ".so")
 
 
 def is_trusted(state: Path, folder: Path) -> bool:
@@ -31,8 +35,13 @@ def contains_code(folder: Path, project: Project, languages: Collection[str] = (
     """Whether a run may execute code that stands in the folder; by default a simulation, which runs Python."""
     in_designs = (located for design in project.designs for located in iter_code(design))
     return any(located.code.in_language(each) for located in in_designs for each in languages) or any(
-        folder.rglob("*.py")
+        path.name.endswith(_MODULE_SUFFIXES) or _leads_outside(path, folder) for path in folder.rglob("*")
     )
+
+
+def _leads_outside(path: Path, folder: Path) -> bool:
+    """Whether a path is a link to a folder elsewhere: modules are imported from there, too."""
+    return path.is_symlink() and path.is_dir() and not path.resolve().is_relative_to(os.path.realpath(folder))
 
 
 def _trusted(state: Path) -> frozenset[Path]:

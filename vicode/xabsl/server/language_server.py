@@ -1,12 +1,12 @@
 """The behaviors of the open files, their findings as diagnostics, and positions in them."""
 
 from collections.abc import Callable, Sequence
-from importlib.metadata import version
 from pathlib import Path
 
 from lsprotocol import types as lsp
 from pygls.lsp.server import LanguageServer
 
+from vicode import __version__
 from vicode.findings import Finding, Severity, SourceLocation
 from vicode.xabsl import tree
 from vicode.xabsl.server.open_behavior import OpenBehavior, SymbolOccurrence
@@ -24,7 +24,7 @@ class XabslLanguageServer(LanguageServer):
     """Serves the behaviors of the open files."""
 
     def __init__(self, encoding_of: Callable[[Path], str]) -> None:
-        super().__init__("vicode-xabsl", version("vicode"), lsp.TextDocumentSyncKind.Full)
+        super().__init__("vicode-xabsl", __version__, lsp.TextDocumentSyncKind.Full)
         self._encoding_of = encoding_of
         self.behaviors: dict[Path, OpenBehavior] = {}
         self._main_files: dict[Path, Path] = {}
