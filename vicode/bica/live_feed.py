@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypedDict
 
 from .control import ControlError, Controller
-from .errors import print_error
+from .errors import USER_ERRORS, print_error
 from .observer import IterationRecord, Observer
 
 if TYPE_CHECKING:
@@ -191,7 +191,7 @@ class LiveFeed:
                 words = self._controller.apply(viewer, request)
             except ControlError as error:
                 answer["error"] = str(error)
-            except Exception as error:
+            except USER_ERRORS as error:
                 # Code of a state that was entered by request.
                 answer["error"] = f"{type(error).__name__}: {error}"
             else:

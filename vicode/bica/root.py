@@ -11,7 +11,15 @@ from typing import TYPE_CHECKING, Any, Literal, Self, TypeVar, cast
 
 from .clock import Clock, RealClock, StoppableClock
 from .component import Component
-from .errors import ComponentError, CyclicUseError, ErrorRecord, describe_exception, make_error_record, print_error
+from .errors import (
+    USER_ERRORS,
+    ComponentError,
+    CyclicUseError,
+    ErrorRecord,
+    describe_exception,
+    make_error_record,
+    print_error,
+)
 from .team import Team
 from .timing import CycleTimes, measure_steps
 
@@ -247,7 +255,7 @@ class Root:
         if callable(hold):
             try:
                 hold()
-            except Exception as error:
+            except USER_ERRORS as error:
                 message = f"hold() of the world failed: {describe_exception(error)}"
                 if message not in self._hold_failures:
                     self._hold_failures.add(message)
@@ -297,7 +305,7 @@ class Root:
         except ComponentError as error:
             self.stop_error = error
             raise
-        except Exception as error:
+        except USER_ERRORS as error:
             if not self._has_on_error_failed:
                 self._has_on_error_failed = True
                 print_error(f"on_error raised {describe_exception(error)} (reported once)")
@@ -333,7 +341,7 @@ class Root:
     def _close_component(self, component: Component) -> None:
         try:
             component.close()
-        except Exception as error:
+        except USER_ERRORS as error:
             self.report(make_error_record(component, error))
 
     def _close_world(self) -> None:

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from vicode.bica.errors import USER_ERRORS
 from vicode.bica.loader import describe_user_error
 from vicode.bridge.ages import AgeFigures, merge_ages
 from vicode.bridge.behaviors import BehaviorCatalog
@@ -232,7 +233,7 @@ class BridgeServer:
                 priority=priority,
                 waits=hello.waits and hello.pace != "client",
             )
-        except Exception as error:
+        except USER_ERRORS as error:
             raise RefusedError(f"the world cannot be created: {describe_user_error(error)}") from error
         robot.data.counts.connections = 1
         self._seats[unique] = _Seat(robot, connection, is_named=bool(hello.name))
