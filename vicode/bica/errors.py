@@ -138,10 +138,15 @@ class OutputError(Exception):
     """An output of a run cannot be written: its trace, its record or the standard output."""
 
 
+def escape_text(text: str) -> str:
+    """Write control characters as `repr` does: a text from elsewhere cannot command a terminal or begin a line."""
+    return text if text.isprintable() else "".join(each if each.isprintable() else repr(each)[1:-1] for each in text)
+
+
 def print_error(message: str, *, kind: str = "error") -> None:
-    """Write a message to standard error; it is lost if standard error is missing, closed or broken."""
+    """Write a message to standard error in one line; it is lost if standard error is missing, closed or broken."""
     with suppress(Exception):
-        sys.stderr.write(f"{kind}: {message}\n")
+        sys.stderr.write(f"{kind}: {escape_text(message)}\n")
 
 
 def _make_located_record(component: Component, error: BaseException) -> ErrorRecord:
