@@ -95,12 +95,12 @@ def apply_diffs(differences: Iterable[FileDiff], folder: Path) -> tuple[Path, ..
     """Write new and changed files and delete stale ones; returns the paths of these files."""
     written = []
     for difference in differences:
-        path = folder / difference.path
         if difference.status is FileStatus.UNCHANGED:
             continue
-        written.append(path)
+        written.append(folder / difference.path)
+        path = resolve_below(folder, difference.path)
         if difference.new is None:
-            path.unlink()
+            written[-1].unlink()
             continue
         path.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(path, difference.new)
@@ -110,7 +110,7 @@ def apply_diffs(differences: Iterable[FileDiff], folder: Path) -> tuple[Path, ..
 def back_up_edited(path: Path) -> Path:
     """Copy a file to NAME.edited in its folder, or to NAME.edited2 … if that exists; returns the path of the copy."""
     number = 1
-    while (copy := path.with_name(f"{path.name}.edited{number if number > 1 else ''}")).exists():
+    while os.path.lexists(copy := path.with_name(f"{path.name}.edited{number if number > 1 else ''}")):
         number += 1
     shutil.copy2(path, copy)
     return copy
@@ -123,11 +123,23 @@ def format_diff(difference: FileDiff) -> str:
     return "".join(unified_diff(old.splitlines(keepends=True), new.splitlines(keepends=True), before, after))
 
 
+def resolve_below(folder: Path, path: str | Path) -> Path:
+    """The target of a path below a folder: symbolic links are followed, but not out of the folder.
+
+    Raises:
+        PermissionError: The path is outside of the folder, or a link leads out of it.
+    """
+    target = (folder / path).resolve()
+    if not target.is_relative_to(folder.resolve()):
+        raise PermissionError(errno.EACCES, f"it is outside of {folder}, or a link out of it", str(path))
+    return target
+
+
 def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = True) -> None:
     """Replace a file atomically: after a crash it has either the old or the new content.
 
     Args:
-        path: The file; symbolic links are followed.
+        path: The file; symbolic links to existing files are followed.
         content: The new content.
         is_durable: Whether to flush the content to the disk, so that it also survives a power failure.
 
@@ -135,6 +147,9 @@ def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = Tru
         OSError: The file cannot be written; the error names `path`, which is unchanged.
     """
     target = path.resolve()
+    if path.is_symlink() and not target.exists():
+        # In a folder of a stranger, the file would be anywhere.
+        raise OSError(errno.ELOOP, "it is a link to a file that does not exist; delete it", str(path))
     temporary = target.with_name(f".{target.name}.{os.urandom(4).hex()}.tmp")
     try:
         with _write_new(temporary, content.encode("utf-8") if isinstance(content, str) else content, is_durable):

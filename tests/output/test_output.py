@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from vicode import output
-from vicode.output import FileStatus, OutputFile, remove_leftovers
+from vicode.output import FileStatus, OutputFile, apply_diffs, compare_files, remove_leftovers, write_atomically
+from vicode.transactions import replace_files
 
 HEADER = "# Ours.\n"
 
@@ -117,3 +118,35 @@ def test_leftovers_are_removed_but_not_files_being_written(tmp_path: Path) -> No
         remove_leftovers(tmp_path)
     assert not left.exists()
     assert len(list(tmp_path.iterdir())) == 3
+
+
+def make_link_out(tmp_path: Path) -> tuple[Path, Path]:
+    """A folder with links to a file, a folder, and nothing, all outside."""
+    root, outside = tmp_path / "root", tmp_path / "outside"
+    root.mkdir()
+    outside.mkdir()
+    write(outside, "file.py", "old")
+    for name, target in {"file.py": "file.py", "folder": "", "lost.py": "lost.py", "lost": "lost"}.items():
+        (root / name).symlink_to(outside / target)
+    return root, outside
+
+
+@pytest.mark.parametrize("path", ["file.py", "folder/new.py", "lost.py", "lost/new.py", "../outside/new.py"])
+def test_links_do_not_lead_files_out_of_a_folder(tmp_path: Path, path: str) -> None:
+    root, outside = make_link_out(tmp_path)
+    with pytest.raises(OSError, match="link"):
+        apply_diffs(compare_files([OutputFile(path=path, text="new")], root), root)
+    with pytest.raises(OSError, match="link"):
+        replace_files(root, {path: "new", "other.py": "new"})
+    assert [(file.name, file.read_text()) for file in outside.iterdir()] == [("file.py", "old")]
+    assert not (root / "other.py").exists()
+
+
+def test_a_link_to_nothing_is_not_written_through(tmp_path: Path) -> None:
+    root, outside = make_link_out(tmp_path)
+    with pytest.raises(OSError, match="does not exist; delete it"):
+        write_atomically(root / "lost.py", "new")
+    back_up = write(root, "a.py", "edited")
+    (root / "a.py.edited").symlink_to(outside / "copy")
+    assert output.back_up_edited(back_up).name == "a.py.edited2"
+    assert [file.name for file in outside.iterdir()] == ["file.py"]

@@ -74,7 +74,7 @@ def _describe(found: "FoundDesign") -> str:
 
 
 def _write(found: "FoundDesign", out: Path) -> None:
-    from vicode.output import write_atomically
+    from vicode.output import resolve_below, write_atomically
 
     if out.suffix in (".yaml", ".yml") and not out.is_dir():
         write_atomically(out, found.texts[found.path])
@@ -82,10 +82,10 @@ def _write(found: "FoundDesign", out: Path) -> None:
         return
     top = _common_folder(list(found.texts))
     for path, text in found.texts.items():
-        file = out / Path(path).relative_to(top)
+        file = resolve_below(out, Path(path).relative_to(top))
         file.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(file, text)
-        print(f"wrote {file.as_posix()}")
+        print(f"wrote {(out / Path(path).relative_to(top)).as_posix()}")
 
 
 def _common_folder(paths: list[str]) -> Path:
