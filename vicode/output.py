@@ -6,8 +6,10 @@ import os
 import re
 import shutil
 import stat
+import tempfile
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from difflib import unified_diff
 from enum import StrEnum
@@ -16,6 +18,8 @@ from pathlib import Path
 
 CACHE_VARIABLE = "VICODE_CACHE"
 _TEMPORARY = re.compile(r"\..+\.[0-9a-f]{8}\.tmp")
+_TEMPORARY_FOLDER = re.compile(r"vicode-[a-z]+-\w+\.tmp")
+_MIN_AGE_S = 60.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,6 +142,8 @@ def resolve_below(folder: Path, path: str | Path) -> Path:
 def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = True) -> None:
     """Replace a file atomically: after a crash it has either the old or the new content.
 
+    A durable write also removes what killed programs left in the folder.
+
     Args:
         path: The file; symbolic links to existing files are followed.
         content: The new content.
@@ -156,6 +162,8 @@ def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = Tru
             if target.exists():
                 temporary.chmod(target.stat().st_mode & 0o777)
             temporary.replace(target)
+        if is_durable:
+            remove_leftovers(target.parent)
     except OSError as error:
         temporary.unlink(missing_ok=True)
         if error.errno is None:
@@ -182,12 +190,47 @@ def _write_new(file: Path, content: bytes, is_durable: bool) -> Iterator[None]:
 
 def remove_leftovers(folder: Path) -> None:
     """Remove the temporary files in a folder that killed programs left."""
-    for file in folder.glob(".*.tmp"):
-        with suppress(OSError):
-            if _TEMPORARY.fullmatch(file.name) and file.is_file() and not file.is_symlink():
-                with file.open("rb") as stream:
-                    fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                    file.unlink()
+    with suppress(OSError), os.scandir(folder) as entries:
+        for entry in entries:
+            if entry.name.endswith(".tmp") and _TEMPORARY.fullmatch(entry.name) and entry.is_file():
+                with suppress(OSError), _locked(entry.path):
+                    Path(entry).unlink()
+
+
+@contextmanager
+def temporary_folder(kind: str) -> Iterator[Path]:
+    """Make a folder for the time of the context; if the program is killed, a later one removes it."""
+    _remove_abandoned(Path(tempfile.gettempdir()))
+    with tempfile.TemporaryDirectory(prefix=f"vicode-{kind}-", suffix=".tmp") as name, _locked(name, is_required=False):
+        yield Path(name)
+
+
+def _remove_abandoned(place: Path) -> None:
+    with suppress(OSError), os.scandir(place) as entries:
+        for entry in entries:
+            if not _TEMPORARY_FOLDER.fullmatch(entry.name) or not entry.is_dir(follow_symlinks=False):
+                continue
+            status = entry.stat(follow_symlinks=False)
+            # One that was just made may not be locked yet.
+            if status.st_uid == os.geteuid() and time.time() - status.st_mtime > _MIN_AGE_S:
+                with suppress(OSError), _locked(entry.path):
+                    shutil.rmtree(entry.path)
+
+
+@contextmanager
+def _locked(path: str, *, is_required: bool = True) -> Iterator[None]:
+    """Lock a file or folder.
+
+    Raises:
+        OSError: It is locked, or the file system has no locks; only if the lock is required.
+    """
+    descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
+    try:
+        with nullcontext() if is_required else suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield
+    finally:
+        os.close(descriptor)
 
 
 def _compare_one(path: str, new: str, old: str | None) -> FileDiff:

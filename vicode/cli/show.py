@@ -4,9 +4,10 @@ import argparse
 import json
 import re
 import sys
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from vicode.output import resolve_below, temporary_folder, write_atomically
 
 if TYPE_CHECKING:
     from vicode.cli.revision_search import FoundDesign
@@ -60,8 +61,8 @@ def _search(path: Path, wanted: str) -> "FoundDesign | None":
 
     repository = find_repository(path)
     folder = repository.relative(path)
-    with tempfile.TemporaryDirectory(prefix="vicode-show-") as copy:
-        found = next(search_revisions(repository, folder, wanted, Path(copy)), None)
+    with temporary_folder("show") as copy:
+        found = next(search_revisions(repository, folder, wanted, copy), None)
     return found or find_in_folder(path, repository.root, wanted, None)
 
 
@@ -74,8 +75,6 @@ def _describe(found: "FoundDesign") -> str:
 
 
 def _write(found: "FoundDesign", out: Path) -> None:
-    from vicode.output import resolve_below, write_atomically
-
     if out.suffix in (".yaml", ".yml") and not out.is_dir():
         write_atomically(out, found.texts[found.path])
         print(f"wrote {out.as_posix()}")
