@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 _MAX_CHANGES = 256
 _MAX_REQUESTS = 64
+_MAX_HANDLED = 4
+"""Requests that are handled between two iterations."""
 """So many requests wait for the next iteration at most, which handles them all."""
 _PAUSED_POLL_S = 0.05
 _SHARED_MODULES = ("declarations.py", "interfaces.py")
@@ -183,8 +185,8 @@ class LiveFeed:
     def _handle_requests(self, last_iteration: int) -> None:
         self._has_requests.clear()
         self._controller.last_iteration = last_iteration
-        # Later requests wait for the next iteration, which must not be delayed.
-        for _ in range(len(self._requests)):
+        # The others wait for the next iteration, which must not be delayed.
+        for _ in range(min(len(self._requests), _MAX_HANDLED)):
             viewer, request = self._requests.popleft()
             answer: dict[str, Any] = {"answer": request.get("id"), "robot": self.name}
             try:
@@ -201,6 +203,8 @@ class LiveFeed:
             if "id" in request:
                 self.answers.append((viewer, answer))
                 self._notify()
+        if self._requests:
+            self._has_requests.set()
 
     def _wait_while_paused(self) -> None:
         """Handle requests until one of them continues; the time of the components stands still."""
