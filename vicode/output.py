@@ -139,7 +139,13 @@ def resolve_below(folder: Path, path: str | Path) -> Path:
     return target
 
 
-def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = True) -> None:
+def write_atomically(
+    path: Path,
+    content: str | bytes,
+    *,
+    is_durable: bool = True,
+    replace: Callable[[Path, Path], object] = Path.replace,
+) -> None:
     """Replace a file atomically: after a crash it has either the old or the new content.
 
     A durable write also removes what killed programs left in the folder.
@@ -148,6 +154,7 @@ def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = Tru
         path: The file; symbolic links to existing files are followed.
         content: The new content.
         is_durable: Whether to flush the content to the disk, so that it also survives a power failure.
+        replace: Moves the new file to the place of the old one; it may raise an `OSError` that names `path` instead.
 
     Raises:
         OSError: The file cannot be written; the error names `path`, which is unchanged.
@@ -161,12 +168,12 @@ def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = Tru
         with _write_new(temporary, content.encode("utf-8") if isinstance(content, str) else content, is_durable):
             if target.exists():
                 temporary.chmod(target.stat().st_mode & 0o777)
-            temporary.replace(target)
+            replace(temporary, target)
         if is_durable:
             remove_leftovers(target.parent)
     except OSError as error:
         temporary.unlink(missing_ok=True)
-        if error.errno is None:
+        if error.errno is None or error.filename == str(path):
             raise
         raise OSError(error.errno, error.strerror, str(path)) from error
     except BaseException:
