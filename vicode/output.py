@@ -6,8 +6,10 @@ import os
 import re
 import shutil
 import stat
+import tempfile
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from difflib import unified_diff
 from enum import StrEnum
@@ -16,6 +18,8 @@ from pathlib import Path
 
 CACHE_VARIABLE = "VICODE_CACHE"
 _TEMPORARY = re.compile(r"\..+\.[0-9a-f]{8}\.tmp")
+_TEMPORARY_FOLDER = re.compile(r"vicode-[a-z]+-\w+\.tmp")
+_MIN_AGE_S = 60.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,12 +99,12 @@ def apply_diffs(differences: Iterable[FileDiff], folder: Path) -> tuple[Path, ..
     """Write new and changed files and delete stale ones; returns the paths of these files."""
     written = []
     for difference in differences:
-        path = folder / difference.path
         if difference.status is FileStatus.UNCHANGED:
             continue
-        written.append(path)
+        written.append(folder / difference.path)
+        path = resolve_below(folder, difference.path)
         if difference.new is None:
-            path.unlink()
+            written[-1].unlink()
             continue
         path.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(path, difference.new)
@@ -110,7 +114,7 @@ def apply_diffs(differences: Iterable[FileDiff], folder: Path) -> tuple[Path, ..
 def back_up_edited(path: Path) -> Path:
     """Copy a file to NAME.edited in its folder, or to NAME.edited2 … if that exists; returns the path of the copy."""
     number = 1
-    while (copy := path.with_name(f"{path.name}.edited{number if number > 1 else ''}")).exists():
+    while os.path.lexists(copy := path.with_name(f"{path.name}.edited{number if number > 1 else ''}")):
         number += 1
     shutil.copy2(path, copy)
     return copy
@@ -123,27 +127,53 @@ def format_diff(difference: FileDiff) -> str:
     return "".join(unified_diff(old.splitlines(keepends=True), new.splitlines(keepends=True), before, after))
 
 
-def write_atomically(path: Path, content: str | bytes, *, is_durable: bool = True) -> None:
+def resolve_below(folder: Path, path: str | Path) -> Path:
+    """The target of a path below a folder: symbolic links are followed, but not out of the folder.
+
+    Raises:
+        PermissionError: The path is outside of the folder, or a link leads out of it.
+    """
+    target = (folder / path).resolve()
+    if not target.is_relative_to(folder.resolve()):
+        raise PermissionError(errno.EACCES, f"it is outside of {folder}, or a link out of it", str(path))
+    return target
+
+
+def write_atomically(
+    path: Path,
+    content: str | bytes,
+    *,
+    is_durable: bool = True,
+    replace: Callable[[Path, Path], object] = Path.replace,
+) -> None:
     """Replace a file atomically: after a crash it has either the old or the new content.
 
+    A durable write also removes what killed programs left in the folder.
+
     Args:
-        path: The file; symbolic links are followed.
+        path: The file; symbolic links to existing files are followed.
         content: The new content.
         is_durable: Whether to flush the content to the disk, so that it also survives a power failure.
+        replace: Moves the new file to the place of the old one; it may raise an `OSError` that names `path` instead.
 
     Raises:
         OSError: The file cannot be written; the error names `path`, which is unchanged.
     """
     target = path.resolve()
+    if path.is_symlink() and not target.exists():
+        # In a folder of a stranger, the file would be anywhere.
+        raise OSError(errno.ELOOP, "it is a link to a file that does not exist; delete it", str(path))
     temporary = target.with_name(f".{target.name}.{os.urandom(4).hex()}.tmp")
     try:
         with _write_new(temporary, content.encode("utf-8") if isinstance(content, str) else content, is_durable):
             if target.exists():
                 temporary.chmod(target.stat().st_mode & 0o777)
-            temporary.replace(target)
+            replace(temporary, target)
+        if is_durable:
+            remove_leftovers(target.parent)
     except OSError as error:
         temporary.unlink(missing_ok=True)
-        if error.errno is None:
+        if error.errno is None or error.filename == str(path):
             raise
         raise OSError(error.errno, error.strerror, str(path)) from error
     except BaseException:
@@ -167,12 +197,47 @@ def _write_new(file: Path, content: bytes, is_durable: bool) -> Iterator[None]:
 
 def remove_leftovers(folder: Path) -> None:
     """Remove the temporary files in a folder that killed programs left."""
-    for file in folder.glob(".*.tmp"):
-        with suppress(OSError):
-            if _TEMPORARY.fullmatch(file.name) and file.is_file() and not file.is_symlink():
-                with file.open("rb") as stream:
-                    fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                    file.unlink()
+    with suppress(OSError), os.scandir(folder) as entries:
+        for entry in entries:
+            if entry.name.endswith(".tmp") and _TEMPORARY.fullmatch(entry.name) and entry.is_file():
+                with suppress(OSError), _locked(entry.path):
+                    Path(entry).unlink()
+
+
+@contextmanager
+def temporary_folder(kind: str) -> Iterator[Path]:
+    """Make a folder for the time of the context; if the program is killed, a later one removes it."""
+    _remove_abandoned(Path(tempfile.gettempdir()))
+    with tempfile.TemporaryDirectory(prefix=f"vicode-{kind}-", suffix=".tmp") as name, _locked(name, is_required=False):
+        yield Path(name)
+
+
+def _remove_abandoned(place: Path) -> None:
+    with suppress(OSError), os.scandir(place) as entries:
+        for entry in entries:
+            if not _TEMPORARY_FOLDER.fullmatch(entry.name) or not entry.is_dir(follow_symlinks=False):
+                continue
+            status = entry.stat(follow_symlinks=False)
+            # One that was just made may not be locked yet.
+            if status.st_uid == os.geteuid() and time.time() - status.st_mtime > _MIN_AGE_S:
+                with suppress(OSError), _locked(entry.path):
+                    shutil.rmtree(entry.path)
+
+
+@contextmanager
+def _locked(path: str, *, is_required: bool = True) -> Iterator[None]:
+    """Lock a file or folder.
+
+    Raises:
+        OSError: It is locked, or the file system has no locks; only if the lock is required.
+    """
+    descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
+    try:
+        with nullcontext() if is_required else suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield
+    finally:
+        os.close(descriptor)
 
 
 def _compare_one(path: str, new: str, old: str | None) -> FileDiff:

@@ -16,7 +16,7 @@ from contextlib import AbstractContextManager
 from hashlib import sha256
 from pathlib import Path
 
-from vicode.output import write_atomically
+from vicode.output import resolve_below, write_atomically
 
 STATE_FOLDER = ".vicode"
 """Folder of vicode's own files in a root folder; git ignores it."""
@@ -33,7 +33,7 @@ def replace_files(
     *,
     prepare: Callable[[], AbstractContextManager[object]] = contextlib.nullcontext,
 ) -> None:
-    """Write or delete (None) files below a folder, all of them or none; symbolic links are followed.
+    """Write or delete (None) files below a folder, all of them or none; symbolic links in the folder are followed.
 
     Args:
         root: The folder; it is created.
@@ -42,12 +42,10 @@ def replace_files(
             happen. It raises an `OSError` if the files must not be replaced.
 
     Raises:
-        OSError: A file cannot be written; the error names it, and all files are unchanged. Or another program changed a
-            file in the last moment; the error names it, and only this file is unchanged.
+        OSError: A file cannot be written, or is outside of the folder; the error names it, and all files are unchanged.
+            Or another program changed a file in the last moment; the error names it, and only this file is unchanged.
     """
-    targets = {path: _resolve_target(root, path) for path in texts}
-    for path in texts:
-        _require_no_dangling_link(root / path)
+    targets = {path: resolve_below(root, path) for path in texts}
     with _lock(root) as state:
         _complete_found(root, state)
         pending = state / _PENDING
@@ -125,7 +123,7 @@ def _complete_found(root: Path, state: Path) -> None:
     if pending.is_symlink():
         raise OSError(errno.ELOOP, "expected a folder, found a symbolic link; delete it", str(pending))
     journal = _read_journal(pending)
-    targets = {path: _resolve_target(root, path) for path in journal}
+    targets = {path: (root / path).resolve() for path in journal}
     for path, target in targets.items():
         if not target.is_relative_to(root.resolve()) or ".git" in path.casefold().split("/"):
             raise PermissionError(
@@ -195,19 +193,6 @@ def _move(source: Path | None, target: Path) -> None:
             if error.errno != errno.EXDEV:
                 raise
             write_atomically(target, source.read_bytes())
-
-
-def _resolve_target(root: Path, path: str) -> Path:
-    """The target of a path, which must be below the root folder; symbolic links are followed."""
-    if Path(path).is_absolute() or ".." in Path(path).parts:
-        raise PermissionError(errno.EACCES, f"it is outside of {root}", path)
-    return (root / path).resolve()
-
-
-def _require_no_dangling_link(path: Path) -> None:
-    """A link in a folder of a stranger must not create a file elsewhere."""
-    if path.is_symlink() and not path.exists():
-        raise OSError(errno.ELOOP, "it is a link to a file that does not exist; delete it", str(path))
 
 
 def _require_writable(target: Path) -> None:

@@ -182,3 +182,39 @@ def test_an_error_of_the_world_has_its_line_there() -> None:
     (record,) = records
     assert (record.component, record.method, record.line) == ("Wheels", "wheels", 1)
     assert record.file_line == inspect.getsourcelines(Slope.wheels)[1] + 1
+
+
+class Leaver(Component):
+    """Raises what its world holds, wherever it can."""
+
+    def work(self) -> None:
+        raise self.world.error(3)
+
+    def close(self) -> None:
+        raise self.world.error(3)
+
+
+class LeaverWorld:
+    def __init__(self, error: type[BaseException]) -> None:
+        self.error = error
+
+    def hold(self) -> None:
+        raise self.error(3)
+
+
+def test_exit_is_an_error_like_others(capsys: pytest.CaptureFixture[str]) -> None:
+    root = Root(Leaver, clock=SimulatedClock(), world=LeaverWorld(SystemExit))
+    root.step()
+    root.step()
+    root.close()
+    assert [(method, count) for (_component, method, _line), count in root.errors.items()] == [
+        ("work", 2),
+        ("close", 1),
+    ]
+    assert capsys.readouterr().err.count("SystemExit: 3") == 3
+
+
+def test_an_interrupt_ends_the_step() -> None:
+    root = Root(Leaver, clock=SimulatedClock(), world=LeaverWorld(KeyboardInterrupt))
+    with pytest.raises(KeyboardInterrupt):
+        root.step()

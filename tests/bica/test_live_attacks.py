@@ -13,11 +13,12 @@ from typing import Any
 import pytest
 
 from tests.bica.live_robot import Background, Eyes, Viewer, close_connections, is_iteration, root
-from vicode.bica import Root, live_feed
+from vicode.bica import Root, live_feed, live_viewer
 from vicode.bica.live_server import LiveServer
 
 __all__ = ["close_connections", "root"]
 
+FLOOD_LINE = b'{"focus":"x"}\n'
 FRAMES_PER_CONNECTION = 50
 MAX_GROWTH_BYTES = 50_000
 # What may be on its way to a viewer that does not read.
@@ -117,6 +118,62 @@ def test_random_frames_harm_nobody(root: Root, frames: int, measured: Callable[[
         assert measured() - memory < MAX_GROWTH_BYTES
         assert threading.active_count() == threads + 1
     assert not server.is_closed
+
+
+def test_a_flood_is_limited_and_then_disconnected(root: Root, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(live_viewer, "FLOOD_S", 0.5)
+    handled: list[bytes] = []
+    read_line = LiveServer._read_line
+    monkeypatch.setattr(LiveServer, "_read_line", lambda *call: (handled.append(call[2]), read_line(*call)))
+    server = root.watch()
+    good, flooding = Viewer(server), Viewer(server)
+    sent: list[int] = []
+    with Background(root):
+        with pytest.raises(ConnectionError):
+            flood(flooding, sent)
+        expect_newer(good, root.iteration)
+    assert len(handled) < sum(sent) / len(FLOOD_LINE)
+
+
+def flood(viewer: Viewer, sent: list[int]) -> None:
+    """Send lines until the connection ends; `sent` gets the numbers of bytes."""
+    viewer.socket.settimeout(0.05)
+    for _round in range(2_000):
+        with contextlib.suppress(TimeoutError):
+            sent.append(viewer.socket.send(FLOOD_LINE * 5_000))
+
+
+def test_a_busy_viewer_is_not_disconnected(root: Root, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(live_viewer, "FLOOD_S", 0.0)
+    viewer = Viewer(root.watch(control=True), root)
+    for _round in range(3):
+        places = [["Lamp", "Lit"]] * 100
+        assert "done" in viewer.ask(do="break", places=places)
+        for _request in range(25):
+            viewer.ask(do="unset")
+
+
+def test_an_allowance_grows_up_to_its_limit() -> None:
+    allowance = live_viewer.Allowance(10.0, 5.0)
+    begin_s = allowance._at_s
+    allowance.use(5)
+    assert allowance.wait_s(begin_s) == pytest.approx(0.1)
+    assert allowance.wait_s(begin_s + 0.2) == 0
+    allowance.use(22)
+    assert allowance.wait_s(begin_s + 0.2) == pytest.approx(2.1)
+    assert allowance.wait_s(begin_s + 100) == 0
+    allowance.use(5)
+    assert allowance.wait_s(begin_s + 100) == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize("line", [b"[" * 1000, b'{"focus":' + b"[]," * 300 + b"0}", b'{"focus":' + b"[" * 900])
+def test_requests_with_many_values_are_refused_unread(root: Root, line: bytes) -> None:
+    with Background(root):
+        viewer = Viewer(root.watch())
+        viewer.get(is_iteration)
+        viewer.socket.sendall(line + b"\n")
+        with pytest.raises(ConnectionError):
+            viewer.get(lambda _line: False)
 
 
 def test_a_flood_and_a_viewer_that_never_reads_do_not_stop_the_robot(root: Root, measured: Callable[[], int]) -> None:

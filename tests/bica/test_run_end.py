@@ -29,6 +29,8 @@ class Road:
     def advance(self, now_ns):
         if now_ns and "advance" in sys.argv[-1]:
             raise OSError("no road")
+        if now_ns and "world_exit" in sys.argv[-1]:
+            sys.exit(5)
         self.finished = now_ns > 0 and "finished" in sys.argv[-1]
     def close(self):
         self.log.append("close Road")
@@ -57,7 +59,7 @@ class Car(Component):
         mode = sys.argv[-1]
         if "error" in mode:
             raise KeyError("car")
-        if "exit" in mode:
+        if mode == "exit":
             sys.exit(5)
         if "wait" in mode:
             print("waiting", flush=True)
@@ -102,7 +104,9 @@ def read_summary(out: str) -> dict[str, object]:
         (("--on-error", "stop", "--path", "error"), 1, "error"),
         (("--ticks", "2", "--path", "error"), 0, "limit"),
         (("--path", "advance"), 2, "error"),
-        (("--path", "exit"), 1, "error"),
+        (("--path", "world_exit"), 1, "error"),
+        (("--on-error", "stop", "--path", "exit"), 1, "error"),
+        (("--ticks", "2", "--path", "exit"), 0, "limit"),
         (("--ticks", "2", "--path", "close"), 0, "limit"),
     ],
 )

@@ -94,7 +94,7 @@ def test_an_exception_is_reported_once_and_the_ticks_go_on() -> None:
         advance([robot], number)
     assert (robot.data.counts.ticks, robot.data.counts.errors) == (5, 5)
     assert [line.partition(" [")[0] for line in robot.take_reports()] == [
-        "SystemExit",
+        "Failing, work, line 2: SystemExit",
         "Failing, work, line 3: RuntimeError: no idea",
     ]
 

@@ -5,12 +5,14 @@ import json
 import ssl
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from tests.bridge.certificates import make_certificate
 from tests.bridge.sample_robots import make_server
+from vicode.bridge import server as server_module
 from vicode.bridge.behaviors import DesignCatalog
 from vicode.bridge.server import BridgeOptions, BridgeServer, ListenError
 
@@ -114,6 +116,40 @@ def test_clients_that_misbehave_do_not_disturb_a_robot() -> None:
                 other.transport.abort()
             await wait_until(lambda: good.data.counts.ticks > ticks + 20)
             assert good.data.counts.errors == good.data.counts.malformed == 0
+
+    run(talk)
+
+
+@pytest.mark.parametrize("token", ["secret", ""])
+def test_silent_connections_lock_no_robot_out(token: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server_module, "MAX_STRANGERS", 8)
+    monkeypatch.setattr(server_module, "MAX_CONNECTIONS", 12)
+    first = f"TOKEN:{token}\n" if token else ""
+
+    async def talk() -> None:
+        async with running(make_server(replace(FAST, token=token))) as network:
+            early, _writer = await network.connect(f"{first}ROBOT:early\nAHEAD:5\n".encode())
+            assert await early.readline() == b"DRIVE:0.5,0\n"
+            silent = [await network.connect() for _number in range(30)]
+            late, _writer = await network.connect(f"{first}ROBOT:late\nAHEAD:6\n".encode())
+            assert await late.readline() == b"DRIVE:0.6,0\n"
+            assert [robot.name for robot in network.server.robots] == ["early", "late"]
+            assert b"too many connections" in await silent[0][0].readline()
+
+    run(talk)
+
+
+def test_robots_are_not_closed_for_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server_module, "MAX_CONNECTIONS", 2)
+
+    async def talk() -> None:
+        async with running(make_server(FAST)) as network:
+            for number in (5, 6):
+                reader, _writer = await network.connect(f"ROBOT:r{number}\nAHEAD:{number}\n".encode())
+                assert await reader.readline() == f"DRIVE:0.{number},0\n".encode()
+            reader, _writer = await network.connect()
+            assert b"too many connections" in await reader.readline()
+            assert len(network.server.robots) == 2
 
     run(talk)
 

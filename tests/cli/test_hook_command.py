@@ -1,5 +1,6 @@
 """`vicode hook install`: keeps what exists, changes nothing when repeated, and can be removed."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -105,6 +106,42 @@ def test_folders_may_begin_with_a_dash(repository: Path, capsys: pytest.CaptureF
     git(repository, "add", "--all")
     assert vicode("hook", "pre-commit") == 0, capsys.readouterr()
     assert vicode("hook", "pre-merge-commit") == 0, capsys.readouterr()
+
+
+@pytest.mark.parametrize("place", ["a folder", "a relative folder", "a link"])
+def test_hooks_outside_of_the_repository_are_not_changed(
+    repository: Path, tmp_path_factory: pytest.TempPathFactory, place: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    outside = tmp_path_factory.mktemp("hooks")
+    hook = outside / "pre-commit"
+    hook.write_text("#!/bin/sh\n")
+    hook.chmod(0o755)
+    if place == "a link":
+        hook_file(repository).parent.mkdir(exist_ok=True)
+        hook_file(repository).symlink_to(hook)
+    else:
+        path = outside if place == "a folder" else os.path.relpath(outside, repository)
+        git(repository, "config", "core.hooksPath", str(path))
+    assert vicode("hook", "install") == 1
+    assert "outside of the repository" in capsys.readouterr().err
+    assert (hook.read_text(), [file.name for file in outside.iterdir()]) == ("#!/bin/sh\n", ["pre-commit"])
+    assert vicode("hook", "install", "--uninstall") == 0
+    hook.write_text("#!/bin/sh\n# vicode hook install: begin\n")
+    assert vicode("hook", "install", "--uninstall") == 1
+    assert "remove the lines of vicode from it" in capsys.readouterr().err
+
+
+def test_hooks_in_a_folder_of_the_repository_are_installed(repository: Path) -> None:
+    git(repository, "config", "core.hooksPath", ".githooks")
+    assert vicode("hook", "install") == 0
+    assert (repository / ".githooks" / "pre-commit").is_file()
+
+
+def test_hooks_are_installed_from_an_additional_work_tree(repository: Path, tmp_path: Path) -> None:
+    commit(repository, "first")
+    git(repository, "worktree", "add", "-q", str(tmp_path / "other"))
+    assert vicode("hook", "install", str(tmp_path / "other")) == 0
+    assert hook_file(repository).is_file()
 
 
 def test_the_repository_is_known_in_hooks_of_additional_work_trees(

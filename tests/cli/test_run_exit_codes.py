@@ -97,12 +97,14 @@ def test_a_program_that_ends_itself_is_told(
 
 
 @pytest.mark.parametrize("code", [0, 5])
-def test_code_that_ends_the_run_is_named(lamps: Path, code: int, capfd: pytest.CaptureFixture[str]) -> None:
+def test_exit_in_a_component_is_reported_and_the_run_continues(
+    lamps: Path, code: int, capfd: pytest.CaptureFixture[str]
+) -> None:
     (lamps / "lamp.yaml").write_text(LAMP.replace("self.count = 1", f"import sys; sys.exit({code})"), encoding="utf-8")
     assert vicode("run", "lamps/lamp.yaml", "--ticks", "3") == 1
     captured = capfd.readouterr()
-    assert "stopped: error" in captured.out
-    assert f"error: the code ended the run: lamp.yaml, Dark.enter, line 1: SystemExit: {code} [" in captured.err
+    assert "stopped: limit" in captured.out
+    assert f"Dark.enter, line 1: SystemExit: {code} [" in captured.err
 
 
 def test_a_mistake_before_the_start_is_one_line(lamps: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -3,6 +3,7 @@
 import json
 import logging
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -60,6 +61,29 @@ def test_a_closed_pipe_is_not_a_failure_to_run() -> None:
     errors = process.stderr.read()
     process.stderr.close()
     assert (process.wait(), errors) == (128 + signal.SIGPIPE, b"")
+
+
+@pytest.mark.usefixtures("lamps")
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(
+    ("arguments", "code"),
+    [
+        ("check lamps", 0),
+        ("check nowhere", 2),
+        ("gen lamps", 0),
+        ("schema", 0),
+        ("export lamps/lamp.yaml --out -", 0),
+        ("run lamps/lamp.yaml --ticks 2", 0),
+        ("run lamps/lamp.yaml --ticks 2 --trace -", 0),
+        ("diff lamps/lamp.yaml lamps/lamp.yaml", 0),
+        ("", 2),
+    ],
+)
+def test_a_closed_standard_stream_is_like_the_null_device(arguments: str, code: int, closed: str) -> None:
+    command = f"{shlex.quote(sys.executable)} -m vicode {arguments} {closed}"
+    done = subprocess.run(["sh", "-c", command], capture_output=True, env=_environment(), check=False)
+    assert b"Traceback" not in done.stdout + done.stderr
+    assert done.returncode == code
 
 
 def test_the_world_line_is_wrapped_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:

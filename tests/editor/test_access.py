@@ -76,6 +76,37 @@ def test_foreign_sockets_are_closed(origin: str, kind: str) -> None:
     assert ask(LOCAL, {"host": "127.0.0.1:1", "origin": origin}, type="websocket")[0]["type"] == kind
 
 
+def fetched(site: str, mode: str, dest: str, **more: str) -> Headers:
+    given = {"host": "127.0.0.1:1", "sec-fetch-site": site, "sec-fetch-mode": mode, "sec-fetch-dest": dest, **more}
+    return {name.replace("_", "-"): value for name, value in given.items()}
+
+
+@pytest.mark.parametrize(
+    ("headers", "status"),
+    [
+        (fetched("none", "navigate", "document"), 200),
+        (fetched("same-origin", "cors", "empty"), 200),
+        (fetched("same-origin", "no-cors", "script"), 200),
+        (fetched("cross-site", "navigate", "document"), 200),
+        (fetched("same-site", "navigate", "document"), 200),
+        (fetched("cross-site", "no-cors", "image"), 403),
+        (fetched("cross-site", "cors", "empty"), 403),
+        (fetched("same-site", "no-cors", "empty"), 403),
+        (fetched("cross-site", "navigate", "iframe"), 403),
+        (fetched("cross-site", "navigate", "object"), 403),
+        (fetched("cross-site", "navigate", "document", sec_purpose="prefetch;prerender"), 403),
+        (fetched("cross-site", "no-cors", "document"), 403),
+        (fetched("later", "no-cors", "image"), 403),
+    ],
+)
+def test_other_sites_may_link_to_the_editor_but_not_load_it(headers: Headers, status: int) -> None:
+    assert ask(LOCAL, headers)[0]["status"] == status
+
+
+def test_a_socket_of_another_site_is_closed_without_an_origin() -> None:
+    assert ask(LOCAL, fetched("cross-site", "websocket", "websocket"), type="websocket")[0]["type"] == "websocket.close"
+
+
 def test_answers_cannot_be_framed() -> None:
     headers = dict(ask(LOCAL, {"host": "localhost"})[0]["headers"])
     assert headers[b"content-security-policy"] == b"frame-ancestors 'none'"

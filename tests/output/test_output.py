@@ -3,13 +3,26 @@
 import errno
 import fcntl
 import os
+import subprocess
+import sys
+import tempfile
 from pathlib import Path
 
 import pytest
 
 from vicode import output
-from vicode.output import FileStatus, OutputFile, remove_leftovers
+from vicode.output import (
+    FileStatus,
+    OutputFile,
+    apply_diffs,
+    compare_files,
+    remove_leftovers,
+    temporary_folder,
+    write_atomically,
+)
+from vicode.transactions import replace_files
 
+PROJECT = Path(__file__).parents[2]
 HEADER = "# Ours.\n"
 
 
@@ -117,3 +130,79 @@ def test_leftovers_are_removed_but_not_files_being_written(tmp_path: Path) -> No
         remove_leftovers(tmp_path)
     assert not left.exists()
     assert len(list(tmp_path.iterdir())) == 3
+
+
+def run_and_kill(code: str) -> None:
+    """Run code that prints when it is ready, then kill it."""
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, cwd=PROJECT)
+    assert child.stdout is not None
+    assert child.stdout.readline()
+    child.kill()
+    child.communicate()
+
+
+def test_the_next_write_removes_what_a_killed_one_left(tmp_path: Path) -> None:
+    run_and_kill(
+        "import os, time; from pathlib import Path; from vicode import output\n"
+        "os.fsync = lambda _file: (print('ready', flush=True), time.sleep(60))\n"
+        f"output.write_atomically(Path({str(tmp_path)!r}) / 'a.py', 'half')"
+    )
+    assert len(list(tmp_path.iterdir())) == 1
+    write_atomically(tmp_path / "b.py", "whole")
+    assert [file.name for file in tmp_path.iterdir()] == ["b.py"]
+
+
+def test_the_next_temporary_folder_removes_one_of_a_killed_program(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    run_and_kill(
+        "import time; from vicode.output import temporary_folder\n"
+        "with temporary_folder('run') as folder:\n"
+        "    (folder / 'a.py').write_text('')\n"
+        "    print('ready', flush=True); time.sleep(60)"
+    )
+    (abandoned,) = tmp_path.iterdir()
+    (tmp_path / "vicode-run-of-a-user").mkdir()
+    with temporary_folder("run") as held:
+        # One that was just made may not be locked yet.
+        assert abandoned.exists()
+        for folder in tmp_path.iterdir():
+            os.utime(folder, (0, 0))
+        with temporary_folder("run"):
+            assert held.exists()
+            assert not abandoned.exists()
+    assert [folder.name for folder in tmp_path.iterdir()] == ["vicode-run-of-a-user"]
+
+
+def make_link_out(tmp_path: Path) -> tuple[Path, Path]:
+    """A folder with links to a file, a folder, and nothing, all outside."""
+    root, outside = tmp_path / "root", tmp_path / "outside"
+    root.mkdir()
+    outside.mkdir()
+    write(outside, "file.py", "old")
+    for name, target in {"file.py": "file.py", "folder": "", "lost.py": "lost.py", "lost": "lost"}.items():
+        (root / name).symlink_to(outside / target)
+    return root, outside
+
+
+@pytest.mark.parametrize("path", ["file.py", "folder/new.py", "lost.py", "lost/new.py", "../outside/new.py"])
+def test_links_do_not_lead_files_out_of_a_folder(tmp_path: Path, path: str) -> None:
+    root, outside = make_link_out(tmp_path)
+    with pytest.raises(OSError, match="link"):
+        apply_diffs(compare_files([OutputFile(path=path, text="new")], root), root)
+    with pytest.raises(OSError, match="link"):
+        replace_files(root, {path: "new", "other.py": "new"})
+    assert [(file.name, file.read_text()) for file in outside.iterdir()] == [("file.py", "old")]
+    assert not (root / "other.py").exists()
+
+
+def test_a_link_to_nothing_is_not_written_through(tmp_path: Path) -> None:
+    root, outside = make_link_out(tmp_path)
+    with pytest.raises(OSError, match="does not exist; delete it"):
+        write_atomically(root / "lost.py", "new")
+    back_up = write(root, "a.py", "edited")
+    (root / "a.py.edited").symlink_to(outside / "copy")
+    assert output.back_up_edited(back_up).name == "a.py.edited2"
+    assert [file.name for file in outside.iterdir()] == ["file.py"]

@@ -1,5 +1,6 @@
 """A write is atomic: after a failure or crash, a file has its old or its new content."""
 
+import errno
 import os
 import random
 import subprocess
@@ -12,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from vicode.store import read_design, save_design, write_text
+from vicode.store import FileChangedError, read_design, replace_text, save_design, write_text
 from vicode.store.durable_write import is_read_only
 
 TOP = Path(__file__).parents[2]
@@ -50,6 +51,43 @@ def test_a_link_stays_a_link(tmp_path: Path) -> None:
     write_text(link, "new")
     assert link.is_symlink()
     assert (tmp_path / "real.yaml").read_text() == "new"
+
+
+@pytest.mark.parametrize("old", ["old", None])
+@pytest.mark.parametrize("is_renamed", [False, True])
+def test_a_change_while_the_file_is_written_is_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, old: str | None, is_renamed: bool
+) -> None:
+    path, other = tmp_path / "a.yaml", tmp_path / "other"
+    if old is not None:
+        path.write_text(old)
+    flush = os.fsync
+
+    def change_and_flush(descriptor: int) -> None:
+        (other if is_renamed else path).write_text("now")
+        if is_renamed:
+            other.replace(path)
+        flush(descriptor)
+
+    monkeypatch.setattr(os, "fsync", change_and_flush)
+    with pytest.raises(FileChangedError):
+        replace_text(path, old, "new")
+    assert path.read_text() == "now"
+    assert [each.name for each in tmp_path.iterdir()] == ["a.yaml"]
+
+
+@pytest.mark.parametrize("has_links", [True, False])
+def test_a_new_file_is_created(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, has_links: bool) -> None:
+    def refuse(*_paths: object) -> None:
+        raise PermissionError(errno.EPERM, "no hard links")
+
+    if not has_links:
+        monkeypatch.setattr(os, "link", refuse)
+    replace_text(tmp_path / "a.yaml", None, "new")
+    assert [(each.name, each.read_text()) for each in tmp_path.iterdir()] == [("a.yaml", "new")]
+    with pytest.raises(FileChangedError):
+        replace_text(tmp_path / "a.yaml", None, "newer")
+    assert (tmp_path / "a.yaml").read_text() == "new"
 
 
 def test_a_failed_write_names_the_file(monkeypatch: pytest.MonkeyPatch) -> None:

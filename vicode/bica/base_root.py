@@ -10,7 +10,15 @@ from typing import Any, Literal, Protocol, Self, TypeVar, cast
 
 from .clock import Clock, RealClock, StoppableClock
 from .component import Component
-from .errors import ComponentError, CyclicUseError, ErrorRecord, describe_exception, make_error_record, print_error
+from .errors import (
+    USER_ERRORS,
+    ComponentError,
+    CyclicUseError,
+    ErrorRecord,
+    describe_exception,
+    make_error_record,
+    print_error,
+)
 from .team import Team
 from .timing import CycleTimes, measure_steps
 
@@ -166,7 +174,7 @@ class BaseRoot:
         if callable(hold):
             try:
                 hold()
-            except Exception as error:
+            except USER_ERRORS as error:
                 message = f"hold() of the world failed: {describe_exception(error)}"
                 if message not in self._hold_failures:
                     self._hold_failures.add(message)
@@ -205,7 +213,7 @@ class BaseRoot:
         except ComponentError as error:
             self.stop_error = error
             raise
-        except Exception as error:
+        except USER_ERRORS as error:
             if not self._has_on_error_failed:
                 self._has_on_error_failed = True
                 print_error(f"on_error raised {describe_exception(error)} (reported once)")
@@ -241,7 +249,7 @@ class BaseRoot:
     def _close_component(self, component: Component) -> None:
         try:
             component.close()
-        except Exception as error:
+        except USER_ERRORS as error:
             self.report(make_error_record(component, error))
 
     def _close_world(self) -> None:

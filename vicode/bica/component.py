@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from .errors import make_error_record
+from .errors import USER_ERRORS, make_error_record
 
 if TYPE_CHECKING:
     from .base_root import BaseRoot
@@ -143,7 +143,7 @@ class Component:
                 run()
             elif self._called:
                 self._repeat_calls()
-        except Exception as error:
+        except USER_ERRORS as error:
             if error is root.stop_error:
                 raise
             root.report(make_error_record(self, error))

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
     from .component import Component
 
+USER_ERRORS = (Exception, SystemExit)
+"""What code of users raises; `sys.exit` in one component must not end the robot. Ctrl-C does."""
+
 # Marks enclose the editable regions of generated files; the first mark contains the id of the region.
 _MARK = re.compile(r"\s*# <vicode (?P<id>\S+) ")
 _BODIES = {
@@ -101,11 +104,11 @@ class NetworkError(OSError):
     """There is no connection to other robots; the message says why."""
 
 
-def make_error_record(component: Component, error: Exception) -> ErrorRecord:
+def make_error_record(component: Component, error: BaseException) -> ErrorRecord:
     """Create the record of an exception in `component`; it refers to the innermost frame in methods of `component`."""
     try:
         return _make_located_record(component, error)
-    except Exception:
+    except USER_ERRORS:
         # The component continues even if its exception, its attributes or its source file cannot be read.
         return ErrorRecord(
             component=type(component).__name__,
@@ -126,7 +129,7 @@ def make_error_record(component: Component, error: Exception) -> ErrorRecord:
 def describe_exception(error: BaseException) -> str:
     try:
         text = str(error)
-    except Exception as failure:
+    except USER_ERRORS as failure:
         text = f"its text cannot be read, {type(failure).__name__}"
     return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
@@ -135,13 +138,18 @@ class OutputError(Exception):
     """An output of a run cannot be written: its trace, its record or the standard output."""
 
 
+def escape_text(text: str) -> str:
+    """Write control characters as `repr` does: a text from elsewhere cannot command a terminal or begin a line."""
+    return text if text.isprintable() else "".join(each if each.isprintable() else repr(each)[1:-1] for each in text)
+
+
 def print_error(message: str, *, kind: str = "error") -> None:
-    """Write a message to standard error; it is lost if standard error is missing, closed or broken."""
+    """Write a message to standard error in one line; it is lost if standard error is missing, closed or broken."""
     with suppress(Exception):
-        sys.stderr.write(f"{kind}: {message}\n")
+        sys.stderr.write(f"{kind}: {escape_text(message)}\n")
 
 
-def _make_located_record(component: Component, error: Exception) -> ErrorRecord:
+def _make_located_record(component: Component, error: BaseException) -> ErrorRecord:
     frame, file_line = _find_component_frame(component, error)
     code = frame.f_code
     region, line_before = find_region(code.co_filename, file_line, code.co_firstlineno)
@@ -174,7 +182,7 @@ def find_region(file: str, file_line: int, first_line: int = 0) -> tuple[str, in
     return "", first_line
 
 
-def _find_component_frame(component: Component, error: Exception) -> tuple[FrameType, int]:
+def _find_component_frame(component: Component, error: BaseException) -> tuple[FrameType, int]:
     """Return the innermost frame of a method of `component` outside the runtime, or else the innermost frame.
 
     The generated class of a component of the world only calls the world, so without a design its methods count, too.

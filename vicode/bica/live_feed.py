@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypedDict
 
 from .control import ControlError, Controller
-from .errors import print_error
+from .errors import USER_ERRORS, print_error
 from .observer import IterationRecord, Observer
 
 if TYPE_CHECKING:
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 _MAX_CHANGES = 256
 _MAX_REQUESTS = 64
+_MAX_HANDLED = 4
+"""Requests that are handled between two iterations."""
 """So many requests wait for the next iteration at most, which handles them all."""
 _PAUSED_POLL_S = 0.05
 _SHARED_MODULES = ("declarations.py", "interfaces.py")
@@ -183,15 +185,15 @@ class LiveFeed:
     def _handle_requests(self, last_iteration: int) -> None:
         self._has_requests.clear()
         self._controller.last_iteration = last_iteration
-        # Later requests wait for the next iteration, which must not be delayed.
-        for _ in range(len(self._requests)):
+        # The others wait for the next iteration, which must not be delayed.
+        for _ in range(min(len(self._requests), _MAX_HANDLED)):
             viewer, request = self._requests.popleft()
             answer: dict[str, Any] = {"answer": request.get("id"), "robot": self.name}
             try:
                 words = self._controller.apply(viewer, request)
             except ControlError as error:
                 answer["error"] = str(error)
-            except Exception as error:
+            except USER_ERRORS as error:
                 # Code of a state that was entered by request.
                 answer["error"] = f"{type(error).__name__}: {error}"
             else:
@@ -201,6 +203,8 @@ class LiveFeed:
             if "id" in request:
                 self.answers.append((viewer, answer))
                 self._notify()
+        if self._requests:
+            self._has_requests.set()
 
     def _wait_while_paused(self) -> None:
         """Handle requests until one of them continues; the time of the components stands still."""

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from .errors import print_error
 from .live_feed import Feed, LiveFeed
+from .live_viewer import DEFAULT_RATE_HZ, FLOOD_S, Allowance, FloodError, Viewer
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,17 +27,17 @@ if TYPE_CHECKING:
     from .base_root import BaseRoot
 
 PROTOCOL_VERSION = 1
-MAX_LINE_BYTES = 65_536
 MAX_VIEWERS = 32
-DEFAULT_RATE_HZ = 30.0
 MIN_RATE_HZ, MAX_RATE_HZ = 0.01, 200.0
 _REST_PERIOD_S = 0.5
 """How often a viewer gets the robots that it does not look at."""
 _MAX_UNSENT_BYTES = 1_000_000
 """A viewer that asks for more answers without reading them is disconnected."""
 _HANDSHAKE_LIMIT_S = 5.0
+_CONNECTIONS_PER_S, _CONNECTIONS_AT_ONCE = 30.0, 64.0
+_MAX_CONTAINERS = 256
+"""Python collects garbage, which holds up the robot, after some hundreds of new lists and objects."""
 _UNIX = "unix:"
-_RECEIVED_BYTES = 65_536
 
 
 F = TypeVar("F", bound=Feed)
@@ -64,7 +65,7 @@ class LiveServer:
         self._listener, self.address = _listen(str(address))
         self.token = token or ("" if self.address.startswith(_UNIX) else secrets.token_hex(12))
         self._feeds: list[Feed] = []
-        self._viewers: list[_Viewer] = []
+        self._viewers: list[Viewer] = []
         self._selector = selectors.DefaultSelector()
         self._wake_reader, self._wake_writer = socket.socketpair()
         for end in (self._wake_reader, self._wake_writer, self._listener):
@@ -73,6 +74,9 @@ class LiveServer:
         self._selector.register(self._wake_reader, selectors.EVENT_READ, None)
         self._is_closing = False
         self._is_awake = False
+        self._connections = Allowance(_CONNECTIONS_PER_S, _CONNECTIONS_AT_ONCE)
+        self._accept_s: float | None = None
+        """When connections are accepted again; None if they are."""
         self._thread = threading.Thread(target=self._serve, name="vicode-live", daemon=True)
         self._thread.start()
 
@@ -135,6 +139,7 @@ class LiveServer:
                 for key, events in self._selector.select(self._next_due_s()):
                     self._handle(key, events)
                 self._is_awake = False
+                self._resume(time.monotonic())
                 self._deliver()
         except Exception as error:
             print_error(f"the live view ended: {type(error).__name__}: {error}")
@@ -153,11 +158,12 @@ class LiveServer:
             self._accept()
         elif key.fileobj is self._wake_reader:
             with suppress(BlockingIOError):
-                self._wake_reader.recv(_RECEIVED_BYTES)
-        elif isinstance(key.data, _Viewer) and key.data in self._viewers:
+                self._wake_reader.recv(4096)
+        elif isinstance(key.data, Viewer) and key.data in self._viewers:
             viewer = key.data
             try:
                 if events & selectors.EVENT_READ:
+                    viewer.receive()
                     self._read(viewer)
                 if events & selectors.EVENT_WRITE:
                     self._write(viewer)
@@ -165,6 +171,10 @@ class LiveServer:
                 self._drop(viewer)
 
     def _accept(self) -> None:
+        self._connections.use(1)
+        if wait_s := self._connections.wait_s(time.monotonic()):
+            self._accept_s = time.monotonic() + wait_s
+            self._selector.unregister(self._listener)
         with suppress(OSError):
             connection, _address = self._listener.accept()
             if len(self._viewers) >= MAX_VIEWERS:
@@ -177,23 +187,34 @@ class LiveServer:
             connection.setblocking(False)
             if connection.family != getattr(socket, "AF_UNIX", None):
                 connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-            viewer = _Viewer(connection)
+            viewer = Viewer(connection)
             self._viewers.append(viewer)
             self._selector.register(connection, selectors.EVENT_READ, viewer)
 
-    def _read(self, viewer: _Viewer) -> None:
-        data = viewer.connection.recv(_RECEIVED_BYTES)
-        if not data:
-            raise ConnectionResetError
-        viewer.received += data
-        while (end := viewer.received.find(b"\n")) >= 0:
-            line = bytes(viewer.received[:end])
-            del viewer.received[: end + 1]
-            self._read_line(viewer, line)
-        if len(viewer.received) > MAX_LINE_BYTES:
-            raise ValueError("the line is too long")
+    def _read(self, viewer: Viewer) -> None:
+        try:
+            for line in viewer.take_lines():
+                self._read_line(viewer, line)
+        except FloodError:
+            self._send(viewer, {"error": f"more requests than a robot answers, for {FLOOD_S:g} s"})
+            raise
+        self._watch(viewer)
 
-    def _read_line(self, viewer: _Viewer, line: bytes) -> None:
+    def _resume(self, now_s: float) -> None:
+        """Continue to accept connections and to read, where that was limited."""
+        if self._accept_s is not None and now_s >= self._accept_s:
+            self._accept_s = None
+            self._selector.register(self._listener, selectors.EVENT_READ, None)
+        for viewer in [*self._viewers]:
+            if viewer.resume_s is not None and now_s >= viewer.resume_s:
+                try:
+                    self._read(viewer)
+                except (OSError, ValueError, RecursionError):
+                    self._drop(viewer)
+
+    def _read_line(self, viewer: Viewer, line: bytes) -> None:
+        if line.count(b"[") + line.count(b"{") > _MAX_CONTAINERS:
+            raise ValueError("more lists and objects than a request has")
         request = json.loads(line)
         if not isinstance(request, dict):
             raise ConnectionAbortedError
@@ -214,7 +235,7 @@ class LiveServer:
             if not feed.request(viewer, request):
                 self._send(viewer, {**answer, "error": "too many requests at once; the robot did not handle this one"})
 
-    def _admit(self, viewer: _Viewer, request: dict[str, Any]) -> None:
+    def _admit(self, viewer: Viewer, request: dict[str, Any]) -> None:
         token = request.get("token", "")
         if self.token and not (isinstance(token, str) and hmac.compare_digest(token.encode(), self.token.encode())):
             self._send(viewer, {"error": "wrong token"})
@@ -230,7 +251,7 @@ class LiveServer:
         """The feeds, which are described again when their code was exchanged."""
         return [(feed, feed.version) for feed in self._feeds]
 
-    def _greet(self, viewer: _Viewer) -> None:
+    def _greet(self, viewer: Viewer) -> None:
         viewer.greeted = self._versions
         feeds = [feed for feed, _version in viewer.greeted]
         viewer.seen = {feed: seen for feed, seen in viewer.seen.items() if feed in feeds}
@@ -261,13 +282,13 @@ class LiveServer:
                 self._send_answer(*feed.answers.popleft())
 
     def _send_answer(self, viewer: object, answer: dict[str, Any]) -> None:
-        if isinstance(viewer, _Viewer) and viewer in self._viewers:
+        if isinstance(viewer, Viewer) and viewer in self._viewers:
             try:
                 self._send(viewer, answer)
             except (OSError, ValueError, RecursionError):
                 self._drop(viewer)
 
-    def _send_newest(self, viewer: _Viewer, now_s: float) -> None:
+    def _send_newest(self, viewer: Viewer, now_s: float) -> None:
         lines: list[bytes] = []
         is_rest_due = now_s >= viewer.rest_due_s
         for feed in self._feeds:
@@ -290,21 +311,34 @@ class LiveServer:
             viewer.unsent += b"".join(lines)
             self._write(viewer)
 
-    def _send(self, viewer: _Viewer, message: dict[str, Any]) -> None:
+    def _send(self, viewer: Viewer, message: dict[str, Any]) -> None:
         if len(viewer.unsent) > _MAX_UNSENT_BYTES:
             raise ConnectionAbortedError
         viewer.unsent += _encode(message)
         self._write(viewer)
 
-    def _write(self, viewer: _Viewer) -> None:
+    def _write(self, viewer: Viewer) -> None:
         if viewer.unsent:
             with suppress(BlockingIOError):
                 sent = viewer.connection.send(viewer.unsent)
                 del viewer.unsent[:sent]
-        wanted = selectors.EVENT_READ | (selectors.EVENT_WRITE if viewer.unsent else 0)
-        self._selector.modify(viewer.connection, wanted, viewer)
+        self._watch(viewer)
 
-    def _drop(self, viewer: _Viewer) -> None:
+    def _watch(self, viewer: Viewer) -> None:
+        """Wait for what a viewer sends, unless that is limited, and until it takes what is not sent."""
+        wanted = (selectors.EVENT_READ if viewer.resume_s is None else 0) | (
+            selectors.EVENT_WRITE if viewer.unsent else 0
+        )
+        watched = viewer.connection in self._selector.get_map()
+        if not wanted:
+            if watched:
+                self._selector.unregister(viewer.connection)
+        elif watched:
+            self._selector.modify(viewer.connection, wanted, viewer)
+        else:
+            self._selector.register(viewer.connection, wanted, viewer)
+
+    def _drop(self, viewer: Viewer) -> None:
         if viewer in self._viewers:
             self._viewers.remove(viewer)
             with suppress(KeyError, ValueError):
@@ -316,13 +350,13 @@ class LiveServer:
 
     def _next_due_s(self) -> float | None:
         """Seconds until a viewer may get the next iteration, or must have sent its token."""
-        if not self._viewers:
-            return None
         now_s = time.monotonic()
         dues = [due_s for viewer in self._viewers if (due_s := self._due_s(viewer)) is not None]
+        dues += [viewer.resume_s for viewer in self._viewers if viewer.resume_s is not None]
+        dues += [self._accept_s] if self._accept_s is not None else []
         return max(0.0, min(dues) - now_s) if dues else None
 
-    def _due_s(self, viewer: _Viewer) -> float | None:
+    def _due_s(self, viewer: Viewer) -> float | None:
         """When to do something for a viewer; None before there is news."""
         if not viewer.is_admitted:
             return viewer.connected_s + _HANDSHAKE_LIMIT_S
@@ -330,42 +364,6 @@ class LiveServer:
         if viewer.unsent or not news:
             return None
         return viewer.due_s if any(map(viewer.looks_at, news)) else max(viewer.due_s, viewer.rest_due_s)
-
-
-class _Viewer:
-    """A connection; `seen` are the numbers of the last message, iteration and state change sent, by robot.
-
-    `focus` is the robot that it looks at; others are sent less often.
-    """
-
-    __slots__ = (
-        "connected_s",
-        "connection",
-        "due_s",
-        "focus",
-        "greeted",
-        "has_control",
-        "is_admitted",
-        "period_s",
-        "received",
-        "rest_due_s",
-        "seen",
-        "unsent",
-    )
-
-    def __init__(self, connection: socket.socket) -> None:
-        self.connection = connection
-        self.connected_s = time.monotonic()
-        self.received, self.unsent = bytearray(), bytearray()
-        self.is_admitted = self.has_control = False
-        self.period_s = 1 / DEFAULT_RATE_HZ
-        self.due_s = self.rest_due_s = 0.0
-        self.focus = ""
-        self.greeted: list[tuple[Feed, int]] = []
-        self.seen: dict[Feed, tuple[int, int, int]] = {}
-
-    def looks_at(self, feed: Feed) -> bool:
-        return not self.focus or feed.name == self.focus
 
 
 def _listen(address: str) -> tuple[socket.socket, str]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from .component import Component
-from .errors import NetworkError, describe_exception, make_error_record, print_error
+from .errors import USER_ERRORS, NetworkError, describe_exception, make_error_record, print_error
 from .live import find_address
 from .net_session import MAX_WAITING, check_name, has_receivers, open_session, watch_key
 from .net_values import convert_parameters, decode, encode
@@ -135,7 +135,7 @@ class Network:
         """The robot continues without its network."""
         try:
             function()
-        except Exception as error:
+        except USER_ERRORS as error:
             if error is self._root.stop_error:
                 raise
             self._warn(describe_exception(error))
@@ -180,7 +180,7 @@ class Network:
             return
         try:
             component.modulate(**parameters)
-        except Exception as error:
+        except USER_ERRORS as error:
             self._root.report(make_error_record(component, error))
         if activation != caller.activation:
             caller.activation = activation

@@ -13,7 +13,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from .component import Component, State
-from .errors import describe_exception
+from .errors import USER_ERRORS, describe_exception
 from .observer import ObservedFunction
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ class Reloader:
             for name in sorted(changed):
                 importlib.import_module(name)
             words = list(self._exchange(changed, saved))
-        except Exception as error:
+        except USER_ERRORS as error:
             for name in changed:
                 sys.modules.pop(name, None)
             sys.modules.update(old_modules)

@@ -65,7 +65,7 @@ def _run_command(options: argparse.Namespace) -> int:
     sys.path[:0] = [str(Path(folder).resolve()) for folder in options.path]
     # Bytecode has the time of its source in seconds, and would be taken for that of a later edit.
     sys.dont_write_bytecode = sys.dont_write_bytecode or options.reload
-    _open_missing_streams()
+    open_missing_streams()
     signals = StopSignals(is_silent=options.stream)
     try:
         try:
@@ -88,7 +88,7 @@ def _discard_output() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _open_missing_streams() -> None:
+def open_missing_streams() -> None:
     """Replace standard streams that were closed before the start: files opened later must not take their place."""
     while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
         os.set_inheritable(descriptor, True)
@@ -97,6 +97,8 @@ def _open_missing_streams() -> None:
         nowhere = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - open until the end
         sys.stdout = sys.stdout or nowhere
         sys.stderr = sys.stderr or nowhere
+    if sys.stdin is None:
+        sys.stdin = Path(os.devnull).open(encoding="utf-8")  # noqa: SIM115 - open until the end
 
 
 def _prepare(options: argparse.Namespace, files: ExitStack) -> tuple[Root, _RecordWriter]:

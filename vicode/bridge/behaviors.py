@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from vicode.bica import ComponentError, CyclicUseError, ErrorRecord, Root, TeamMessage
+from vicode.bica.errors import USER_ERRORS
 from vicode.bica.loader import UserCodeError, describe_user_error, load_component
 from vicode.bridge.world import World
 from vicode.xabsl.engine import CoopMessage, Engine, LoadError, Program, SymbolList
@@ -99,7 +100,7 @@ class DesignCatalog:
             raise BehaviorError(_describe_unknown(name, self.names)) from None
         except (UserCodeError, CyclicUseError) as error:
             raise BehaviorError(" ".join(str(error).split())) from error
-        except Exception as error:
+        except USER_ERRORS as error:
             raise BehaviorError(f"cannot create {name}: {describe_user_error(error)}") from error
 
 
@@ -114,7 +115,7 @@ class DesignBehavior:
     def step(self) -> None:
         try:
             self.root.step()
-        except (ComponentError, SystemExit) as error:
+        except ComponentError as error:
             self._report_line(describe_user_error(error))
 
     def active_states(self) -> list[ActiveState]:
@@ -159,7 +160,7 @@ class XabslCatalog:
             return XabslBehavior(self, name, setup)
         except LoadError as error:
             raise BehaviorError(str(error)) from error
-        except Exception as error:
+        except USER_ERRORS as error:
             raise BehaviorError(f"cannot create {name}: {describe_user_error(error)}") from error
 
 
@@ -178,7 +179,7 @@ class XabslBehavior:
     def step(self) -> None:
         try:
             self.engine.execute()
-        except (Exception, SystemExit) as error:
+        except USER_ERRORS as error:
             # The options that were not finished restart in the next tick, as after a cycle without them.
             self._report_line(describe_user_error(error))
         self.on_step(self._clock.ns)

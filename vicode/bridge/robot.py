@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 from types import SimpleNamespace
 from typing import Any
 
-from vicode.bica.errors import describe_exception
+from vicode.bica.errors import USER_ERRORS, describe_exception
 from vicode.bica.loader import describe_user_error
 from vicode.bridge.ages import AgeFigures
 from vicode.bridge.behaviors import Behavior, BehaviorCatalog, BehaviorError, BehaviorSetup, TickClock
@@ -194,7 +194,7 @@ class Robot:
         if callable(close_world):
             try:
                 close_world()
-            except Exception as error:
+            except USER_ERRORS as error:
                 self._report(f"close of the world: {describe_exception(error)}")
 
     def _tell(self, at_ns: int, behavior: Behavior) -> None:
@@ -208,7 +208,7 @@ class Robot:
     def _advance_world(self, advance: Callable[[int], object]) -> None:
         try:
             advance(self.clock.ns)
-        except Exception as error:
+        except USER_ERRORS as error:
             self._report(describe_user_error(error))
 
     def _publish(self, names: Iterable[str]) -> SimpleNamespace:
@@ -216,7 +216,7 @@ class Robot:
         for name in names:
             try:
                 setattr(published, name, getattr(self.world, name))
-            except Exception as error:
+            except USER_ERRORS as error:
                 self._report(f"published {name}: {describe_exception(error)}")
         return published
 

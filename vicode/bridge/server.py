@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from vicode.bica.errors import USER_ERRORS
 from vicode.bica.loader import describe_user_error
 from vicode.bridge.ages import AgeFigures, merge_ages
 from vicode.bridge.behaviors import BehaviorCatalog
@@ -20,7 +21,9 @@ from vicode.bridge.world import Counts, World
 DEFAULT_PORT = 7001
 DEFAULT_TICK_MS = 50.0
 MAX_CONNECTIONS = 1000
-_HANDSHAKE_S = 10.0
+MAX_STRANGERS = 64
+"""So many connections may owe the token; the oldest of more is closed, so that they lock no robot out."""
+_HANDSHAKE_S = 5.0
 _STOP_S = 2.0
 _TURN_S = 0.005
 """So long robots are stepped before connections get their turn."""
@@ -96,7 +99,8 @@ class BridgeServer:
     ticker: asyncio.Task[None] | None = None
     """Runs until `stop`; it ends earlier only with an exception."""
     _seats: dict[str, _Seat] = field(default_factory=dict)
-    _connections: set[Connection] = field(default_factory=set)
+    _connections: dict[Connection, None] = field(default_factory=dict)
+    """The oldest first."""
     _ages: AgeFigures = field(default_factory=AgeFigures)
     _command_ages: AgeFigures = field(default_factory=AgeFigures)
     _joined: int = 0
@@ -115,7 +119,12 @@ class BridgeServer:
         loop = asyncio.get_running_loop()
         try:
             self._listener = await loop.create_server(
-                lambda: Connection(self), options.host, options.port, ssl=options.tls, backlog=512
+                lambda: Connection(self),
+                options.host,
+                options.port,
+                ssl=options.tls,
+                ssl_handshake_timeout=_HANDSHAKE_S if options.tls else None,
+                backlog=512,
             )
         except OSError as error:
             raise ListenError(f"cannot listen at {options.host}:{options.port}: {error.strerror or error}") from error
@@ -168,13 +177,22 @@ class BridgeServer:
     # Called by connections
 
     def add(self, connection: Connection) -> bool:
-        """Register a connection; return whether there is room."""
-        self._connections.add(connection)
-        return len(self._connections) <= MAX_CONNECTIONS
+        """Register a connection and return whether there is room; the oldest one that sent nothing may have to go."""
+        strangers = [each for each in self._connections if not each.is_admitted]
+        silent = strangers if len(strangers) >= MAX_STRANGERS else []
+        if not silent and len(self._connections) >= MAX_CONNECTIONS:
+            silent = strangers or [each for each in self._connections if each.robot is None]
+            if not silent:
+                return False
+        self._connections[connection] = None
+        if silent:
+            silent[0].refuse("too many connections that send nothing")
+            self._connections.pop(silent[0], None)
+        return True
 
     def remove(self, connection: Connection) -> None:
         """A connection has ended: keep the state of a named robot for the grace time."""
-        self._connections.discard(connection)
+        self._connections.pop(connection, None)
         robot = connection.robot
         seat = self._seats.get(robot.name) if robot is not None else None
         if seat is None or seat.connection is not connection:
@@ -232,7 +250,7 @@ class BridgeServer:
                 priority=priority,
                 waits=hello.waits and hello.pace != "client",
             )
-        except Exception as error:
+        except USER_ERRORS as error:
             raise RefusedError(f"the world cannot be created: {describe_user_error(error)}") from error
         robot.data.counts.connections = 1
         self._seats[unique] = _Seat(robot, connection, is_named=bool(hello.name))

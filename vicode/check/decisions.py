@@ -1,11 +1,14 @@
 """Rules for decisions: shadowed transitions and transitions without effect."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from vicode.check.context import RuleContext
+from vicode.check.typed_expressions import analyze_expression
 from vicode.findings import DesignPath, Finding, Note
-from vicode.model.design import Decision, DecisionGroup, Transition
+from vicode.model.design import Decision, DecisionGroup, Guard, Transition
 from vicode.model.disabled import strip_disabled_decision
+from vicode.model.expressions import BOOL, FLOAT, Value, evaluate
 from vicode.model.traversal import is_exhaustive
 
 
@@ -40,7 +43,36 @@ def find_self_transitions(context: RuleContext) -> Iterator[Finding]:
 
 def _first_exhaustive(context: RuleContext, items: tuple[Decision, ...]) -> int | None:
     enabled = (strip_disabled_decision(item, context.disabled_states) for item in items)
-    return next((index for index, item in enumerate(enabled) if item is not None and is_exhaustive(item)), None)
+    return next(
+        (
+            index
+            for index, item in enumerate(enabled)
+            if item is not None and is_exhaustive(_strip_true_guards(context, item))
+        ),
+        None,
+    )
+
+
+def _strip_true_guards(context: RuleContext, item: Decision) -> Decision:
+    """Remove the guards that always hold, such as `after: 0`."""
+    if isinstance(item, DecisionGroup):
+        then, otherwise = (
+            tuple(_strip_true_guards(context, each) for each in items) for items in (item.then, item.otherwise)
+        )
+        item = replace(item, then=then, otherwise=otherwise)
+    return replace(item, guard=Guard()) if _always_holds(context, item.guard) else item
+
+
+def _always_holds(context: RuleContext, guard: Guard) -> bool:
+    """Whether a guard holds whatever the values are. Constants count as unknown: viewers of a robot can change them."""
+    is_when_true = not guard.when or _evaluate(context, guard.when, BOOL) is True
+    is_after_zero = not guard.after or _evaluate(context, guard.after, FLOAT) == 0
+    return guard.code is None and is_when_true and is_after_zero
+
+
+def _evaluate(context: RuleContext, text: str, type_: str) -> Value | None:
+    parsed = analyze_expression(text, context.scope, type_)
+    return None if parsed.tree is None or parsed.diagnostics else evaluate(parsed.tree, {})
 
 
 def _find_shadowed(context: RuleContext, items: tuple[Decision, ...], path: DesignPath) -> Iterator[Finding]:
@@ -58,9 +90,11 @@ def _find_shadowed(context: RuleContext, items: tuple[Decision, ...], path: Desi
 
 def _find_shadowed_in_group(context: RuleContext, group: DecisionGroup, path: DesignPath) -> Iterator[Finding]:
     yield from _find_shadowed(context, group.then, (*path, "then"))
-    if group.guard.is_empty and group.otherwise:
-        message = "'else' is never tested: the group has no guard"
-        yield context.make_finding("D423", (*path, "else"), message, "add a guard to the group, or delete its 'else'")
+    if _always_holds(context, group.guard) and group.otherwise:
+        is_empty = group.guard.is_empty
+        message = f"'else' is never tested: {'the group has no guard' if is_empty else 'the guard always holds'}"
+        fix = f"{'add a guard to' if is_empty else 'change the guard of'} the group, or delete its 'else'"
+        yield context.make_finding("D423", (*path, "else"), message, fix)
     else:
         yield from _find_shadowed(context, group.otherwise, (*path, "else"))
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vicode.cli.ports import port_number
+from vicode.findings import escape_text
 
 if TYPE_CHECKING:
     from vicode.simulation.robots import Hello, RobotAddress, SocketTransport
@@ -53,7 +54,7 @@ def _print_robots() -> int:
 
     robots = find_watched()
     for robot, host, address in robots:
-        print(f"{robot}  {address}" + ("" if _is_reachable(host, address) else f"  (only on {host})"))
+        print(escape_text(f"{robot}  {address}") + ("" if _is_reachable(host, address) else f"  (only on {host})"))
     if not robots:
         print("vicode: no robot was found; connect robots with --net NAME --watch ADDRESS", file=sys.stderr)
     return 0 if robots else 1
@@ -135,7 +136,7 @@ async def _print_lines(transport: "SocketTransport", hello: "Hello") -> None:
     while line := await transport.receive():
         message = decode_line(line)
         if "tree" in message:
-            robot = str(message.get("robot"))
+            robot = escape_text(str(message.get("robot")))
             lines = _lines(message, is_first=robot not in seen)
             seen.add(robot)
             for each in lines:
@@ -162,10 +163,10 @@ def _lines(message: Mapping[str, Any], *, is_first: bool) -> list[str]:
 
 
 def _line(time_ns: int, words: str) -> str:
-    return f"{time_ns / 1e9:8.2f} s  {words}"
+    return f"{time_ns / 1e9:8.2f} s  {escape_text(words)}"
 
 
 def _describe(address: "RobotAddress", hello: "Hello") -> str:
-    names = ", ".join(robot.name for robot in hello.robots) or "no robot yet"
+    names = escape_text(", ".join(robot.name for robot in hello.robots)) or "no robot yet"
     access = "with control" if hello.control else "may only be watched"
     return f"attached to {address}: {names} ({access})"

@@ -7,13 +7,13 @@ import os
 import signal
 import ssl
 import sys
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
 from vicode.cli.bridge_behaviors import LoadedBehaviors, load_behaviors, load_world
 from vicode.cli.ports import port_number
+from vicode.output import temporary_folder
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -65,10 +65,10 @@ def run(args: argparse.Namespace) -> int:
     """Load the behaviors and the world, and serve until Ctrl-C or SIGTERM."""
     from vicode.bridge.server import ListenError
 
-    with tempfile.TemporaryDirectory(prefix="vicode-bridge-") as folder:
+    with temporary_folder("bridge") as folder:
         # The generated code is only imported, once.
         sys.dont_write_bytecode = True
-        loaded = load_behaviors(args, Path(folder))
+        loaded = load_behaviors(args, folder)
         if isinstance(loaded, int):
             return loaded
         world_class = load_world(args.world or loaded.settings.world, loaded)
@@ -78,7 +78,7 @@ def run(args: argparse.Namespace) -> int:
         gc.collect()
         gc.freeze()
         try:
-            return asyncio.run(_serve(loaded, world_class, args, Path(folder)))
+            return asyncio.run(_serve(loaded, world_class, args, folder))
         except ListenError as error:
             print(f"vicode: {error}", file=sys.stderr)
             return 2

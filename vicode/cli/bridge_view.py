@@ -11,6 +11,8 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
+from vicode.findings import escape_text
+
 if TYPE_CHECKING:
     from vicode.bridge.robot import Robot
     from vicode.bridge.server import BridgeServer
@@ -60,7 +62,7 @@ class PlainBridgeView:
             print("\n".join(["", *describe_totals(self._server, time.monotonic() - self._start_s)]), flush=True)
 
     def _print(self, robot: str, text: str) -> None:
-        print(f"{time.monotonic() - self._start_s:8.2f} s  {robot}: {text}", flush=True)
+        print(f"{time.monotonic() - self._start_s:8.2f} s  {robot}: {escape_text(text)}", flush=True)
 
 
 class TableBridgeView:
@@ -85,7 +87,7 @@ class TableBridgeView:
             self._console.print("\n".join(describe_totals(self._server, time.monotonic() - self._start_s)))
 
     def _add_event(self, robot: str, text: str) -> None:
-        self._events.append(f"{time.monotonic() - self._start_s:8.2f} s  {robot}: {text}")
+        self._events.append(f"{time.monotonic() - self._start_s:8.2f} s  {robot}: {escape_text(text)}")
 
     def _draw(self) -> RenderableType:
         return render_bridge(self._server, self._events, self._rates.measure)

@@ -2,12 +2,12 @@
 
 import argparse
 import sys
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
 from vicode.cli.root_selection import select_root
+from vicode.output import temporary_folder
 
 if TYPE_CHECKING:
     from vicode.conformance.design_mutants import MutantReport
@@ -68,8 +68,8 @@ def run(args: argparse.Namespace) -> int:
     runs = _make_runs(args, project.project, component)
     if args.mutants:
         return _try_mutants(runs, component, project)
-    with tempfile.TemporaryDirectory(prefix="vicode-conform-") as folder:
-        comparison = compare_languages(runs, Path(folder), project.folder.resolve(), tools=tools)
+    with temporary_folder("conform") as folder:
+        comparison = compare_languages(runs, folder, project.folder.resolve(), tools=tools)
     code = _report(args, component, comparison)
     if comparison.coverage is not None:
         _report_coverage(comparison.coverage, project)

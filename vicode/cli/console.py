@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import lru_cache, partial
 from pathlib import Path
 
-from vicode.findings import Finding, Severity, render_text
+from vicode.findings import Finding, Severity, escape_text, render_text
 
 _MAX_BYTES = 2_000_000
 _XABSL_SUFFIXES = (".xabsl", ".yabsl")
@@ -53,9 +53,8 @@ def count_findings(findings: Iterable[Finding]) -> str:
 
 
 def describe_os_error(error: OSError) -> str:
-    if error.filename is None:
-        return error.strerror or str(error)
-    return f"{error.filename}: {error.strerror or error}"
+    words = error.strerror or str(error)
+    return escape_text(words if error.filename is None else f"{error.filename}: {words}")
 
 
 def _read_lines(file: str, *, encoding: str) -> tuple[str, ...]:

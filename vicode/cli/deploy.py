@@ -5,13 +5,13 @@ import shlex
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import IO
 
 from vicode.cli.project_loader import LoadedProject
 from vicode.cli.root_selection import select_root
+from vicode.output import temporary_folder
 from vicode.store.projects import DEPLOYED_MARKER
 
 _SKIPPED_FOLDERS = frozenset({"__pycache__", "node_modules", "venv", "build", "dist"})
@@ -50,8 +50,7 @@ def run(args: argparse.Namespace) -> int:
     if isinstance(selected, int):
         return selected
     opened, component = selected
-    with tempfile.TemporaryDirectory(prefix="vicode-deploy-") as name:
-        folder = Path(name)
+    with temporary_folder("deploy") as folder:
         try:
             if args.language == "cpp":
                 build_cpp_program(opened, component, folder, args)

@@ -97,7 +97,11 @@ def _report_unknown_command(name: str) -> int:
 
 
 def _make_streams_lenient() -> None:
-    """Replace characters that the encoding of the output does not have, instead of failing."""
+    """Replace closed streams by the null device, and characters that their encoding does not have."""
+    if None in (sys.stdin, sys.stdout, sys.stderr):
+        from vicode.bica.run import open_missing_streams
+
+        open_missing_streams()
     codecs.register_error("vicode", _replace_unencodable)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper) and stream.errors == "strict":

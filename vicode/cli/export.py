@@ -37,7 +37,7 @@ def run(args: argparse.Namespace) -> int:
     design = _read(Path(args.file), args.encoding)
     if design is None:
         return 1
-    from vicode.output import write_atomically
+    from vicode.output import resolve_below, write_atomically
 
     only = _states(args.states)
     unknown = sorted((only or frozenset()) - {state.name for state in design.states})
@@ -55,7 +55,8 @@ def run(args: argparse.Namespace) -> int:
         sys.stdout.buffer.write(content)
         return 0
     out = Path(args.out) if args.out else Path(args.file).with_suffix(form.suffixes[0])
-    write_atomically(out, content)
+    # A link that was there before is followed if the user names it.
+    write_atomically(out if args.out else resolve_below(out.parent, out.name), content)
     print(f"wrote {out.as_posix()}")
     return 0
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from vicode.cli.tracked_projects import TrackedProject, find_tracked_projects
 from vicode.git import GitError, Repository, find_repository
-from vicode.output import write_atomically
+from vicode.output import resolve_below, write_atomically
 
 _BEGIN, _END = "# vicode hook install: begin", "# vicode hook install: end"
 _STAGED = "vicode-generated"
@@ -99,13 +99,19 @@ def _install(repository: Repository, *, is_removed: bool) -> int:
     attributes = [] if is_removed else _attribute_lines(find_tracked_projects(repository))
     if not is_removed and not attributes:
         raise GitError(f"no designs in {repository.root}")
-    _update_block(repository.root / ".gitattributes", attributes, insert=lambda text, block: text + block)
+    _update_block(resolve_below(repository.root, ".gitattributes"), attributes, insert=lambda text, block: text + block)
     for name, value in _config().items():
         if repository.config(name) != (None if is_removed else value):
             repository.set_config(name, None if is_removed else value)
             print(f"{'removed' if is_removed else 'set'} {name} in the configuration of the repository")
     folder = repository.git_path("hooks")
-    return max([_install_hook(folder / name, is_removed=is_removed) for name in _HOOKS])
+    return max([_install_hook(folder / name, repository, is_removed=is_removed) for name in _HOOKS])
+
+
+def _is_inside(file: Path, repository: Repository) -> bool:
+    """Whether a file is in the work tree, or in the git folder, which work trees share."""
+    owners = (repository.root, repository.git_path("config").parent)
+    return any(file.resolve().is_relative_to(owner.resolve()) for owner in owners)
 
 
 def _attribute_lines(projects: Sequence[TrackedProject]) -> list[str]:
@@ -149,9 +155,12 @@ def _python() -> str:
     return shlex.quote(Path(sys.executable).as_posix())
 
 
-def _install_hook(file: Path, *, is_removed: bool) -> int:
+def _install_hook(file: Path, repository: Repository, *, is_removed: bool) -> int:
     """Add our lines to a hook, after the first line of an existing script; return 1 if that is not possible."""
     lines = [] if is_removed else _hook_lines(file.name)
+    if not _is_inside(file, repository):
+        # The hooks of core.hooksPath may be those of all repositories of the user.
+        return _report_outside(file, is_removed=is_removed)
     if file.exists() and not is_removed:
         reason = _why_unusable(file)
         if reason:
@@ -163,6 +172,14 @@ def _install_hook(file: Path, *, is_removed: bool) -> int:
     elif file.exists() and lines:
         file.chmod(file.stat().st_mode | stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH)
     return 0
+
+
+def _report_outside(file: Path, *, is_removed: bool) -> int:
+    if is_removed and not (file.exists() and _BEGIN.encode() in file.read_bytes()):
+        return 0
+    action = "remove the lines of vicode from it" if is_removed else f"call '{_command()} hook {file.name}' in it"
+    print(f"vicode: {file} is outside of the repository, so it was not changed; {action}", file=sys.stderr)
+    return 1
 
 
 def _hook_lines(name: str) -> list[str]:

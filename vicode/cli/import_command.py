@@ -213,11 +213,12 @@ def _texts(imported: "ImportResult") -> "dict[str, str]":
 
 
 def _write(folder: Path, texts: "dict[str, str]") -> None:
-    from vicode.output import write_atomically
+    from vicode.output import resolve_below, write_atomically
 
-    for path, text in texts.items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(folder / path, text)
+    targets = {resolve_below(folder, path): text for path, text in texts.items()}
+    for target, text in targets.items():
+        target.parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(target, text)
 
 
 def _summary(imported: "ImportResult", folder: Path) -> str:

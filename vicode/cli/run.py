@@ -5,7 +5,6 @@ import contextlib
 import os
 import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING
 from vicode.bica import options
 from vicode.cli.project_loader import LoadedProject
 from vicode.cli.root_selection import select_root
+from vicode.output import temporary_folder
 
 if TYPE_CHECKING:
     from vicode.cli.trace_output import TracePrinter
@@ -101,21 +101,21 @@ def run(args: argparse.Namespace) -> int:
             file=sys.stderr,
         )
         return 2
-    with tempfile.TemporaryDirectory(prefix="vicode-run-") as folder:
+    with temporary_folder("run") as folder:
         if has_inputs:
             from vicode.cli.run_inputs import RunInputsError, generate_with_inputs
 
             try:
-                class_path, args.world = generate_with_inputs(opened, component, Path(folder), args)
+                class_path, args.world = generate_with_inputs(opened, component, folder, args)
             except RunInputsError as error:
                 print(f"vicode: {error}", file=sys.stderr)
                 return 2
         else:
-            class_path = generate_for_run(opened, component, Path(folder))
+            class_path = generate_for_run(opened, component, folder)
         if args.reload:
             from vicode.cli.run_reload import start_watching
 
-            start_watching(args, Path(folder))
+            start_watching(args, folder)
         if args.trace != "-":
             return _run_process(_command(opened, (component, class_path), folder, args), is_plain=args.plain)
         with _duplicate_stdout() as descriptor, contextlib.redirect_stdout(sys.stderr):
@@ -157,10 +157,10 @@ def generate_for_run(opened: LoadedProject, component: str, folder: Path) -> str
     return python_class_path(project, component)
 
 
-def _command(opened: LoadedProject, names: tuple[str, str], folder: str, args: argparse.Namespace) -> list[str]:
+def _command(opened: LoadedProject, names: tuple[str, str], folder: Path, args: argparse.Namespace) -> list[str]:
     component, class_path = names
     # -P: files in the current folder must not shadow modules.
-    command = [sys.executable, "-P", "-m", "vicode.bica", class_path, "--stream", "--path", str(Path(folder, "python"))]
+    command = [sys.executable, "-P", "-m", "vicode.bica", class_path, "--stream", "--path", str(folder / "python")]
     command += ["--path", str(opened.open_project.folder.resolve()), "--seed", str(args.seed)]
     world = args.world or opened.open_project.project.world
     if world:

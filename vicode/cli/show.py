@@ -4,9 +4,10 @@ import argparse
 import json
 import re
 import sys
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from vicode.output import resolve_below, temporary_folder, write_atomically
 
 if TYPE_CHECKING:
     from vicode.cli.revision_search import FoundDesign
@@ -60,8 +61,8 @@ def _search(path: Path, wanted: str) -> "FoundDesign | None":
 
     repository = find_repository(path)
     folder = repository.relative(path)
-    with tempfile.TemporaryDirectory(prefix="vicode-show-") as copy:
-        found = next(search_revisions(repository, folder, wanted, Path(copy)), None)
+    with temporary_folder("show") as copy:
+        found = next(search_revisions(repository, folder, wanted, copy), None)
     return found or find_in_folder(path, repository.root, wanted, None)
 
 
@@ -74,18 +75,16 @@ def _describe(found: "FoundDesign") -> str:
 
 
 def _write(found: "FoundDesign", out: Path) -> None:
-    from vicode.output import write_atomically
-
     if out.suffix in (".yaml", ".yml") and not out.is_dir():
         write_atomically(out, found.texts[found.path])
         print(f"wrote {out.as_posix()}")
         return
     top = _common_folder(list(found.texts))
     for path, text in found.texts.items():
-        file = out / Path(path).relative_to(top)
+        file = resolve_below(out, Path(path).relative_to(top))
         file.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(file, text)
-        print(f"wrote {file.as_posix()}")
+        print(f"wrote {(out / Path(path).relative_to(top)).as_posix()}")
 
 
 def _common_folder(paths: list[str]) -> Path:

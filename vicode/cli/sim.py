@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, TypeVar
 from vicode.bica import options
 from vicode.cli.console import print_findings
 from vicode.cli.ports import port_number
+from vicode.findings import escape_text
 
 if TYPE_CHECKING:
     from vicode.simulated_robot.robot_model import RobotModel
@@ -219,12 +220,12 @@ class _StatePrinter:
         for track in self._session.tracks:
             number, state = track.robot.number, track.state
             for notice in track.notices[self._notices.get(number, 0) :]:
-                print(f"{self._session.arena.now_s:9.2f} s  robot {number}: {notice}", flush=True)
+                print(f"{self._session.arena.now_s:9.2f} s  robot {number}: {escape_text(notice)}", flush=True)
             self._notices[number] = len(track.notices)
             if state and self._states.get(number) != state:
                 before = f"{self._states[number]} → " if number in self._states else ""
                 self._states[number] = state
-                print(f"{self._session.arena.now_s:9.2f} s  robot {number}: {before}{state}", flush=True)
+                print(f"{self._session.arena.now_s:9.2f} s  robot {number}: {before}{escape_text(state)}", flush=True)
 
 
 def _print_summary(session: "SimulationSession", wall_s: float) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
+from vicode.findings import escape_text
 
 if TYPE_CHECKING:
     from vicode.findings import DesignPath
@@ -95,14 +96,14 @@ def _diff(args: argparse.Namespace) -> int:
     for component, state in names:
         a, b = (each.get(component, {}).get(state, StateStatistics()) for each in sums)
         figures = f"{a.entries:8} {a.total_ns / 1e9:10.2f}  {b.entries:8} {b.total_ns / 1e9:10.2f}"
-        print(f"{f'{component} {state}':{width}}  {figures}  {(b.total_ns - a.total_ns) / 1e9:+10.2f}")
+        _print(f"{f'{component} {state}':{width}}  {figures}  {(b.total_ns - a.total_ns) / 1e9:+10.2f}")
     found = find_difference(first, second, round(args.tolerance * 1e9))
     if found is None:
         shorter = min(first.duration_ns, second.duration_ns) / 1e9
         print(f"same states for {shorter:.2f} s")
         return 0
     states = f"{found.first or 'not active'} in A, {found.second or 'not active'} in B"
-    print(f"first difference: {found.time_ns / 1e9:.3f} s, {found.component}: {states}")
+    _print(f"first difference: {found.time_ns / 1e9:.3f} s, {found.component}: {states}")
     return 1
 
 
@@ -151,6 +152,11 @@ def _find_designs(path: str, components: Sequence[str]) -> "dict[str, Design]":
     return found
 
 
+def _print(line: str) -> None:
+    """Print a line with names of a trace, which may be from elsewhere."""
+    print(escape_text(line))
+
+
 def _print_component(
     component: str,
     states: "dict[str, StateStatistics]",
@@ -163,19 +169,22 @@ def _print_component(
         ends[f"{source} → {target}"] += count
     never = [each.name for each in design.states if each.name not in states] if design is not None else []
     width = max(len(name) for name in ("transition", *states, *ends, *never))
-    print(f"\n{component}")
+    print()
+    _print(component)
     print(f"  {'state':{width}} {'entered':>8} {'total s':>10} {'share':>6} {'longest s':>10}")
     for name, each in sorted(states.items(), key=lambda item: -item[1].total_ns):
         share = f"{each.total_ns / whole_ns:.0%}"
-        print(f"  {name:{width}} {each.entries:8} {each.total_ns / 1e9:10.2f} {share:>6} {each.longest_ns / 1e9:10.2f}")
+        _print(
+            f"  {name:{width}} {each.entries:8} {each.total_ns / 1e9:10.2f} {share:>6} {each.longest_ns / 1e9:10.2f}"
+        )
     for name in never:
-        print(f"  {name:{width}} {'never':>8}")
+        _print(f"  {name:{width}} {'never':>8}")
     print(f"  {'transition':{width}} {'taken':>8}")
     for words, count in ends.most_common():
-        print(f"  {words:{width}} {count:8}")
+        _print(f"  {words:{width}} {count:8}")
     if design is not None:
         for words in _never_taken(design, transitions):
-            print(f"  {words:{width}} {'never':>8}")
+            _print(f"  {words:{width}} {'never':>8}")
 
 
 def _never_taken(design: "Design", transitions: dict[tuple[str, str, str], int]) -> Iterable[str]:

@@ -28,7 +28,8 @@ def export_mcap(iterations: "Iterable[IterationResult]", out: Path) -> int:
         raise OSError("the package mcap is missing; install it with: pip install 'vicode-fsm[mcap]'") from error
     part = out.with_name(f"{out.name}.part")
     try:
-        with part.open("wb") as stream:
+        part.unlink(missing_ok=True)
+        with part.open("xb") as stream:
             writer: Any = Writer(stream)
             writer.start(profile="", library="vicode")
             count = _write(writer, iterations)

@@ -15,6 +15,7 @@ from types import FrameType
 from typing import IO, Any, Protocol
 
 from vicode.bica.run import EXIT_OUTPUT_LOST
+from vicode.findings import escape_text
 
 _SHUTDOWN_TIMEOUT_S = 5.0
 _INTERRUPT_TIMEOUT_S = 2.0
@@ -103,7 +104,7 @@ class StateChangeTracker:
             return []
         cause = f"  ({step['transition']})" if step["transition"] else ""
         arrow = f"{before} → {state}" if before else state
-        return [f"{time_s:8.2f} s  {component}: {arrow}{cause}"]
+        return [escape_text(f"{time_s:8.2f} s  {component}: {arrow}{cause}")]
 
 
 def describe_world(world: object) -> str:

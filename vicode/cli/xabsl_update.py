@@ -189,7 +189,7 @@ def _write(
 ) -> None:
     """Write all files or none, then the record of the import."""
     from vicode.cli.import_record import RECORD_FILE, format_record
-    from vicode.output import write_atomically
+    from vicode.output import resolve_below, write_atomically
     from vicode.transactions import replace_files
     from vicode.xabsl.source_loader import load_source
 
@@ -200,7 +200,7 @@ def _write(
     record = folder / RECORD_FILE
     text = format_record(folder, load_source(source.main, read), designs, has_comments=has_comments)
     if not record.exists() or record.read_text("utf-8") != text:
-        write_atomically(record, text)
+        write_atomically(resolve_below(folder, RECORD_FILE), text)
     for path in sorted(texts):
         print(f"{'deleted' if texts[path] is None else 'wrote'} {Path(os.path.relpath(path)).as_posix()}")
     if not texts:

@@ -10,7 +10,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import vicode
-from vicode.output import cache_path, write_atomically
+from vicode.output import cache_path, remove_leftovers, resolve_below, write_atomically
 from vicode.templating import template_files
 
 GENERATED_HEADERS = (
@@ -70,6 +70,7 @@ def write_site(
     known = manifest.files if manifest.tool == tool_digest() else {}
     files, touched = dict[str, tuple[str, str]](), []
     out.mkdir(parents=True, exist_ok=True)
+    remove_leftovers(out)
     for path, each in wanted.items():
         old = there[path]
         digest = old.digest if old else ""
@@ -77,7 +78,7 @@ def write_site(
             text = each.render()
             made = _digest(text.encode())
             if digest != made:
-                write_atomically(out / path, text, is_durable=False)
+                write_atomically(resolve_below(out, path), text, is_durable=False)
                 touched.append(path)
             digest = made
         files[path] = (each.key, digest)

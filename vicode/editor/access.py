@@ -61,6 +61,8 @@ class AccessMiddleware:
         host = headers.get(b"host", "")
         if self.hosts is not None and _parts(f"//{host}")[0] not in self.hosts:
             return False
+        if _is_embedded_elsewhere(headers):
+            return False
         origin = headers.get(b"origin")
         changes = scope["type"] == "websocket" or scope.get("method") not in ("GET", "HEAD")
         if origin is None:
@@ -120,6 +122,17 @@ class AccessMiddleware:
         except RequestTooLargeError:
             if not is_started:
                 await _refuse(scope, send, 413)
+
+
+def _is_embedded_elsewhere(headers: dict[bytes, str]) -> bool:
+    """Whether a page of another origin made the request, as for an image or a frame: it would build a page for nothing.
+
+    Following a link is allowed. Browsers send these headers to addresses of this machine and with HTTPS.
+    """
+    if headers.get(b"sec-fetch-site", "none") in ("none", "same-origin"):
+        return False
+    is_link = headers.get(b"sec-fetch-mode") == "navigate" and headers.get(b"sec-fetch-dest") == "document"
+    return not is_link or b"sec-purpose" in headers
 
 
 def _declared_length(headers: dict[bytes, str]) -> int:

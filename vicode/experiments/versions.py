@@ -1,7 +1,6 @@
 """Both versions of a behavior, the design and the XABSL that is generated from it, and their runs."""
 
 import shutil
-import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,7 +12,7 @@ from vicode.experiments.page import THESIS_FOLDER, VersionResult
 from vicode.experiments.runs import FaultResult, run_real_time, run_seeds, run_with_fault
 from vicode.generators import UnsoundDesignError, generate
 from vicode.model.design import Design
-from vicode.output import apply_diffs, compare_files
+from vicode.output import apply_diffs, compare_files, temporary_folder
 from vicode.samples import copy_sample
 from vicode.simulated_robot.faults import FAULTS
 from vicode.simulated_robot.session import RobotTrack
@@ -50,7 +49,7 @@ def prepare_behavior(experiment: Experiment, project_folder: Path | None) -> Ite
         ExperimentError: The project does not have the behavior, or it has errors.
         OSError: A file cannot be read or written.
     """
-    with tempfile.TemporaryDirectory(prefix="vicode-experiment-") as temporary:
+    with temporary_folder("experiment") as temporary:
         folder = project_folder
         if folder is None:
             folder = Path(temporary, experiment.sample)

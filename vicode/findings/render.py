@@ -15,18 +15,22 @@ def render_text(findings: Iterable[Finding], source_line: SourceLine = lambda _f
     for finding in findings:
         rule = finding.rule
         fix = f"; {finding.fix}" if finding.fix else ""
-        lines.append(
-            f"{_location_prefix(finding.location)}{rule.severity} {rule.code} {rule.name}: {finding.message}{fix}"
-        )
+        words = f"{rule.severity} {rule.code} {rule.name}: {finding.message}{fix}"
+        lines.append(escape_text(f"{_location_prefix(finding.location)}{words}"))
         lines += _excerpt(finding.location, source_line)
         for note in finding.notes:
-            lines.append(f"  {_location_prefix(note.location)}note: {note.message}")
+            lines.append(escape_text(f"  {_location_prefix(note.location)}note: {note.message}"))
     return "".join(line + "\n" for line in lines)
 
 
 def render_json(findings: Iterable[Finding]) -> str:
     """Render an array of objects: code, name, severity, message, fix, file, line, column, component, path, notes."""
     return json.dumps([_to_json(finding) for finding in findings], indent=2, ensure_ascii=False) + "\n"
+
+
+def escape_text(line: str) -> str:
+    """Write control characters as `repr` does: names and paths must neither command a terminal nor begin a line."""
+    return line if line.isprintable() else "".join(char if char.isprintable() else repr(char)[1:-1] for char in line)
 
 
 def _to_json(finding: Finding) -> dict[str, object]:

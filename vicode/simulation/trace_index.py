@@ -7,6 +7,7 @@ import json
 import math
 import os
 import tempfile
+import time
 from array import array
 from collections.abc import Callable
 from contextlib import suppress
@@ -22,6 +23,7 @@ _MAX_CELLS = 24_000_000
 """Limit of values by iterations: about 100 MB."""
 _MAX_COLUMNS = 400
 _CACHED_INDEXES = 20
+_ABANDONED_S = 3600.0
 _PROGRESS_LINES = 2_000
 
 RootStep = tuple[str, str | None, str | None]
@@ -181,8 +183,9 @@ def _write_cache(cache: Path, index: TraceIndex) -> None:
         for each in arrays:
             each.tofile(stream)
     Path(stream.name).replace(cache)
+    abandoned = (file for file in cache.parent.glob("*.new") if time.time() - file.stat().st_mtime > _ABANDONED_S)
     known = sorted(cache.parent.glob("*.index"), key=lambda file: file.stat().st_mtime_ns)
-    for old in known[:-_CACHED_INDEXES]:
+    for old in (*known[:-_CACHED_INDEXES], *abandoned):
         old.unlink(missing_ok=True)
 
 

@@ -179,8 +179,7 @@ class _Worker:
         component = _find_component(error)
         if component is None:
             return Failed(message=f"code outside of all components {words}{_user_code_location(error)}", prints=lines)
-        # The type is Exception, but only the traceback is recorded.
-        record = make_error_record(component, error)  # type: ignore[arg-type]
+        record = make_error_record(component, error)
         return Failed(message=words, error={**asdict(record), "message": words}, prints=lines)
 
     def _send(self, answer: Response) -> None:

@@ -5,7 +5,7 @@ import errno
 import fcntl
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from vicode.output import write_atomically
@@ -24,18 +24,54 @@ def replace_text(path: Path, old: str | None, new: str) -> None:
         FileChangedError: The file has another text.
         OSError: The file cannot be written; the old file is unchanged.
     """
+    content = None if old is None else old.encode("utf-8")
+
+    def replace(temporary: Path, target: Path) -> None:
+        """Replace the file if it is unchanged. Writing the new one took a while, so it is compared only now."""
+        if content is None and _create(temporary, target):
+            return
+        if not _has_content(path, content):
+            raise _changed(path)
+        temporary.replace(target)
+
     with _lock_folder(path.resolve().parent):
-        try:
-            now = path.read_bytes()
-        except FileNotFoundError:
-            now = None
-        if now != (None if old is None else old.encode("utf-8")):
-            raise FileChangedError(errno.EAGAIN, "another program has changed the file", str(path))
-        write_text(path, new)
+        if not _has_content(path, content):
+            raise _changed(path)
+        write_text(path, new, replace=replace)
 
 
-def write_text(path: Path, text: str) -> None:
+def _changed(path: Path) -> FileChangedError:
+    return FileChangedError(errno.EAGAIN, "another program has changed the file", str(path))
+
+
+def _create(temporary: Path, target: Path) -> bool:
+    """Move a new file to a place where there is none; return False if there is one, or no hard links."""
+    try:
+        os.link(temporary, target)
+    except OSError:
+        return False
+    temporary.unlink()
+    return True
+
+
+def _has_content(path: Path, content: bytes | None) -> bool:
+    """Whether a file has a content, also after it was read; None: it does not exist."""
+    try:
+        with path.open("rb") as stream:
+            before = os.fstat(stream.fileno())
+            return stream.read() == content and _identity(path.stat()) == _identity(before)
+    except FileNotFoundError:
+        return content is None
+
+
+def _identity(status: os.stat_result) -> tuple[int, ...]:
+    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns
+
+
+def write_text(path: Path, text: str, *, replace: Callable[[Path, Path], object] = Path.replace) -> None:
     """Replace a file atomically and flush it to the disk; follows symbolic links and keeps the file mode.
+
+    `replace` is that of `write_atomically`.
 
     Raises:
         OSError: The file or its folder is read-only, or the disk is full; the old file is unchanged.
@@ -46,7 +82,7 @@ def write_text(path: Path, text: str) -> None:
     if not _may_write(path.resolve().parent):
         # The new file is written to the same folder first.
         raise PermissionError(errno.EACCES, "its folder is read-only", str(path))
-    write_atomically(path, text)
+    write_atomically(path, text, replace=replace)
     folder = os.open(path.resolve().parent, os.O_RDONLY)
     try:
         # The rename is durable only after the folder is flushed.

@@ -1,13 +1,13 @@
 """Finds texts that were generated before: the copies kept with the generated files, and revisions in git."""
 
 import contextlib
-import tempfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from vicode.generators import UnsoundDesignError, generate
 from vicode.git import GitError, Repository, find_repository
+from vicode.output import temporary_folder
 from vicode.regions import has_header
 from vicode.store import OpenProject, open_project
 from vicode.transactions import STATE_FOLDER
@@ -75,9 +75,9 @@ def _generate_revisions(folder: Path) -> Iterator[Mapping[str, str]]:
 
 def generate_revision(repository: Repository, revision: str, path: str) -> Mapping[str, str]:
     """What a revision of the project in a folder generates, by path; empty if a design has errors."""
-    with tempfile.TemporaryDirectory(prefix="vicode-revision-") as name, contextlib.suppress(OSError):
+    with temporary_folder("revision") as name, contextlib.suppress(OSError):
         # The name of a project without project.yaml is that of its folder.
-        return _generate_sound(_check_out(repository, revision, path, Path(name) / (repository.root / path).name))
+        return _generate_sound(_check_out(repository, revision, path, name / (repository.root / path).name))
     return {}
 
 

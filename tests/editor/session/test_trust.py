@@ -1,13 +1,17 @@
 """Which folders are trusted, and which need no trust as they contain no code."""
 
+import os
 import py_compile
 import subprocess
 import sys
 import sysconfig
 from dataclasses import replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from vicode.editor.panels.simulation.trust_dialog import COMPARE
 from vicode.editor.session import Workspace
@@ -28,6 +32,33 @@ def test_trust_is_remembered_outside_the_folder(tmp_path: Path) -> None:
     trust_folder(state, tmp_path / "project2")
     assert is_trusted(state, folder)
     assert [file.name for file in folder.iterdir()] == ["inner"]
+
+
+@given(
+    name=st.binary(min_size=1)
+    .map(lambda name: os.fsdecode(name.translate(None, b"/\0")))
+    .filter(lambda n: n.strip("."))
+)
+@example(name="\n/victim")
+@example(name="\x85")
+@example(name="\udcff")
+@example(name='"')
+def test_each_name_trusts_its_own_folder_only(name: str) -> None:
+    with TemporaryDirectory() as temporary:
+        state, folder = Path(temporary, "state"), Path("/projects", name)
+        trust_folder(state, folder)
+        assert is_trusted(state, folder)
+        assert not is_trusted(state, Path("/projects"))
+        assert not is_trusted(state, Path("/victim"))
+        trust_folder(state, Path("/other"))
+        assert is_trusted(state, folder)
+
+
+def test_the_plain_paths_of_earlier_versions_stay_trusted(tmp_path: Path) -> None:
+    (tmp_path / "trusted").write_text("/first\n/second\n")
+    trust_folder(tmp_path, Path("/third"))
+    assert all(is_trusted(tmp_path, Path(f"/{name}")) for name in ("first", "second", "third"))
+    assert not is_trusted(tmp_path, Path("/fourth"))
 
 
 def test_only_a_folder_with_code_needs_trust(tmp_path: Path, workspace: Workspace) -> None:

@@ -6,7 +6,7 @@ from vicode.editor.session import texts
 from vicode.editor.session.workspace import TrashedDesign, Workspace
 from vicode.model.edits import unique_name
 from vicode.model.names import is_valid_name, snake_case
-from vicode.store import save_design, write_text
+from vicode.store import replace_text, save_design
 
 
 def validate_move_to_trash(workspace: Workspace, component: str) -> str:
@@ -47,7 +47,7 @@ def restore_from_trash(workspace: Workspace, trashed: TrashedDesign) -> str:
     """
     if trashed.file.exists():
         return texts.cannot_restore(trashed.file.name, trashed.component)
-    write_text(trashed.file, trashed.content.decode("utf-8"))
+    replace_text(trashed.file, None, trashed.content.decode("utf-8"))
     workspace.trashed_designs.pop(trashed.component, None)
     workspace.sync_from_disk()
     return ""

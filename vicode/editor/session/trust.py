@@ -1,5 +1,6 @@
 """The folders whose Python code the user trusts, remembered in the user's state folder."""
 
+import json
 import os
 from collections.abc import Collection
 from importlib.machinery import all_suffixes
@@ -28,7 +29,8 @@ def trust_folder(state: Path, folder: Path) -> None:
     """
     state.mkdir(parents=True, exist_ok=True, mode=0o700)
     folders = _trusted(state) | {folder.resolve()}
-    write_atomically(state / _FILE, "".join(f"{path}\n" for path in sorted(folders)))
+    # As JSON: a line break in a name must not trust another folder.
+    write_atomically(state / _FILE, "".join(f"{json.dumps(str(path))}\n" for path in sorted(folders)))
 
 
 def contains_code(folder: Path, project: Project, languages: Collection[str] = ("python",)) -> bool:
@@ -46,6 +48,8 @@ def _leads_outside(path: Path, folder: Path) -> bool:
 
 def _trusted(state: Path) -> frozenset[Path]:
     try:
-        return frozenset(map(Path, (state / _FILE).read_text(encoding="utf-8").splitlines()))
-    except (OSError, UnicodeDecodeError):
+        lines = (state / _FILE).read_text(encoding="utf-8").splitlines()
+        # Earlier versions wrote plain paths.
+        return frozenset(Path(json.loads(line)) if line.startswith('"') else Path(line) for line in lines)
+    except (OSError, ValueError):
         return frozenset()
