@@ -12,7 +12,7 @@ import pytest
 
 from tests.cli.command_runner import lamps, vicode
 from vicode.cli.deploy import build_program
-from vicode.cli.project_loader import load_projects
+from vicode.services.project_loader import load_projects
 
 __all__ = ["lamps"]
 

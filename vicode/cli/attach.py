@@ -102,8 +102,8 @@ async def _try(address: "RobotAddress", token: str) -> None:
 
 
 def _edit(args: argparse.Namespace, address: "RobotAddress", token: str) -> int:
-    from vicode.cli.project_loader import require_design_file
     from vicode.editor.serve import choose_address, serve
+    from vicode.services.project_loader import require_design_file
 
     path = Path(args.path)
     path.stat()

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from vicode.cli.bridge_interfaces import design_requirements, design_types, xabsl_requirements
 from vicode.cli.console import print_findings
-from vicode.cli.project_loader import XABSL_SUFFIXES, LoadedProject, load_projects
 from vicode.model.project import BridgeSettings
+from vicode.services.project_loader import XABSL_SUFFIXES, LoadedProject, load_projects
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

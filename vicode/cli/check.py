@@ -4,8 +4,8 @@ import argparse
 from collections.abc import Iterator
 
 from vicode.cli.console import count_findings, print_findings
-from vicode.cli.project_loader import LoadedProject, load_projects
 from vicode.findings import Finding, Severity, render_json
+from vicode.services.project_loader import LoadedProject, load_projects
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

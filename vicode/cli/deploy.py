@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import IO
 
-from vicode.cli.project_loader import LoadedProject
 from vicode.cli.root_selection import select_root
+from vicode.services.project_loader import LoadedProject
 from vicode.store.projects import DEPLOYED_MARKER
 
 _SKIPPED_FOLDERS = frozenset({"__pycache__", "node_modules", "venv", "build", "dist"})

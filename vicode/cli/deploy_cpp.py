@@ -6,7 +6,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from vicode.cli.project_loader import LoadedProject
+from vicode.services.project_loader import LoadedProject
 
 BUILD_SCRIPT = "build.sh"
 _MAIN, _CMAKE = "main.cpp", "CMakeLists.txt"

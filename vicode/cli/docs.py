@@ -12,9 +12,9 @@ from vicode.cli.console import print_findings
 from vicode.cli.docs_output import find_output_problem, find_source_url_problem
 from vicode.cli.docs_record import find_unchanged_build, save_record
 from vicode.cli.ports import port_number
-from vicode.cli.project_loader import DESIGN_SUFFIXES
 from vicode.cli.source_encoding import add_encoding_argument, find_encoding
 from vicode.output import cache_path
+from vicode.services.project_loader import DESIGN_SUFFIXES
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
-from vicode.cli.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES, LoadedProject, load_projects
 from vicode.cli.source_encoding import find_encoding
 from vicode.findings import Finding, Severity
+from vicode.services.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES, LoadedProject, load_projects
 
 if TYPE_CHECKING:
     from vicode.docsite import SiteInput, SourceText

@@ -15,8 +15,8 @@ from vicode.cli.console import describe_os_error, format_findings, print_finding
 from vicode.cli.docs_build import DocsBuilder, DocsBuildResult, describe_build
 from vicode.cli.docs_inputs import LoadedSiteInput, load_site_inputs
 from vicode.cli.progress import progress_bar
-from vicode.cli.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES
 from vicode.docsite.site_server import ReloadBroadcaster, SiteServer
+from vicode.services.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES
 
 _SUFFIXES = (*XABSL_SUFFIXES, *DESIGN_SUFFIXES)
 # Editors write files in several steps.

@@ -37,8 +37,8 @@ def _command(text: str) -> tuple[str, ...]:
 
 def run(args: argparse.Namespace) -> int:
     """Serve the editor until it is stopped."""
-    from vicode.cli.project_loader import require_design_file
     from vicode.editor.serve import choose_address, serve
+    from vicode.services.project_loader import require_design_file
 
     path = Path(args.path)
     path.stat()

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.console import describe_os_error, print_findings
-from vicode.cli.project_loader import LoadedProject, load_projects
 from vicode.findings import Finding, Severity, SourceLocation, get_rule
 from vicode.output import FileDiff, FileStatus, back_up_edited, format_diff
+from vicode.services.project_loader import LoadedProject, load_projects
 
 if TYPE_CHECKING:
     from vicode.model.project import Project

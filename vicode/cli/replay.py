@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from vicode.bica import options
 from vicode.cli.console import print_findings
-from vicode.cli.project_loader import LoadedProject, load_projects
 from vicode.cli.root_selection import find_unsynced_edits
+from vicode.services.project_loader import LoadedProject, load_projects
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -4,8 +4,8 @@ import sys
 from dataclasses import replace
 
 from vicode.cli.console import print_findings
-from vicode.cli.project_loader import LoadedProject, load_projects
 from vicode.findings import Finding
+from vicode.services.project_loader import LoadedProject, load_projects
 
 _UNPROVIDED = ("P209", "P210")
 """Rules about components whose outputs nothing provides during the run."""

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
-from vicode.cli.project_loader import LoadedProject
 from vicode.cli.root_selection import select_root
+from vicode.services.project_loader import LoadedProject
 
 if TYPE_CHECKING:
     from vicode.cli.trace_output import TracePrinter

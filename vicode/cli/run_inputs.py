@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from vicode.cli.project_loader import LoadedProject
+from vicode.services.project_loader import LoadedProject
 
 _WITHOUT_EFFECT = {"world": "--world", "reload": "--reload"}
 

@@ -12,7 +12,7 @@ from vicode.cli.gen import (
     require_known_items,
     write_plan,
 )
-from vicode.cli.project_loader import LoadedProject
+from vicode.services.project_loader import LoadedProject
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

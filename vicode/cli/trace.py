@@ -138,7 +138,7 @@ def _read_runs(paths: Sequence[str]) -> "list[RunHistory]":
 
 
 def _find_designs(path: str, components: Sequence[str]) -> "dict[str, Design]":
-    from vicode.cli.project_loader import load_projects
+    from vicode.services.project_loader import load_projects
 
     found: dict[str, Design] = {}
     for opened in load_projects([path]):
