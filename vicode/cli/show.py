@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from vicode.cli.revision_search import FoundDesign
+    from vicode.services.design_diff.revision_search import FoundDesign
 
 _HASH = re.compile(r"[0-9a-f]{6,12}\Z")
 
@@ -55,8 +55,8 @@ def _read_trace(file: Path) -> str:
 
 def _search(path: Path, wanted: str) -> "FoundDesign | None":
     """The design in the work tree, or else in the newest revision."""
-    from vicode.cli.revision_search import find_in_folder, search_revisions
     from vicode.git import find_repository
+    from vicode.services.design_diff.revision_search import find_in_folder, search_revisions
 
     repository = find_repository(path)
     folder = repository.relative(path)

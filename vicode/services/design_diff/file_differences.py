@@ -2,7 +2,6 @@
 
 from dataclasses import asdict, dataclass
 
-from vicode.cli.diff_inputs import FileVersion, VersionPair
 from vicode.findings import Finding
 from vicode.model.design import Design
 from vicode.model.diff import (
@@ -15,6 +14,7 @@ from vicode.model.diff import (
     diff_unread,
 )
 from vicode.model.project import Project
+from vicode.services.design_diff.file_pairs import FileVersion, VersionPair
 from vicode.store import UnreadMember, is_project_text, list_unread, read_design, read_project_file
 
 _SAME_MEANING = "  only comments or the form of the file differ"

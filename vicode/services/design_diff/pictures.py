@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 
-from vicode.cli.file_differences import FileDifference
 from vicode.diagram.diff_diagram import DARK_DIFF, LIGHT_DIFF, css_variable_diff, diff_variables, render_diff
 from vicode.diagram.svg import write_svg
 from vicode.model.design import Design
 from vicode.model.diff import ChangeKind, changed_lines, describe_change
+from vicode.services.design_diff.file_differences import FileDifference
 from vicode.templating import render
 
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 from tests.cli.git_folder import commit, git, init
-from vicode.editor.session.revisions import compare_with_revision, list_revisions
 from vicode.git import GitError
 from vicode.model.design import Design
+from vicode.services.design_diff.revisions import compare_with_revision, list_revisions
 from vicode.store import read_design
 
 TEXT = "vicode: 1\ncomponent: Wave\ninitial: Up\nstates:\n  Up:\n    doc: up\n  Down:\n    doc: down\n    at: [0, 0]\n"
