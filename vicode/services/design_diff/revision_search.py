@@ -1,10 +1,11 @@
 """Searches the revisions of a repository for the design with a hash."""
 
+import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from vicode.git import Commit, Repository
+from vicode.git import Commit, Repository, find_repository
 from vicode.model.design_hash import hash_design
 from vicode.store import find_projects, open_project
 
@@ -19,6 +20,18 @@ class FoundDesign:
     path: str
     texts: dict[str, str]
     commit: Commit | None
+
+
+def find_design(path: Path, wanted: str) -> FoundDesign | None:
+    """The design at or below a path whose hash starts with `wanted`: of the newest revision, or else of the work tree.
+
+    Raises:
+        GitError: The path is in no repository.
+    """
+    repository = find_repository(path)
+    with tempfile.TemporaryDirectory(prefix="vicode-show-") as copy:
+        found = next(search_revisions(repository, repository.relative(path), wanted, Path(copy)), None)
+    return found or find_in_folder(path, repository.root, wanted, None)
 
 
 def find_in_folder(folder: Path, root: Path, wanted: str, commit: Commit | None) -> FoundDesign | None:
