@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from vicode.diagram.layered_layout import complete_layout, note_position
-from vicode.editor.session import texts
+from vicode.editor.session import messages, texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.edits import EditResult
 from vicode.editor.view import ItemKind, ItemRef
@@ -131,7 +131,7 @@ def _read_part(text: str) -> Design | str:
     wrong = [state.name for state in design.states if not is_valid_state_name(state.name)]
     wrong += [use.alias for use in design.uses if not is_valid_name(use.alias)]
     if wrong:
-        return f"{texts.NOTHING_TO_PASTE}: {texts.invalid_name(wrong[0])}"
+        return f"{texts.NOTHING_TO_PASTE}: {messages.invalid_name(wrong[0])}"
     return design if design.states or design.common.transitions or design.notes else texts.NOTHING_TO_PASTE
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from vicode.editor.session import texts
+from vicode.editor.session import messages, texts
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import DocumentSession, FileTransaction
 from vicode.editor.session.interface_edits import shared_names
@@ -156,7 +156,7 @@ def edit_project_file(
     """
     file = find_project_file(workspace.folder)
     if file is not None and is_read_only(file):
-        return ProjectEditResult(error=texts.read_only([file.name]))
+        return ProjectEditResult(error=messages.read_only([file.name]))
     known = workspace.project
     content = file.read_bytes() if file else b""
     read = read_project_file(content, file.name) if file else None
@@ -166,7 +166,7 @@ def edit_project_file(
     old = content.decode("utf-8") if file else None
     project = replace(project, designs=known.designs)
     if node is not None and node.names(project) != node.names(known):
-        return ProjectEditResult(error=texts.changed_on_disk("project.yaml"))
+        return ProjectEditResult(error=messages.changed_on_disk("project.yaml"))
     changed = change(project)
     error = "" if allow_errors else describe_new_errors(project, changed, ())
     if error:
@@ -174,7 +174,7 @@ def edit_project_file(
     try:
         new = save_project_file(changed, old or "")
     except ValueError as reason:
-        return ProjectEditResult(error=texts.not_representable(reason))
+        return ProjectEditResult(error=messages.not_representable(reason))
     if new == old:
         return ProjectEditResult()
     _write_or_remove(workspace, file, new, old)

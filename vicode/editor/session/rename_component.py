@@ -1,22 +1,17 @@
 """Renames a component with all references in its project: first a plan, then the files are written."""
 
-from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from vicode.editor.session import texts
-from vicode.editor.session.document import FileTransaction
-from vicode.editor.session.presence import DISK_USER
+from vicode.editor.session import messages
+from vicode.editor.session.project_files import ProjectFiles, validate_writable
 from vicode.editor.session.rename_symbol_xabsl import rename_in_xabsl
-from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Design
 from vicode.model.names import is_valid_name, snake_case
 from vicode.model.project import Project
 from vicode.store import (
     find_project_file,
-    is_read_only,
     read_project_file,
-    replace_text,
     save_design,
     save_project_file,
 )
@@ -47,58 +42,37 @@ class ComponentRenamePlan:
     error: str = ""
 
 
-def plan_component_rename(workspace: Workspace, old: str, new: str) -> ComponentRenamePlan:
+def plan_component_rename(project_files: ProjectFiles, old: str, new: str) -> ComponentRenamePlan:
     """Plan the rename of a component; no file is written."""
-    project = workspace.project
-    error = _validate_name(workspace, old, new)
+    project = project_files.project
+    error = _validate_name(project_files, old, new)
     renamed = {} if error else _renamed(project, old, new)
     touched = [name for name, design in renamed.items() if project.design(name) != design]
-    error = error or validate_writable(workspace, touched)
-    file = workspace.files.get(old)
+    error = error or validate_writable(project_files, touched)
+    file = project_files.files.get(old)
     design = project.design(old)
     if error or file is None or design is None:
-        return ComponentRenamePlan(old=old, new=new, error=error or texts.no_design(old))
+        return ComponentRenamePlan(old=old, new=new, error=error or messages.no_design(old))
     target = file.with_name(f"{snake_case(new)}{file.suffix}")
     is_moved = target.resolve() != file.resolve()
     if is_moved and target.exists():
-        return ComponentRenamePlan(old=old, new=new, error=texts.file_exists(target.name))
+        return ComponentRenamePlan(old=old, new=new, error=messages.file_exists(target.name))
     try:
         own = _own_change(renamed[old], file, target if is_moved else file, (old, new))
-        users = [_user_change(renamed[name], workspace.files[name], new) for name in touched if name != old]
-        project_change = _project_change(workspace.folder, (old, new))
+        users = [_user_change(renamed[name], project_files.files[name], new) for name in touched if name != old]
+        project_change = _project_change(project_files.folder, (old, new))
     except ValueError as reason:
-        return ComponentRenamePlan(old=old, new=new, error=texts.not_representable(reason))
+        return ComponentRenamePlan(old=old, new=new, error=messages.not_representable(reason))
     changes = (own, *users, *([project_change] if project_change else []))
     return ComponentRenamePlan(old=old, new=new, changes=changes, removed=file if is_moved else None)
 
 
-def apply_component_rename(workspace: Workspace, plan: ComponentRenamePlan) -> str:
-    """Execute a plan; returns an error message if the files have changed since it was made.
-
-    Raises:
-        OSError: A file cannot be written; files written before keep their new text, and the old design is kept.
-    """
-    current = plan_component_rename(workspace, plan.old, plan.new)
-    if current != plan:
-        return current.error or texts.PLAN_OUTDATED
-    for change in plan.changes:
-        replace_text(change.file, change.old, change.new)
-    if plan.removed is not None:
-        plan.removed.unlink()
-    workspace.drop_document(plan.old, renamed_to=plan.new)
-    files = frozenset(change.file for change in plan.changes)
-    workspace.sync_from_disk(
-        FileTransaction(files=files, label=texts.rename(f"component {plan.old}", plan.new), user_id=DISK_USER)
-    )
-    return ""
-
-
-def _validate_name(workspace: Workspace, old: str, new: str) -> str:
+def _validate_name(project_files: ProjectFiles, old: str, new: str) -> str:
     if not is_valid_name(new):
-        return texts.invalid_component_name(new)
+        return messages.invalid_component_name(new)
     if new == old:
-        return texts.NAME_UNCHANGED
-    return texts.name_exists("component", new) if workspace.project.interface(new) is not None else ""
+        return messages.NAME_UNCHANGED
+    return messages.name_exists("component", new) if project_files.project.interface(new) is not None else ""
 
 
 def _renamed(project: Project, old: str, new: str) -> dict[str, Design]:
@@ -113,33 +87,20 @@ def _renamed(project: Project, old: str, new: str) -> dict[str, Design]:
     return {before.component: now for before, now in zip(project.designs, after.designs, strict=True)}
 
 
-def validate_writable(workspace: Workspace, components: Collection[str]) -> str:
-    """An error message if the files of designs cannot be written, else an empty string."""
-    unsaved = sorted(set(components) & set(workspace.unsaved_components))
-    if unsaved:
-        return texts.unsaved_changes(unsaved)
-    names = sorted(components)
-    locked = [workspace.files[name].name for name in names if is_read_only(workspace.files[name])]
-    if locked:
-        return texts.read_only(locked)
-    stale = [name for name in names if not workspace.is_file_unchanged(name)]
-    return texts.changed_on_disk(workspace.files[stale[0]].name) if stale else ""
-
-
 def _own_change(design: Design, file: Path, target: Path, names: tuple[str, str]) -> FileChange:
     text = _read(file)
     new = save_design(design, text)
-    summary = texts.component_summary(*names)
+    summary = messages.component_summary(*names)
     if target == file:
         return FileChange(file=file, old=text, new=new, summary=summary)
-    summary = f"{summary}; {texts.file_summary(file.name, target.name)}"
+    summary = f"{summary}; {messages.file_summary(file.name, target.name)}"
     return FileChange(file=target, old=None, new=new, summary=summary)
 
 
 def _user_change(design: Design, file: Path, new: str) -> FileChange:
     aliases = [use.alias for use in design.uses if use.component == new]
     text = _read(file)
-    summary = texts.user_summary(design.component, new, aliases)
+    summary = messages.user_summary(design.component, new, aliases)
     return FileChange(file=file, old=text, new=save_design(design, text), summary=summary)
 
 
@@ -155,7 +116,7 @@ def _project_change(folder: Path, names: tuple[str, str]) -> FileChange | None:
         return None
     renamed = tuple(replace(agent, root=new) if agent.root == old else agent for agent in project.agents)
     changed = save_project_file(replace(project, agents=renamed), text)
-    return FileChange(file=file, old=text, new=changed, summary=texts.agent_summary(agents, new))
+    return FileChange(file=file, old=text, new=changed, summary=messages.agent_summary(agents, new))
 
 
 def _read(file: Path) -> str:

@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from vicode.editor.session import texts
-from vicode.editor.session.edits import state_name_error
-from vicode.editor.session.rename_component import FileChange, plan_component_rename, validate_writable
+from vicode.editor.session import messages
+from vicode.editor.session.name_errors import state_name_error
+from vicode.editor.session.project_files import ProjectFiles, validate_writable
+from vicode.editor.session.rename_component import FileChange, plan_component_rename
 from vicode.editor.session.rename_modules import plan_module_renames
 from vicode.editor.session.rename_symbol import plan_symbol_rename
-from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Design
 from vicode.model.edits import rename_state
 from vicode.model.rename import SymbolRef
@@ -29,28 +29,28 @@ class FileRenamePlan:
     notes: tuple[str, ...] = ()
 
 
-def plan_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> FileRenamePlan:
+def plan_rename(project_files: ProjectFiles, symbol: SymbolRef, new: str) -> FileRenamePlan:
     """Plan the rename of a symbol, a state or a component; no file is written.
 
     Raises:
         ValueError: A file has content that the rename would lose.
     """
-    broken = workspace.broken_file_names
+    broken = project_files.broken_file_names
     if broken:
         return FileRenamePlan(error=f"{broken[0]} cannot be read; correct it first, as it may contain the name")
-    design = workspace.project.design(symbol.component or symbol.name)
+    design = project_files.project.design(symbol.component or symbol.name)
     if symbol.section == "components" and design is not None:
-        plan = plan_component_rename(workspace, symbol.name, new)
-        places = plan_module_renames(workspace.folder, workspace.project, symbol, new).remaining
+        plan = plan_component_rename(project_files, symbol.name, new)
+        places = plan_module_renames(project_files.folder, project_files.project, symbol, new).remaining
         return FileRenamePlan(changes=plan.changes, removed=plan.removed, error=plan.error, notes=_notes(places))
     if symbol.section == "states":
         assert design is not None
         error = state_name_error(new, {state.name for state in design.states})
-        error = error or validate_writable(workspace, [design.component])
-        changes = () if error else _design_changes(workspace, rename_state(design, symbol.name, new))
+        error = error or validate_writable(project_files, [design.component])
+        changes = () if error else _design_changes(project_files, rename_state(design, symbol.name, new))
         return FileRenamePlan(changes=changes, error=error)
-    found = plan_symbol_rename(workspace, symbol, new)
-    changes = found.changes if found.design is None else _design_changes(workspace, found.design)
+    found = plan_symbol_rename(project_files, symbol, new)
+    changes = found.changes if found.design is None else _design_changes(project_files, found.design)
     notes = (*_notes(found.ambiguous_places), *((found.note,) if found.note else ()))
     return FileRenamePlan(changes=changes, error=found.error, notes=notes)
 
@@ -85,8 +85,8 @@ def _restore(written: Sequence[FileChange]) -> None:
             replace_text(change.file, change.new, change.old)
 
 
-def _design_changes(workspace: Workspace, design: Design) -> tuple[FileChange, ...]:
-    file = workspace.files[design.component]
+def _design_changes(project_files: ProjectFiles, design: Design) -> tuple[FileChange, ...]:
+    file = project_files.files[design.component]
     text = file.read_bytes().decode("utf-8")
-    summary = texts.line_summary(design.component, 0)
+    summary = messages.line_summary(design.component, 0)
     return (FileChange(file=file, old=text, new=save_design(design, text), summary=summary),)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from vicode.editor.session import texts
+from vicode.editor.session import messages
 from vicode.editor.session.rename_component import FileChange
 from vicode.model.names import package_name
 from vicode.model.project import Project
@@ -52,7 +52,7 @@ def plan_module_renames(folder: Path, project: Project, symbol: SymbolRef, new: 
         if renamed != text:
             before, after = text.splitlines(), renamed.splitlines()
             count = sum(old != now for old, now in zip(before, after, strict=True))
-            changes.append(FileChange(file=file, old=text, new=renamed, summary=texts.line_summary(shown, count)))
+            changes.append(FileChange(file=file, old=text, new=renamed, summary=messages.line_summary(shown, count)))
         remaining += [f"{shown}:{line}" for line in find_unrenamed_lines(renamed, rename)]
     locked = tuple(change.file.name for change in changes if is_read_only(change.file))
     return ModuleRenames(changes=tuple(changes), remaining=tuple(remaining), locked=locked)

@@ -7,16 +7,14 @@ from difflib import SequenceMatcher
 from pathlib import Path
 
 from vicode.check import check_project
-from vicode.editor.session import texts
-from vicode.editor.session.descriptions import error_reason
-from vicode.editor.session.document import DocumentSession, FileTransaction
-from vicode.editor.session.rename_component import FileChange, validate_writable
+from vicode.editor.session import messages
+from vicode.editor.session.name_errors import validate_identifier
+from vicode.editor.session.project_files import ProjectFiles, validate_writable
+from vicode.editor.session.rename_component import FileChange
 from vicode.editor.session.rename_modules import plan_module_renames
 from vicode.editor.session.rename_symbol_xabsl import collect_xabsl_renames, count_names_in_xabsl, rename_in_xabsl
-from vicode.editor.session.workspace import Workspace
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
-from vicode.model.names import is_valid_name
 from vicode.model.paths import describe_path
 from vicode.model.project import Project
 from vicode.model.rename import ReferenceKind, ReferenceRename, SymbolRef, is_declared, rename_symbol, sibling_names
@@ -27,7 +25,6 @@ from vicode.store import (
     find_project_file,
     is_read_only,
     read_project_file,
-    replace_text,
     save_design,
     save_project_file,
 )
@@ -60,22 +57,14 @@ def describe_symbol(symbol: SymbolRef) -> str:
     return f"{_kind(symbol)} {symbol.name}"
 
 
-def validate_identifier(name: str) -> str:
-    """An error message if a text is not a valid name, else an empty string."""
-    wanted = name.strip()
-    if not wanted:
-        return texts.NAME_MISSING
-    return "" if is_valid_name(wanted) else texts.invalid_identifier(wanted)
-
-
-def plan_symbol_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> SymbolRenamePlan:
+def plan_symbol_rename(project_files: ProjectFiles, symbol: SymbolRef, new: str) -> SymbolRenamePlan:
     """Plan the rename of a symbol; nothing is changed."""
-    project = workspace.project
+    project = project_files.project
     error = _validate_name(project, symbol, new)
     if error:
         return SymbolRenamePlan(symbol=symbol, new=new, error=error)
     renamed = rename_in_xabsl(project, rename_symbol(project, symbol, new))
-    modules = plan_module_renames(workspace.folder, project, symbol, new)
+    modules = plan_module_renames(project_files.folder, project, symbol, new)
     ambiguous = (*_find_ambiguous_uses(project, renamed, symbol), *modules.remaining)
     touched = [design.component for design in renamed.designs if project.design(design.component) != design]
     is_shared = any(getattr(renamed, section) != getattr(project, section) for section in _PROJECT_SECTIONS)
@@ -85,12 +74,12 @@ def plan_symbol_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> Sym
         return SymbolRenamePlan(
             symbol=symbol, new=new, design=renamed.design(symbol.component), ambiguous_places=ambiguous
         )
-    file = find_project_file(workspace.folder) if is_shared else None
-    error = error or validate_writable(workspace, touched) or _validate_project_file(project, file)
-    error = error or (texts.read_only(modules.locked) if modules.locked else "")
+    file = find_project_file(project_files.folder) if is_shared else None
+    error = error or validate_writable(project_files, touched) or _validate_project_file(project, file)
+    error = error or (messages.read_only(modules.locked) if modules.locked else "")
     if error or (is_shared and file is None):
-        return SymbolRenamePlan(symbol=symbol, new=new, error=error or texts.PROJECT_FILE_MISSING)
-    changes = [_design_change(workspace, design) for design in renamed.designs if design.component in touched]
+        return SymbolRenamePlan(symbol=symbol, new=new, error=error or messages.PROJECT_FILE_MISSING)
+    changes = [_design_change(project_files, design) for design in renamed.designs if design.component in touched]
     if file is not None:
         changes.append(_project_change(file, renamed))
     changes += modules.changes
@@ -102,85 +91,6 @@ def plan_symbol_rename(workspace: Workspace, symbol: SymbolRef, new: str) -> Sym
     return replace(plan, is_declaration_only=is_alone)
 
 
-def apply_symbol_rename(workspace: Workspace, plan: SymbolRenamePlan, user_id: str = "") -> str:
-    """Execute a plan; returns an error message if the files have changed since it was made.
-
-    Raises:
-        OSError: A file cannot be written; files written before are restored.
-    """
-    current = plan_symbol_rename(workspace, plan.symbol, plan.new)
-    if current != plan:
-        return current.error or texts.PLAN_OUTDATED
-    edit = RenameEdit(workspace=workspace, symbol=plan.symbol, new=plan.new)
-    transaction = FileTransaction(files=_files_of(plan), label=edit.label, user_id=user_id, compound=edit)
-    _write_all(workspace, plan, transaction)
-    return ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RenameEdit:
-    """A rename in several files; undo in the history of any of the designs reverts it in all files."""
-
-    workspace: Workspace
-    symbol: SymbolRef
-    new: str
-
-    @property
-    def label(self) -> str:
-        return texts.rename(self.symbol.name, self.new)
-
-    def undo(self, user_id: str) -> str:
-        plan = plan_symbol_rename(self.workspace, replace(self.symbol, name=self.new), self.symbol.name)
-        files, label = _files_of(plan), texts.undo_label(self.label)
-        return self._apply(plan, FileTransaction(files=files, label=label, user_id=user_id, undone_edit=self))
-
-    def redo(self, user_id: str) -> str:
-        plan = plan_symbol_rename(self.workspace, self.symbol, self.new)
-        files, label = _files_of(plan), texts.redo_label(self.label)
-        return self._apply(plan, FileTransaction(files=files, label=label, user_id=user_id, compound=self))
-
-    def _apply(self, plan: SymbolRenamePlan, transaction: FileTransaction) -> str:
-        if plan.error:
-            return plan.error[:1].upper() + plan.error[1:]
-        document = self.workspace.open_document(self.symbol.component)
-        if plan.design is not None and document is not None:
-            # Only this design still refers to the symbol.
-            DocumentSession(document.shared, transaction.user_id).apply_transaction(transaction, plan.design)
-            return ""
-        try:
-            _write_all(self.workspace, plan, transaction)
-        except (OSError, ValueError) as error:
-            return texts.not_done(error_reason(error))
-        return ""
-
-
-def _files_of(plan: SymbolRenamePlan) -> frozenset[Path]:
-    return frozenset(change.file for change in plan.changes)
-
-
-def _write_all(workspace: Workspace, plan: SymbolRenamePlan, transaction: FileTransaction) -> None:
-    """Write all files of a plan or none, synchronize the open designs, and notify their users."""
-    written: list[FileChange] = []
-    try:
-        for change in plan.changes:
-            replace_text(change.file, change.old, change.new)
-            written.append(change)
-    except OSError:
-        for change in written:
-            replace_text(change.file, change.new, change.old or "")
-        raise
-    finally:
-        workspace.sync_from_disk(transaction)
-    user = workspace.users.name_of(transaction.user_id) if transaction.user_id else "Someone"
-    notice = texts.user_renamed(user, describe_symbol(plan.symbol), plan.new, len(transaction.files))
-    for document in workspace.documents:
-        session = DocumentSession(document.shared, transaction.user_id)
-        if document.file in transaction.files:
-            session.post_notice(notice)
-        # The form of every design shows the declarations of the project.
-        document.shared.changes.notify(session)
-
-
 def _kind(symbol: SymbolRef) -> str:
     return _KINDS.get(symbol.section, symbol.section.removesuffix("s"))
 
@@ -190,11 +100,11 @@ def _validate_name(project: Project, symbol: SymbolRef, new: str) -> str:
     if invalid:
         return invalid
     if not is_declared(project, symbol):
-        return texts.symbol_gone(describe_symbol(symbol))
+        return messages.symbol_gone(describe_symbol(symbol))
     if new in sibling_names(project, symbol):
-        return texts.name_exists(_kind(symbol), new)
+        return messages.name_exists(_kind(symbol), new)
     if symbol.section == "components" and project.interface(new) is not None:
-        return texts.name_exists("component", new)
+        return messages.name_exists("component", new)
     return ""
 
 
@@ -210,7 +120,7 @@ def _validate_code(project: Project, symbol: SymbolRef, new: str) -> str:
     ):
         code = ((located.code.in_language(language) or "", located.role) for located in iter_code(design))
         if any(has_reference(text, role, reference) for text, role in code):
-            return texts.name_used_in_code(symbol.component, f"{prefix}{new}")
+            return messages.name_used_in_code(symbol.component, f"{prefix}{new}")
     return ""
 
 
@@ -237,19 +147,19 @@ def _validate_project_file(project: Project, file: Path | None) -> str:
     if file is None:
         return ""
     if is_read_only(file):
-        return texts.read_only([file.name])
+        return messages.read_only([file.name])
     read = read_project_file(_read(file), str(file)).project
     if read is None or any(getattr(read, section) != getattr(project, section) for section in _PROJECT_SECTIONS):
-        return texts.changed_or_unreadable(file.name)
+        return messages.changed_or_unreadable(file.name)
     return ""
 
 
-def _design_change(workspace: Workspace, design: Design) -> FileChange:
-    file = workspace.files[design.component]
+def _design_change(project_files: ProjectFiles, design: Design) -> FileChange:
+    file = project_files.files[design.component]
     text = _read(file)
     new = save_design(design, text)
     return FileChange(
-        file=file, old=text, new=new, summary=texts.line_summary(design.component, _changed_lines(text, new))
+        file=file, old=text, new=new, summary=messages.line_summary(design.component, _changed_lines(text, new))
     )
 
 
@@ -265,7 +175,7 @@ def _project_change(file: Path, renamed: Project) -> FileChange:
         agents=renamed.agents,
     )
     new = save_project_file(changed, text)
-    return FileChange(file=file, old=text, new=new, summary=texts.line_summary(file.name, _changed_lines(text, new)))
+    return FileChange(file=file, old=text, new=new, summary=messages.line_summary(file.name, _changed_lines(text, new)))
 
 
 def _changed_lines(old: str, new: str) -> int:
@@ -298,8 +208,8 @@ def _manual_step(project: Project, symbol: SymbolRef) -> str:
     if interface is None or ":" not in interface.implementation:
         return ""
     if symbol.section == "components":
-        return texts.class_keeps_name(interface.implementation)
-    return texts.rename_in_class(interface.implementation)
+        return messages.class_keeps_name(interface.implementation)
+    return messages.rename_in_class(interface.implementation)
 
 
 def _read(file: Path) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from vicode.editor.session import number_text, texts
+from vicode.editor.session import messages, number_text, texts
 from vicode.editor.session.forms.pairs import find_error, find_lost_pairs, format_pairs, parse_pairs
 from vicode.findings import DesignPath
 from vicode.languages import LANGUAGES
@@ -180,7 +180,7 @@ _DESIGN: Mapping[DesignPath, FormField] = {
 
 def _validate_name(text: str) -> str:
     name = text.strip()
-    return ("" if is_valid_name(name) else texts.invalid_identifier(name)) if name else texts.NAME_MISSING
+    return ("" if is_valid_name(name) else messages.invalid_identifier(name)) if name else messages.NAME_MISSING
 
 
 _PROJECT: Mapping[DesignPath, FormField] = {
