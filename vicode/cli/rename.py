@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from vicode.editor.session.project_files import FilesOnDisk
-    from vicode.editor.session.rename_files import FileRenamePlan
     from vicode.model.rename import SymbolRef
+    from vicode.services.rename.files import FileRenamePlan
+    from vicode.services.rename.project_files import FilesOnDisk
 
 _KINDS = {
     "component": "components",
@@ -47,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Rename in all files or none; return 1 if the rename is refused."""
-    from vicode.editor.session.rename_files import apply_rename, plan_rename
+    from vicode.services.rename.files import apply_rename, plan_rename
 
     found = _find(args)
     if found is None:
@@ -74,9 +74,9 @@ def run(args: argparse.Namespace) -> int:
 
 def _find(args: argparse.Namespace) -> "tuple[FilesOnDisk, SymbolRef] | None":
     """The only symbol with the name and its project; otherwise, print why there is none."""
-    from vicode.editor.session.project_files import FilesOnDisk
     from vicode.findings import did_you_mean
     from vicode.model.rename import find_symbols, list_names
+    from vicode.services.rename.project_files import FilesOnDisk
     from vicode.store import find_projects, open_project
 
     projects = [FilesOnDisk(opened=open_project(folder)) for folder in find_projects(Path(args.path))]

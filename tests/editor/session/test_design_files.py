@@ -6,9 +6,10 @@ import pytest
 
 from tests.editor.session.conftest import texts_of
 from vicode.check import check_project
-from vicode.editor.session import Library, Workspace, rename_component, renames, templates, trash
+from vicode.editor.session import Library, Workspace, renames, templates, trash
 from vicode.editor.session.overview import ProjectOverview
 from vicode.findings import Severity
+from vicode.services.rename import component as rename_component
 from vicode.store import open_project
 
 

@@ -9,10 +9,11 @@ from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.open_design import open_design
 from vicode.editor.panels.widgets import primary_button
-from vicode.editor.session import Workspace, rename_component, renames, templates, trash
+from vicode.editor.session import Workspace, renames, templates, trash
 from vicode.editor.session.workspace import TrashedDesign
 from vicode.editor.view.page_urls import design_url
 from vicode.model.names import is_valid_name, name_from_text
+from vicode.services.rename import component as rename_component
 
 ShowToast = Callable[[str, str], None]
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from vicode.diagram.layered_layout import complete_layout, note_position
-from vicode.editor.session import messages, texts
+from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.edits import EditResult
 from vicode.editor.view import ItemKind, ItemRef
@@ -27,6 +27,7 @@ from vicode.model.fragments import (
 )
 from vicode.model.names import is_valid_name, is_valid_state_name
 from vicode.model.traversal import find_decision
+from vicode.services import messages
 from vicode.store import read_design, save_design
 
 MAX_CHARACTERS = 400_000

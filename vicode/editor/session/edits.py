@@ -5,10 +5,10 @@ from typing import Annotated, ClassVar, Protocol
 
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.name_errors import state_name_error
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design, Guard, Point, State
 from vicode.model.edits import add_state, add_transition, unique_name
+from vicode.services.rename.name_errors import state_name_error
 
 _MAX_COORDINATE = 1_000_000
 

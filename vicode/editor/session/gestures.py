@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import ClassVar, Literal
 
 from vicode.diagram.layered_layout import NodeLayout
-from vicode.editor.session import messages, texts
+from vicode.editor.session import texts
 from vicode.editor.session.clipboard import DuplicateGesture
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.edits import (
@@ -19,7 +19,6 @@ from vicode.editor.session.edits import (
     naming_key,
     require_state,
 )
-from vicode.editor.session.name_errors import state_name_error
 from vicode.editor.session.transition_gestures import (
     ConnectGesture,
     GuardGesture,
@@ -47,6 +46,8 @@ from vicode.model.edits import (
 )
 from vicode.model.names import MAX_NAME_LENGTH, is_valid_name
 from vicode.model.traversal import find_decision
+from vicode.services import messages
+from vicode.services.rename.name_errors import state_name_error
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

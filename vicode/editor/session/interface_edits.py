@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from vicode.editor.session import messages
 from vicode.model.design import Declaration, Design, Use
 from vicode.model.edits import unique_name
 from vicode.model.expressions import BOOL, FLOAT, INT
 from vicode.model.names import is_valid_name, snake_case
 from vicode.model.project import MISSING, Interface, Project
+from vicode.services import messages
 
 _SENSORS = "Sensors"
 

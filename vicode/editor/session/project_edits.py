@@ -6,18 +6,19 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from vicode.editor.session import messages, texts
+from vicode.editor.session import texts
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import DocumentSession, FileTransaction
 from vicode.editor.session.interface_edits import shared_names
 from vicode.editor.session.presence import DISK_USER
 from vicode.editor.session.project_paths import ProjectNodePath
-from vicode.editor.session.rename_symbol import describe_new_errors, find_errors
 from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Declaration, Design
 from vicode.model.edits import unique_name
 from vicode.model.merge import merge_designs, merge_lines
 from vicode.model.project import Agent, Enumeration, Interface, Project
+from vicode.services import messages
+from vicode.services.rename.symbol import describe_new_errors, find_errors
 from vicode.store import (
     ProjectReadResult,
     find_project_file,

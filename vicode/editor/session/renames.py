@@ -3,14 +3,15 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from vicode.editor.session import messages, texts
+from vicode.editor.session import texts
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import DocumentSession, FileTransaction
 from vicode.editor.session.presence import DISK_USER
-from vicode.editor.session.rename_component import ComponentRenamePlan, FileChange, plan_component_rename
-from vicode.editor.session.rename_symbol import SymbolRenamePlan, describe_symbol, plan_symbol_rename
 from vicode.editor.session.workspace import Workspace
 from vicode.model.rename import SymbolRef
+from vicode.services import messages
+from vicode.services.rename.component import ComponentRenamePlan, FileChange, plan_component_rename
+from vicode.services.rename.symbol import SymbolRenamePlan, describe_symbol, plan_symbol_rename
 from vicode.store import replace_text
 
 

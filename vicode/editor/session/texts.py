@@ -6,7 +6,7 @@ do. Notes and announcements are sentences. The labels of quick fixes stand next 
 
 from collections.abc import Collection, Sequence
 
-from vicode.editor.session.messages import invalid_name, quoted
+from vicode.services.messages import invalid_name, quoted
 
 _COLUMNS = {"name": "target", "when": "guard", "doc": "description"}
 

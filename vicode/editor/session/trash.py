@@ -2,10 +2,11 @@
 
 from dataclasses import replace
 
-from vicode.editor.session import messages, texts
+from vicode.editor.session import texts
 from vicode.editor.session.workspace import TrashedDesign, Workspace
 from vicode.model.edits import unique_name
 from vicode.model.names import is_valid_name, snake_case
+from vicode.services import messages
 from vicode.store import save_design, write_text
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from vicode.editor.session import messages, number_text, texts
+from vicode.editor.session import number_text, texts
 from vicode.editor.session.forms.pairs import find_error, find_lost_pairs, format_pairs, parse_pairs
 from vicode.findings import DesignPath
 from vicode.languages import LANGUAGES
@@ -26,6 +26,7 @@ from vicode.model.design import (
 )
 from vicode.model.names import is_valid_name
 from vicode.model.project import Agent, Enumeration, Interface, Project
+from vicode.services import messages
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,12 +4,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from vicode.editor.session import messages
-from vicode.editor.session.rename_component import FileChange
 from vicode.model.names import package_name
 from vicode.model.project import Project
 from vicode.model.rename import ReferenceKind, ReferenceRename, SymbolRef
 from vicode.model.rename.modules import find_unrenamed_lines, rename_in_module
+from vicode.services import messages
+from vicode.services.rename.component import FileChange
 from vicode.store import is_read_only
 
 _KINDS = {

@@ -4,15 +4,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from vicode.editor.session import messages
-from vicode.editor.session.name_errors import state_name_error
-from vicode.editor.session.project_files import ProjectFiles, validate_writable
-from vicode.editor.session.rename_component import FileChange, plan_component_rename
-from vicode.editor.session.rename_modules import plan_module_renames
-from vicode.editor.session.rename_symbol import plan_symbol_rename
 from vicode.model.design import Design
 from vicode.model.edits import rename_state
 from vicode.model.rename import SymbolRef
+from vicode.services import messages
+from vicode.services.rename.component import FileChange, plan_component_rename
+from vicode.services.rename.modules import plan_module_renames
+from vicode.services.rename.name_errors import state_name_error
+from vicode.services.rename.project_files import ProjectFiles, validate_writable
+from vicode.services.rename.symbol import plan_symbol_rename
 from vicode.store import replace_text, save_design
 
 

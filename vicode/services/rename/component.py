@@ -3,12 +3,12 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from vicode.editor.session import messages
-from vicode.editor.session.project_files import ProjectFiles, validate_writable
-from vicode.editor.session.rename_symbol_xabsl import rename_in_xabsl
 from vicode.model.design import Design
 from vicode.model.names import is_valid_name, snake_case
 from vicode.model.project import Project
+from vicode.services import messages
+from vicode.services.rename.project_files import ProjectFiles, validate_writable
+from vicode.services.rename.xabsl import rename_in_xabsl
 from vicode.store import (
     find_project_file,
     read_project_file,

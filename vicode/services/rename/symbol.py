@@ -7,12 +7,6 @@ from difflib import SequenceMatcher
 from pathlib import Path
 
 from vicode.check import check_project
-from vicode.editor.session import messages
-from vicode.editor.session.name_errors import validate_identifier
-from vicode.editor.session.project_files import ProjectFiles, validate_writable
-from vicode.editor.session.rename_component import FileChange
-from vicode.editor.session.rename_modules import plan_module_renames
-from vicode.editor.session.rename_symbol_xabsl import collect_xabsl_renames, count_names_in_xabsl, rename_in_xabsl
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
 from vicode.model.paths import describe_path
@@ -21,6 +15,12 @@ from vicode.model.rename import ReferenceKind, ReferenceRename, SymbolRef, is_de
 from vicode.model.rename.cpp import count_identifier_in_cpp, has_reference_in_cpp
 from vicode.model.rename.python import has_reference_in_python
 from vicode.model.traversal import iter_code
+from vicode.services import messages
+from vicode.services.rename.component import FileChange
+from vicode.services.rename.modules import plan_module_renames
+from vicode.services.rename.name_errors import validate_identifier
+from vicode.services.rename.project_files import ProjectFiles, validate_writable
+from vicode.services.rename.xabsl import collect_xabsl_renames, count_names_in_xabsl, rename_in_xabsl
 from vicode.store import (
     find_project_file,
     is_read_only,

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from vicode.editor.session import messages
 from vicode.model.project import Project
+from vicode.services import messages
 from vicode.store import OpenProject, is_read_only
 
 

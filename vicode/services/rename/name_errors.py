@@ -2,8 +2,8 @@
 
 from collections.abc import Collection
 
-from vicode.editor.session import messages
 from vicode.model.names import is_valid_name, is_valid_state_name
+from vicode.services import messages
 
 
 def state_name_error(name: str, taken: Collection[str]) -> str:
