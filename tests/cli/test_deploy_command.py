@@ -1,6 +1,5 @@
 """vicode deploy: the folder runs on a machine without vicode, and nothing else is ever deleted."""
 
-import argparse
 import os
 import shutil
 import signal
@@ -11,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.cli.command_runner import lamps, vicode
-from vicode.cli.deploy import build_program
-from vicode.services.project_loader import load_projects
+from vicode.deployment.program import ProgramOptions, build_program
+from vicode.store import open_project
 
 __all__ = ["lamps"]
 
@@ -163,8 +162,8 @@ def test_pipes_loops_and_earlier_deployments_are_not_copied(rig: Path, tmp_path:
     ],
 )
 def test_the_unit_names_the_folder_as_systemd_reads_it(rig: Path, tmp_path: Path, target: str, folder: str) -> None:
-    args = argparse.Namespace(to=target, python="python3", arguments="")
-    build_program(load_projects(["lamps/lamp.yaml"])[0], "Lamp", tmp_path / "built", args)
+    options = ProgramOptions(target=target, arguments="")
+    build_program(open_project(Path("lamps")), "Lamp", tmp_path / "built", options)
     unit = (tmp_path / "built/lamps.service").read_text()
     assert f"\nWorkingDirectory={folder}\n" in unit
     assert "\nExecStart=/bin/sh run\n" in unit

@@ -46,12 +46,7 @@ class LoadedProject:
     @property
     def design_paths(self) -> dict[str, str]:
         """The design files by component, relative to the project's folder."""
-        folder = self.open_project.folder.resolve()
-        files = {name: path.resolve() for name, path in self.open_project.files.items() if name}
-        return {
-            name: path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
-            for name, path in files.items()
-        }
+        return self.open_project.design_paths
 
 
 def load_projects(paths: Sequence[str], profile: str = "") -> tuple[LoadedProject, ...]:

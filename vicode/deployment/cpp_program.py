@@ -6,7 +6,9 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from vicode.services.project_loader import LoadedProject
+from vicode.generators import generate
+from vicode.generators.cpp.compiler import find_compiler
+from vicode.store import OpenProject
 
 BUILD_SCRIPT = "build.sh"
 _MAIN, _CMAKE = "main.cpp", "CMakeLists.txt"
@@ -32,16 +34,14 @@ class DeployedCppProgram:
         return f"test -x {program} || ./{BUILD_SCRIPT} || exit 1\nexec {program}"
 
 
-def write_cpp_program(opened: LoadedProject, component: str, folder: Path) -> DeployedCppProgram:
+def write_cpp_program(opened: OpenProject, component: str, folder: Path) -> DeployedCppProgram:
     """Add generated code and build files to a folder with the hand-written files of the project.
 
     Raises:
         OSError: The project has no C++ program.
         UnsoundDesignError: A design cannot be generated.
     """
-    from vicode.generators import generate
-
-    project = opened.open_project.project
+    project = opened.project
     if not (folder / _MAIN).is_file() and not (folder / _CMAKE).is_file():
         raise OSError(f"the project has no {_MAIN} and no {_CMAKE}; docs/cpp.md has a program to start with")
     # The program was written for the code of all designs.
@@ -72,8 +72,6 @@ def build_here(folder: Path) -> bool:
     Raises:
         OSError: The program does not compile.
     """
-    from vicode.conformance.cpp import find_compiler
-
     if shutil.which("cmake") is None or find_compiler() is None:
         return False
     if subprocess.run([folder.resolve() / BUILD_SCRIPT], check=False).returncode:
