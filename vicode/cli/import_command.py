@@ -12,10 +12,10 @@ from vicode.cli.source_encoding import add_encoding_argument, project_encoding
 from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings, print_encoding_doubts
 
 if TYPE_CHECKING:
-    from vicode.cli.import_record import ImportRecord
     from vicode.importers import ImportResult
     from vicode.importers.scxml import ScxmlImport
     from vicode.model.project import Project
+    from vicode.services.imported_behavior.import_record import ImportRecord
     from vicode.xabsl.source_loader import ProgramSource
 
 
@@ -38,9 +38,9 @@ def run(args: argparse.Namespace) -> int:
         return _import_scxml(args)
     if args.event_queue:
         raise OSError("--event-queue is an option of SCXML files")
-    from vicode.cli.import_record import RECORD_FILE, format_record, read_record
     from vicode.findings import Severity
     from vicode.importers import import_behavior, render_robot_class
+    from vicode.services.imported_behavior.import_record import RECORD_FILE, format_record, read_record
     from vicode.store.documents import default_project_name
     from vicode.xabsl.compiler import compile_source
 
@@ -86,10 +86,10 @@ def _design_paths(imported: "ImportResult") -> dict[str, str]:
 def _import_scxml(args: argparse.Namespace) -> int:
     """Write one design; return 1 if the document cannot be expressed, or files would be overwritten."""
     from vicode.cli.console import print_findings
-    from vicode.cli.event_queue import render_event_queue
     from vicode.importers import ImportedDesign, ImportResult
     from vicode.importers.scxml import ScxmlError, import_scxml
     from vicode.model.names import name_from_text, snake_case
+    from vicode.services.imported_behavior.event_queue import render_event_queue
     from vicode.store.documents import default_project_name
 
     component = name_from_text(args.agents.stem) or "Machine"
@@ -137,9 +137,9 @@ def _would_overwrite(args: argparse.Namespace, texts: "dict[str, str]") -> bool:
 
 def _merge(folder: Path, record: "ImportRecord", source: "ProgramSource", name: str | None, encoding: str) -> int:
     """Merge the changes of a behavior since its last import into the designs."""
-    from vicode.cli.import_merge import merge_import
-    from vicode.cli.import_record import RECORD_FILE, format_record
     from vicode.importers import import_behavior
+    from vicode.services.imported_behavior.import_merge import merge_import
+    from vicode.services.imported_behavior.import_record import RECORD_FILE, format_record
     from vicode.store import open_project
     from vicode.transactions import replace_files
     from vicode.xabsl.compiler import compile_source

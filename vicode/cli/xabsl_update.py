@@ -14,10 +14,10 @@ from vicode.cli.source_encoding import add_encoding_argument, project_encoding
 from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings, print_encoding_doubts
 
 if TYPE_CHECKING:
-    from vicode.cli.behavior_update import UpdateProblem
-    from vicode.cli.comment_places import DesignFile
-    from vicode.cli.import_record import ImportRecord
     from vicode.findings import Finding
+    from vicode.services.imported_behavior.behavior_update import UpdateProblem
+    from vicode.services.imported_behavior.comment_places import DesignFile
+    from vicode.services.imported_behavior.import_record import ImportRecord
     from vicode.store import OpenProject
     from vicode.xabsl.patching.program_patch import FileTexts
     from vicode.xabsl.source_loader import ProgramSource
@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the changed files; return 1 if an edit is not written, or with --check or --diff if files differ."""
-    from vicode.cli.import_record import read_record
+    from vicode.services.imported_behavior.import_record import read_record
     from vicode.store import open_project
     from vicode.transactions import complete_interrupted, is_interrupted
     from vicode.xabsl.compiler import compile_source
@@ -77,7 +77,7 @@ def _update(
     source: "ProgramSource",
     read: "ReadText",
 ) -> int:
-    from vicode.cli.behavior_update import EditedProject, update_behavior
+    from vicode.services.imported_behavior.behavior_update import EditedProject, update_behavior
 
     errors = _errors(opened)
     print_findings(errors, to_stderr=True)
@@ -148,7 +148,7 @@ def _paths(opened: "OpenProject") -> dict[str, str]:
 
 
 def _files(opened: "OpenProject") -> "dict[str, DesignFile]":
-    from vicode.cli.comment_places import DesignFile
+    from vicode.services.imported_behavior.comment_places import DesignFile
 
     return {name: DesignFile(path=file.name, text=opened.texts[name]) for name, file in opened.files.items()}
 
@@ -188,8 +188,8 @@ def _write(
     has_comments: bool,
 ) -> None:
     """Write all files or none, then the record of the import."""
-    from vicode.cli.import_record import RECORD_FILE, format_record
     from vicode.output import write_atomically
+    from vicode.services.imported_behavior.import_record import RECORD_FILE, format_record
     from vicode.transactions import replace_files
     from vicode.xabsl.source_loader import load_source
 

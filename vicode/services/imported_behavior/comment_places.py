@@ -5,12 +5,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from vicode.cli.comment_paths import PathMap, map_design, map_project
 from vicode.findings import DesignPath
 from vicode.importers import ImportResult, PlacedComment
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.model.xabsl.names import component_name
+from vicode.services.imported_behavior.comment_paths import PathMap, map_design, map_project
 from vicode.store import CommentedFile
 
 PlaceKey = tuple[str, int]

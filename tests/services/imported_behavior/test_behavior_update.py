@@ -16,9 +16,14 @@ from tests.strategies.commented_behaviors import commented_behaviors
 from tests.strategies.project_edits import Edited, random_edit
 from tests.xabsl.xabsl_cases import CASES, PROGRAMS, load_texts
 from vicode.check import check_project
-from vicode.cli.behavior_update import EditedProject, UpdateProblem, generated_version, update_behavior
 from vicode.findings import Severity
 from vicode.model.project import Project
+from vicode.services.imported_behavior.behavior_update import (
+    EditedProject,
+    UpdateProblem,
+    generated_version,
+    update_behavior,
+)
 from vicode.xabsl import tree
 from vicode.xabsl.patching.program_patch import ProgramVersion, patch_program
 from vicode.xabsl.patching.source_edits import SourceEdits

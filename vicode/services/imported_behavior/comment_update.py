@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from difflib import SequenceMatcher
 from pathlib import Path
 
-from vicode.cli.comment_places import CommentPlace, XabslComment
+from vicode.services.imported_behavior.comment_places import CommentPlace, XabslComment
 from vicode.xabsl.patching.comment_edits import (
     Lines,
     comment_token,

@@ -11,11 +11,11 @@ from tests.importers.differential_harness import EngineRun, GeneratedPythonRun, 
 from tests.strategies.project_edits import Edited, random_edit
 from tests.xabsl.xabsl_cases import load_texts
 from vicode.check import check_project
-from vicode.cli.behavior_update import EditedProject, UpdateProblem, update_behavior
-from vicode.cli.comment_places import DesignFile
 from vicode.findings import Severity
 from vicode.importers import ImportResult
 from vicode.model.project import Project
+from vicode.services.imported_behavior.behavior_update import EditedProject, UpdateProblem, update_behavior
+from vicode.services.imported_behavior.comment_places import DesignFile
 from vicode.store import add_comments, read_design, read_project_file, save_design, save_project_file
 
 ROOT = Path("/behavior")

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from tests.cli.kickoff_behavior import KICKOFF, TEXTS, changed_lines, paired
-from tests.cli.test_behavior_update import imported, updated
+from tests.services.imported_behavior.kickoff_behavior import KICKOFF, TEXTS, changed_lines, paired
+from tests.services.imported_behavior.test_behavior_update import imported, updated
 from tests.strategies.project_edits import with_design
 from vicode.model import edits
 from vicode.model.design import Assign, Call, DecisionGroup, Declaration, Design, Guard, State, Stay, Transition

@@ -3,13 +3,13 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from vicode.cli.comment_places import DesignFile
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Design
 from vicode.model.paths import describe_path
 from vicode.model.project import Project
 from vicode.model.traversal import iter_decisions
 from vicode.model.xabsl.names import component_name, unqualified_name
+from vicode.services.imported_behavior.comment_places import DesignFile
 from vicode.store import CommentedFile
 
 

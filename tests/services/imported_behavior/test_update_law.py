@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.cli.edited_behavior import (
+from tests.importers.test_import_roundtrip import WRITTEN
+from tests.services.imported_behavior.edited_behavior import (
     assert_only_comments_changed,
     assert_runs_agree,
     assert_written_or_reported,
     import_behavior_texts,
 )
-from tests.cli.test_behavior_update import assert_only_the_state_changed
-from tests.importers.test_import_roundtrip import WRITTEN
+from tests.services.imported_behavior.test_behavior_update import assert_only_the_state_changed
 from tests.strategies.commented_behaviors import commented_behaviors
 from tests.xabsl.xabsl_cases import CASES
 from vicode.xabsl.source_loader import load_source

@@ -5,14 +5,14 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
-from vicode.cli.comment_places import CommentPlace, DesignComments, DesignFile, PlaceKey
-from vicode.cli.comment_update import comments_by_lines, write_comments
-from vicode.cli.description_update import find_unwritten_descriptions
-from vicode.cli.update_scope import UpdateScope
 from vicode.generators import generate
 from vicode.importers import ImportResult, import_behavior
 from vicode.model.project import Project
 from vicode.model.xabsl.names import component_name, unqualified_name
+from vicode.services.imported_behavior.comment_places import CommentPlace, DesignComments, DesignFile, PlaceKey
+from vicode.services.imported_behavior.comment_update import comments_by_lines, write_comments
+from vicode.services.imported_behavior.description_update import find_unwritten_descriptions
+from vicode.services.imported_behavior.update_scope import UpdateScope
 from vicode.xabsl.compiler import compile_source
 from vicode.xabsl.patching.differences import find_differences
 from vicode.xabsl.patching.program_items import iter_items

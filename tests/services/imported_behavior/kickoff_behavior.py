@@ -2,7 +2,7 @@
 
 import difflib
 
-from tests.cli.test_behavior_update import updated
+from tests.services.imported_behavior.test_behavior_update import updated
 from vicode.model.project import Project
 
 AGENTS = """\

@@ -1,18 +1,14 @@
 """Renders the source files of an event queue, in Python and C++: the hand-written component of an imported project."""
 
-from typing import TYPE_CHECKING
+from vicode.generators.cpp.names import element_name, member_name, namespace
+from vicode.generators.plan.project import plan_package
+from vicode.importers.scxml import ScxmlImport
+from vicode.importers.scxml.queue import EVENTS_MODULE
+from vicode.templating import render
 
-if TYPE_CHECKING:
-    from vicode.importers.scxml import ScxmlImport
 
-
-def render_event_queue(imported: "ScxmlImport") -> dict[str, str]:
+def render_event_queue(imported: ScxmlImport) -> dict[str, str]:
     """The files by path; none if the events are inputs without a queue."""
-    from vicode.generators.cpp.names import element_name, member_name, namespace
-    from vicode.generators.plan.project import plan_package
-    from vicode.importers.scxml.queue import EVENTS_MODULE
-    from vicode.templating import render
-
     events = imported.events
     if not events.has_queue:
         return {}
