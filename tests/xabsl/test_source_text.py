@@ -18,7 +18,7 @@ ELSEWHERE = {
     ("xabsl/server/positions.py", "encode"): "columns of the protocol are counted in UTF-16",
     ("services/imported_behavior/import_record.py", "read_text"): "a record in JSON",
     ("services/imported_behavior/import_merge.py", "read_text"): "designs",
-    ("cli/xabsl_update.py", "read_text"): "a record in JSON",
+    ("services/imported_behavior/updated_files.py", "read_text"): "a record in JSON",
     ("cli/xabsl_diff.py", "read_text"): "a table of inputs",
 }
 OTHERS = (

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
-from tests.services.imported_behavior.test_update_examples import change_state, with_transitions
 
 from tests.services.imported_behavior.kickoff_behavior import TEXTS, changed_lines, paired
 from tests.services.imported_behavior.test_behavior_update import imported, updated
+from tests.services.imported_behavior.test_update_examples import change_state, with_transitions
 from tests.strategies.project_edits import with_design
 from vicode.model.design import Declaration
 from vicode.model.project import Project

@@ -1,11 +1,18 @@
 """Merges a changed behavior into its designs: the base is the behavior as it was imported before."""
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from vicode.importers import import_behavior
 from vicode.model.design import Design
-from vicode.store import merge_comments, merge_file_texts, read_design
+from vicode.services.imported_behavior.design_files import design_paths, format_files
+from vicode.services.imported_behavior.import_record import RECORD_FILE, ImportRecord, format_record
+from vicode.store import merge_comments, merge_file_texts, open_project, read_design
+from vicode.transactions import replace_files
+from vicode.xabsl.compiler import compile_source
+from vicode.xabsl.source_loader import ProgramSource
 
 _PROJECT_FILE = "project.yaml"
 
@@ -16,6 +23,48 @@ class ImportMerge:
 
     texts: dict[str, str | None] = field(default_factory=dict)
     conflicts: list[str] = field(default_factory=list)
+
+
+def merge_behavior(
+    folder: Path, record: ImportRecord, source: ProgramSource, *, name: str | None = None, encoding: str = ""
+) -> ImportMerge:
+    """Merge the changes of a behavior since its last import into the designs of a project, and write the files.
+
+    Args:
+        folder: The folder of the project.
+        record: The behavior as it was imported.
+        source: The behavior now; it compiles.
+        name: A new name of the project.
+        encoding: The encoding of XABSL files that are not UTF-8.
+
+    Raises:
+        OSError: A file cannot be read or written, or has errors; or the recorded behavior does not compile.
+    """
+    opened = open_project(folder)
+    known = opened.project
+    versions = []
+    for version, title, chosen in (
+        (record.source(), known.name, known.xabsl_encoding),
+        (source, name or known.name, encoding),
+    ):
+        compiled = compile_source(version)
+        if compiled.program is None:
+            raise OSError(f"the record of the import of {folder} does not compile; import again with --force")
+        imported = import_behavior(version, compiled, title)
+        versions.append(replace(imported, project=replace(imported.project, xabsl_encoding=chosen)))
+    before, after = (design_paths(version) for version in versions)
+    files = {component: os.path.relpath(file, folder) for component, file in opened.files.items()}
+    moved = {
+        path: Path(files[component]).as_posix()
+        for component, path in after.items()
+        if before.get(component) == path and component in files
+    }
+    merge = merge_import(folder, format_files(versions[0]), format_files(versions[1]), moved)
+    # A design that the user moved since the last update keeps the path that it had then.
+    kept = {name: path for name, path in record.designs.items() if name in after and before.get(name) == after[name]}
+    entry = format_record(folder, source, {**after, **kept}, has_comments=record.has_comments)
+    replace_files(folder, {**merge.texts, RECORD_FILE: entry})
+    return merge
 
 
 def merge_import(
