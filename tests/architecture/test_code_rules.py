@@ -39,7 +39,7 @@ PACKAGE_OF_LIBRARY = {
     "send2trash": "editor",
     "ruff": "editor",
     "starlette": "editor",
-    "watchfiles": "cli",
+    "watchfiles": "services/file_changes",
     "yaml": "store",
     "zenoh": "bica/net_session",
 }

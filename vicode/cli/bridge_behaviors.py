@@ -82,8 +82,9 @@ def _import_world(name: str) -> "type[World]":
 
 def _load_agents(args: argparse.Namespace) -> LoadedBehaviors | int:
     from vicode.bridge.behaviors import XabslCatalog
-    from vicode.cli.xabsl_behavior import compile_behavior, print_behavior_findings
+    from vicode.cli.xabsl_behavior import print_behavior_findings
     from vicode.findings import Severity
+    from vicode.xabsl.behavior_loader import compile_behavior
     from vicode.xabsl.compiler import declared_symbols
 
     path = Path(args.path)

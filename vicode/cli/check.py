@@ -3,8 +3,8 @@
 import argparse
 from collections.abc import Iterator
 
-from vicode.cli.console import count_findings, print_findings
-from vicode.findings import Finding, Severity, render_json
+from vicode.cli.console import print_findings
+from vicode.findings import Finding, Severity, count_findings, render_json
 from vicode.services.project_loader import LoadedProject, load_projects
 
 

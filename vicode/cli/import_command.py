@@ -7,9 +7,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.console import count_findings
-from vicode.cli.source_encoding import add_encoding_argument, project_encoding
-from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings, print_encoding_doubts
+from vicode.cli.source_encoding import add_encoding_argument
+from vicode.cli.xabsl_behavior import print_behavior_findings, print_encoding_doubts
+from vicode.findings import count_findings
+from vicode.services.xabsl_encoding import project_encoding
 
 if TYPE_CHECKING:
     from vicode.importers import ImportResult
@@ -42,6 +43,7 @@ def run(args: argparse.Namespace) -> int:
     from vicode.services.imported_behavior.design_files import design_paths, format_files, with_layout, write_files
     from vicode.services.imported_behavior.import_record import RECORD_FILE, format_record, read_record
     from vicode.store.documents import default_project_name
+    from vicode.xabsl.behavior_loader import load_behavior
     from vicode.xabsl.compiler import compile_source
 
     encoding = args.encoding or project_encoding(args.out) or project_encoding(args.agents)

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from vicode.cli.docs_build import ProgressCallback
+from vicode.services.docs.builder import ProgressCallback
 
 
 @contextmanager

@@ -8,9 +8,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.console import count_findings, print_findings
-from vicode.cli.source_encoding import add_encoding_argument, project_encoding
-from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings, print_encoding_doubts
+from vicode.cli.console import print_findings
+from vicode.cli.source_encoding import add_encoding_argument
+from vicode.cli.xabsl_behavior import print_behavior_findings, print_encoding_doubts
+from vicode.findings import count_findings
+from vicode.services.xabsl_encoding import project_encoding
 
 if TYPE_CHECKING:
     from vicode.services.imported_behavior.behavior_update import UpdateProblem
@@ -37,6 +39,7 @@ def run(args: argparse.Namespace) -> int:
     from vicode.services.imported_behavior.updated_files import behavior_folder
     from vicode.store import open_project
     from vicode.transactions import complete_interrupted, is_interrupted
+    from vicode.xabsl.behavior_loader import load_behavior
     from vicode.xabsl.compiler import compile_source
     from vicode.xabsl.source_text import read_source
 

@@ -6,9 +6,9 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.console import count_findings
-from vicode.cli.docs_inputs import LoadedSiteInput
-from vicode.cli.docs_record import BuildRecord, digest_files, digest_inputs
+from vicode.findings import count_findings
+from vicode.services.docs.build_record import BuildRecord, digest_files, digest_inputs
+from vicode.services.docs.inputs import LoadedSiteInput
 
 if TYPE_CHECKING:
     from vicode.docsite import PlannedFile, SiteBuilder

@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
-from vicode.cli.source_encoding import find_encoding
 from vicode.findings import Finding, Severity
+from vicode.services.display_paths import with_display_paths
 from vicode.services.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES, LoadedProject, load_projects
+from vicode.services.xabsl_encoding import find_encoding
 
 if TYPE_CHECKING:
     from vicode.docsite import SiteInput, SourceText
@@ -106,7 +107,7 @@ def _project_site_input(opened: LoadedProject) -> "SiteInput":
 
 def _load_behavior_input(agents: Path, encoding: str) -> LoadedSiteInput:
     """Load a behavior as a project with XABSL sources."""
-    from vicode.cli.xabsl_behavior import DOUBTFUL_ENCODING, load_behavior, with_display_paths
+    from vicode.xabsl.behavior_loader import DOUBTFUL_ENCODING, load_behavior
     from vicode.xabsl.compiler import compile_source
 
     encoding = find_encoding(agents, encoding)
