@@ -33,7 +33,7 @@ PACKAGE_OF_LIBRARY = {
     "pygments": "docsite",
     "pygraphviz": "diagram",
     "pymunk": "simulated_robot",
-    "regex": "editor",
+    "regex": "model/text_search",
     "reportlab": "diagram",
     "resvg_py": "diagram",
     "send2trash": "editor",

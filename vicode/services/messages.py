@@ -1,4 +1,4 @@
-"""Messages about names, files and renames, which the command line and the editor show."""
+"""Messages about names, files, renames and generated code, which the command line and the editor show."""
 
 from collections.abc import Collection, Sequence
 
@@ -103,6 +103,22 @@ def agent_summary(agents: Collection[str], root: str) -> str:
 
 def line_summary(what: str, count: int) -> str:
     return f"{what}: {count} line{'s' * (count != 1)}"
+
+
+# Generated code.
+
+
+def nothing_generated(reason: str, languages: Collection[str] = ()) -> str:
+    scope = f" for {' and '.join(languages)}" if languages else ""
+    return f"Nothing generated{scope}. {reason}"
+
+
+def generated(files: Sequence[str], folder: object) -> str:
+    return f"Generated {', '.join(files[:4])}{', …' if len(files) > 4 else ''} in {folder}"
+
+
+def up_to_date(folder: str) -> str:
+    return f"Generated code in {folder} is up to date"
 
 
 def _example(name: str) -> str:

@@ -188,23 +188,6 @@ def invalid_frequency(text: str) -> str:
     return f"'{text[:20]}' is not a number: enter Hz, such as 10 or 0.5"
 
 
-# Search.
-
-SEARCH_TIMEOUT = "the search took too long: simplify the pattern"
-
-
-def too_many_matches(limit: int) -> str:
-    return f"only the first {limit} matches are listed"
-
-
-def invalid_pattern(reason: object) -> str:
-    return f"invalid pattern: {reason}"
-
-
-def invalid_replacement(reason: object) -> str:
-    return f"invalid replacement: {reason}"
-
-
 # Undo and redo.
 
 
@@ -255,9 +238,6 @@ def cannot_restore(file: str, component: str) -> str:
     return f"{file} already exists: {component} stays in the trash"
 
 
-# Renaming.
-
-
 # Announcements to the other users of a design.
 
 
@@ -273,20 +253,7 @@ def merged_from_disk(file: str) -> str:
     return f"Merged changes that another program wrote to {file}"
 
 
-# Generate.
-
-
-def nothing_generated(reason: str, languages: Collection[str] = ()) -> str:
-    scope = f" for {' and '.join(languages)}" if languages else ""
-    return f"Nothing generated{scope}. {reason}"
-
-
-def generated(files: Sequence[str], folder: object) -> str:
-    return f"Generated {', '.join(files[:4])}{', …' if len(files) > 4 else ''} in {folder}"
-
-
-def up_to_date(folder: str) -> str:
-    return f"Generated code in {folder} is up to date"
+# Code.
 
 
 def no_generator(languages: Collection[str]) -> str:

@@ -1,7 +1,4 @@
-"""Compares the languages of an open design in another process, in the sandbox of simulations.
-
-The process runs `vicode.conformance`.
-"""
+"""Compares the languages of an open design in another process: this package, in the sandbox of simulations."""
 
 import asyncio
 import base64
@@ -12,12 +9,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from vicode.editor.session.decoding import MalformedEventError, decode
+import vicode.conformance
+from vicode.conformance.result import LANGUAGE_TITLES, LanguageComparison
+from vicode.decoding import MalformedEventError, decode
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.runs.process import ProcessTransport, launch_module
 from vicode.simulation.isolation import make_temporary
-from vicode.simulation.language_comparison import LANGUAGE_TITLES, LanguageComparison
 
 ITERATIONS = 500
 LIMIT_S = 300.0
@@ -57,7 +55,7 @@ class ComparisonProcess:
         files = str(whole / "files")
         try:
             self._transport = await launch_module(
-                "vicode.conformance", whole, (), self.folder, TMPDIR=files, CCACHE_DISABLE="1"
+                vicode.conformance.__name__, whole, (), self.folder, TMPDIR=files, CCACHE_DISABLE="1"
             )
             if self._is_cancelled:
                 raise ComparisonError("cancelled")

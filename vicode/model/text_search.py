@@ -6,13 +6,13 @@ from time import monotonic
 
 import regex
 
-from vicode.editor.session import texts
 from vicode.findings import DesignPath
 from vicode.model.design import Design
 from vicode.model.texts import LocatedText, TextKind, iter_texts, rewrite_text
 
 TIME_LIMIT_S = 1.0
 MAX_MATCHES = 2000
+SEARCH_TIMEOUT = "the search took too long: simplify the pattern"
 _MAX_CONTEXT_LENGTH = 36
 
 
@@ -83,7 +83,7 @@ class _Search:
                 if match.end() > match.start():
                     yield match
         except TimeoutError:
-            raise _SearchError(texts.SEARCH_TIMEOUT) from None
+            raise _SearchError(SEARCH_TIMEOUT) from None
 
 
 def find_text(design: Design, query: TextQuery) -> TextSearchResult:
@@ -95,7 +95,7 @@ def find_text(design: Design, query: TextQuery) -> TextSearchResult:
         for located in _texts(design, query):
             matches += [_make_match(located, *match.span()) for match in search.matches(located.text)]
             if len(matches) > MAX_MATCHES:
-                error = texts.too_many_matches(MAX_MATCHES)
+                error = f"only the first {MAX_MATCHES} matches are listed"
                 return TextSearchResult(matches=tuple(matches[:MAX_MATCHES]), error=error)
     except _SearchError as invalid:
         return TextSearchResult(matches=tuple(matches), error=str(invalid))
@@ -143,7 +143,7 @@ def _compiled(query: TextQuery) -> "regex.Pattern[str]":
     try:
         return regex.compile(source, flags)
     except (regex.error, RecursionError, OverflowError) as error:
-        raise _SearchError(texts.invalid_pattern(getattr(error, "msg", error))) from None
+        raise _SearchError(f"invalid pattern: {getattr(error, 'msg', error)}") from None
 
 
 def _replaced(text: str, matches: "list[regex.Match[str]]", query: TextQuery, replacement: str) -> str:
@@ -160,7 +160,7 @@ def _expanded(match: "regex.Match[str]", query: TextQuery, replacement: str) -> 
     try:
         return str(match.expand(replacement))
     except (regex.error, IndexError, KeyError, ValueError) as error:
-        raise _SearchError(texts.invalid_replacement(getattr(error, "msg", error))) from None
+        raise _SearchError(f"invalid replacement: {getattr(error, 'msg', error)}") from None
 
 
 def _make_match(located: LocatedText, start: int, end: int) -> TextMatch:

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies.designs import designs
-from vicode.editor.session.completion import (
+from vicode.model.completion import (
     CompletionResult,
     complete_assignments,
     complete_expression,

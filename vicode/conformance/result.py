@@ -1,4 +1,4 @@
-"""The result of comparing a design in several languages, which the editor receives from another process."""
+"""The result of comparing a design in several languages."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from vicode.check import check_project
-from vicode.editor.session import texts
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import FileDiff
+from vicode.services import messages
 from vicode.sync import (
     FileEdits,
     GeneratedHistory,
@@ -124,7 +124,7 @@ def prepare_output(folder: Path, job: GenerationRequest, component: str) -> Pend
     sound = [language for language in languages if not any(error.applies_to(language) for error in errors)]
     reason = _reason(errors, component) if errors else ""
     if errors and not sound:
-        return PendingOutput(folder=folder, error=texts.nothing_generated(reason))
+        return PendingOutput(folder=folder, error=messages.nothing_generated(reason))
     history = GeneratedHistory(folder=folder, project_folder=job.project_folder)
     plan = plan_generation(
         GenerationInput(
@@ -139,7 +139,7 @@ def prepare_output(folder: Path, job: GenerationRequest, component: str) -> Pend
         )
     )
     skipped = [language for language in languages if language not in sound]
-    reason = texts.nothing_generated(reason, skipped) if skipped else ""
+    reason = messages.nothing_generated(reason, skipped) if skipped else ""
     readings = (_read_edits(project, file, next(iter(history(file.path)), None)) for file in plan.edits)
     return PendingOutput(folder=folder, skipped=reason, plan=plan, readings=tuple(filter(None, readings)))
 
@@ -189,14 +189,14 @@ def write_output(prepared: PendingOutput, *, is_forced: bool = False) -> Generat
         return GenerationResult(message=prepared.error, is_complete=False)
     if prepared.manual_edits and not is_forced:
         first = next(iter(prepared.manual_edits.values()))[0]
-        message = texts.nothing_generated(f"{first.message}: {first.fix}")
+        message = messages.nothing_generated(f"{first.message}: {first.fix}")
         return GenerationResult(message=message, is_complete=False)
     back_up(prepared.plan)
     write_generated(prepared.plan)
     files = tuple(prepared.folder / change.path for change in prepared.changes)
-    message = texts.up_to_date(prepared.folder.name)
+    message = messages.up_to_date(prepared.folder.name)
     if files:
-        message = texts.generated([path.name for path in files], files[0].parent)
+        message = messages.generated([path.name for path in files], files[0].parent)
     if prepared.skipped:
         message = f"{message}. {prepared.skipped}"
     return GenerationResult(message=message, is_complete=not prepared.skipped, files=files)

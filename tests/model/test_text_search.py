@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies.designs import designs
-from vicode.editor.session import text_search, texts
-from vicode.editor.session.text_search import TextQuery, find_text, replace_matches
+from vicode.model import text_search
 from vicode.model.design import Code, Declaration, Design, Guard, RunCode, State, Transition
+from vicode.model.text_search import TextQuery, find_text, replace_matches
 from vicode.model.texts import TextKind, iter_texts
 
 DESIGN = Design(
@@ -90,7 +90,7 @@ def test_a_search_times_out(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(text_search, "TIME_LIMIT_S", 0.05)
     design = replace(DESIGN, doc="x" * 5000)
     result = find_text(design, TextQuery(text="(x+x+)+y", is_pattern=True))
-    assert result.error == texts.SEARCH_TIMEOUT
+    assert result.error == text_search.SEARCH_TIMEOUT
 
 
 @given(designs, st.sampled_from(["a", "go", " ", "\n", ":", "é", "self", "."]))

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from vicode.editor.session.language_comparison import ComparisonError, ComparisonProcess
+from vicode.conformance.process import ComparisonError, ComparisonProcess
+from vicode.conformance.result import LanguageComparison, verdict
 from vicode.model.design import CommonSection, Design
 from vicode.model.project import Project
 from vicode.simulation.isolation import isolation_problem
-from vicode.simulation.language_comparison import LanguageComparison, verdict
 from vicode.store import open_project
 
 PROJECT = """
