@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _patches(project: LoadedProject) -> Iterator[Finding]:
     """Patches of generated files with edits that the program does not contain."""
-    from vicode.cli.gen import output_folder
+    from vicode.services.generation.project_output import output_folder
     from vicode.sync import find_patches
 
     folder = output_folder(project)

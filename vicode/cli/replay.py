@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from vicode.bica import options
 from vicode.cli.console import print_findings
-from vicode.cli.root_selection import find_unsynced_edits
 from vicode.services.project_loader import LoadedProject, load_projects
 
 if TYPE_CHECKING:
@@ -48,6 +47,7 @@ def run(args: argparse.Namespace) -> int:
     from vicode.runs import NotReadyError
     from vicode.runs.client import RunFailedError
     from vicode.runs.recorded_inputs import MissingValuesError
+    from vicode.services.root_component import find_unsynced_edits
     from vicode.simulation.trace import TraceError, open_trace
 
     if args.set and args.tolerance:

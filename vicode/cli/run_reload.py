@@ -7,10 +7,10 @@ from pathlib import Path
 
 from vicode.bica.reload import STAMP
 from vicode.cli.console import describe_os_error, print_findings
-from vicode.cli.root_selection import find_root_component
 from vicode.cli.run import generate_for_run
 from vicode.services.file_changes import iter_changes
 from vicode.services.project_loader import DESIGN_SUFFIXES, load_projects
+from vicode.services.root_component import find_root_component
 
 
 def start_watching(args: argparse.Namespace, folder: Path) -> None:
