@@ -106,7 +106,7 @@ def _diff(args: argparse.Namespace) -> int:
 
 def _export(args: argparse.Namespace) -> int:
     """Write a trace as MCAP, for viewers such as Foxglove."""
-    from vicode.cli.trace_export import export_mcap
+    from vicode.simulation.mcap_export import export_mcap
     from vicode.simulation.trace import TraceError, open_trace
 
     try:

@@ -2,26 +2,25 @@
 
 from collections.abc import Collection, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from vicode.bridge.binding import DeclaredType, Requirement
+from vicode.findings import DesignPath, FindingSubject
+from vicode.generators import collect_components
 from vicode.model.design import Declaration
 from vicode.model.names import python_attribute_name, snake_case
 from vicode.model.project import WORLD, Interface, Project
-
-if TYPE_CHECKING:
-    from vicode.bridge.binding import DeclaredType, Requirement
-    from vicode.findings import DesignPath
-    from vicode.store import OpenProject
-    from vicode.xabsl.engine import Program
-    from vicode.xabsl.symbol_table import Definition, SymbolTable
+from vicode.store import OpenProject, find_location
+from vicode.xabsl.compiler import declared_symbols
+from vicode.xabsl.engine import Program
+from vicode.xabsl.engine.linker import keyword_names, python_name
+from vicode.xabsl.engine.validation import select_used_symbols
+from vicode.xabsl.symbol_table import Definition, SymbolTable
 
 _TYPES = {"bool": bool, "int": int, "float": float}
 
 
-def design_requirements(opened: "OpenProject", roots: Collection[str]) -> "list[Requirement]":
+def design_requirements(opened: OpenProject, roots: Collection[str]) -> list[Requirement]:
     """What the world components that these designs use read and call."""
-    from vicode.generators import collect_components
-
     project = opened.project
     designs = collect_components(project, roots)
     used = {use.component for design in project.designs if design.component in designs for use in design.uses}
@@ -29,8 +28,7 @@ def design_requirements(opened: "OpenProject", roots: Collection[str]) -> "list[
     return [each for interface in interfaces for each in _list_interface(opened, interface)]
 
 
-def _list_interface(opened: "OpenProject", interface: Interface) -> "Iterator[Requirement]":
-    from vicode.bridge.binding import Requirement
+def _list_interface(opened: OpenProject, interface: Interface) -> Iterator[Requirement]:
 
     name = interface.component
     for key, declarations in (("outputs", interface.outputs), ("variables", interface.variables)):
@@ -55,18 +53,14 @@ def _attribute(declaration: Declaration) -> str:
     return python_attribute_name(declaration.xabsl_name or declaration.name)
 
 
-def _find_place(opened: "OpenProject", path: "DesignPath") -> str:
-    from vicode.findings import FindingSubject
-    from vicode.store import find_location
+def _find_place(opened: OpenProject, path: DesignPath) -> str:
 
     location = find_location(FindingSubject(path=path, is_key=True), opened.sources)
     return f"{location.file}:{location.line}:{location.column}" if location is not None else "project.yaml"
 
 
-def design_types(project: Project) -> "dict[str, DeclaredType]":
+def design_types(project: Project) -> dict[str, DeclaredType]:
     """The types of all outputs of world components."""
-    from vicode.bridge.binding import DeclaredType
-
     types = {}
     for output in (each for interface in project.components for each in interface.readable):
         enumeration = project.enumeration(output.type)
@@ -79,13 +73,8 @@ def design_types(project: Project) -> "dict[str, DeclaredType]":
     return types
 
 
-def xabsl_requirements(program: "Program", table: "SymbolTable", folder: Path) -> "list[Requirement]":
+def xabsl_requirements(program: Program, table: SymbolTable, folder: Path) -> list[Requirement]:
     """The input symbols and basic behaviors that a program uses."""
-    from vicode.bridge.binding import Requirement
-    from vicode.xabsl.compiler import declared_symbols
-    from vicode.xabsl.engine.linker import keyword_names, python_name
-    from vicode.xabsl.engine.validation import select_used_symbols
-
     used = select_used_symbols(declared_symbols(table), program)
     definitions = {each.name: each for each in (*table.symbols("input"), *table.behaviors.values())}
     inputs = [each for each in used.symbols if each.role == "input"]
@@ -109,7 +98,7 @@ def xabsl_requirements(program: "Program", table: "SymbolTable", folder: Path) -
     ]
 
 
-def _place_of(definition: "Definition | None", folder: Path) -> str:
+def _place_of(definition: Definition | None, folder: Path) -> str:
     if definition is None:
         return str(folder)
     location = definition.tokens.location(definition.name_node.first_token)
