@@ -2,14 +2,13 @@
 
 import argparse
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
 
 if TYPE_CHECKING:
-    from vicode.findings import DesignPath
     from vicode.model.design import Design
     from vicode.simulation.trace_statistics import RunHistory, StateStatistics
 
@@ -172,38 +171,10 @@ def _print_component(
     for words, count in ends.most_common():
         print(f"  {words:{width}} {count:8}")
     if design is not None:
-        for words in _never_taken(design, transitions):
+        from vicode.services.transition_counts import list_never_taken
+
+        for words in list_never_taken(design, transitions):
             print(f"  {words:{width}} {'never':>8}")
-
-
-def _never_taken(design: "Design", transitions: dict[tuple[str, str, str], int]) -> Iterable[str]:
-    from vicode.model.design import COMMON
-    from vicode.model.traversal import iter_transitions
-
-    counts = _count_by_path(design, transitions)
-    for located in iter_transitions(design):
-        if not counts.get(located.path):
-            source = "common" if located.source == COMMON else located.source
-            yield f"{source} → {getattr(located.decision, 'to', '')}"
-
-
-def _count_by_path(design: "Design", transitions: dict[tuple[str, str, str], int]) -> "dict[DesignPath, int]":
-    """The counts of transitions that are known by their id or their ends.
-
-    Several transitions without ids between the same states share a count, as a trace does not tell them apart.
-    """
-    from vicode.model.design import COMMON
-    from vicode.model.traversal import iter_transitions
-
-    counts: dict[DesignPath, int] = {}
-    located_transitions = list(iter_transitions(design))
-    for (source, target, given), count in transitions.items():
-        by_id = [each for each in located_transitions if given and each.decision.id == given]
-        ends = [each for each in located_transitions if getattr(each.decision, "to", "") == target]
-        by_ends = [each for each in ends if each.source == source] or [each for each in ends if each.source == COMMON]
-        for each in by_id or by_ends:
-            counts[each.path] = counts.get(each.path, 0) + count
-    return counts
 
 
 def _draw(
@@ -216,6 +187,7 @@ def _draw(
     from vicode.diagram.heat_map import StateHeat, render_heat_map
     from vicode.diagram.svg import write_svg
     from vicode.output import write_atomically
+    from vicode.services.transition_counts import count_by_path
 
     design = designs.get(component)
     if design is None:
@@ -225,6 +197,6 @@ def _draw(
         for name, each in states[component].items()
     }
     own = {key[1:]: count for key, count in transitions.items() if key[0] == component}
-    image = render_heat_map(design, heat, _count_by_path(design, own))
+    image = render_heat_map(design, heat, count_by_path(design, own))
     write_atomically(Path(args.svg), write_svg(image).encode())
     print(f"\nwrote {args.svg}")
