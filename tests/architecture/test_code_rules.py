@@ -37,7 +37,7 @@ PACKAGE_OF_LIBRARY = {
     "reportlab": "diagram",
     "resvg_py": "diagram",
     "send2trash": "editor",
-    "ruff": "editor",
+    "ruff": "services/lint",
     "starlette": "editor",
     "watchfiles": "services/file_changes",
     "yaml": "store",

@@ -7,15 +7,15 @@ import pytest
 from hypothesis import given
 
 from tests.strategies.designs import designs
-from vicode.editor.session import lint
-from vicode.editor.session.lint import LintWarnings, lint_design
 from vicode.findings import DesignPath
 from vicode.model.design import Code, Declaration, Design, Guard, RunCode, State, Stay
 from vicode.model.project import Enumeration, Project
 from vicode.model.texts import iter_texts
+from vicode.services import lint
+from vicode.services.lint import LintWarnings, lint_design
 from vicode.store import open_project
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 ACTION: DesignPath = ("states", "S", "actions", 0, "code", "python")
 GUARD: DesignPath = ("states", "S", "transitions", 0, "code", "python")
 
