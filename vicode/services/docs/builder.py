@@ -4,14 +4,20 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from vicode.docsite import (
+    Manifest,
+    PlannedFile,
+    SiteBuilder,
+    load_manifest,
+    manifest_path,
+    plan_site_index,
+    save_manifest,
+    write_site,
+)
 from vicode.findings import count_findings
 from vicode.services.docs.build_record import BuildRecord, digest_files, digest_inputs
 from vicode.services.docs.inputs import LoadedSiteInput
-
-if TYPE_CHECKING:
-    from vicode.docsite import PlannedFile, SiteBuilder
 
 ProgressCallback = Callable[[str, int, int], None]
 """Called with the name of the site, the number of finished files, and the total."""
@@ -48,8 +54,6 @@ class DocsBuilder:
         self, readings: Sequence[LoadedSiteInput], step: ProgressCallback = lambda _name, _done, _all: None
     ) -> DocsBuildResult:
         """Build the sites of all readable inputs and delete stale pages."""
-        from vicode.docsite import SiteBuilder, plan_site_index
-
         named = {name: each for name, each in _assign_folders(readings).items() if each.site_input is not None}
         plans: dict[str, tuple[PlannedFile, ...]] = {}
         for name, reading in named.items():
@@ -81,8 +85,7 @@ class DocsBuilder:
     def __exit__(self, *_exception: object) -> None:
         self.close()
 
-    def _write(self, name: str, plan: "Sequence[PlannedFile]", step: Callable[[int, int], None]) -> DocsBuildResult:
-        from vicode.docsite import Manifest, load_manifest, manifest_path, save_manifest, write_site
+    def _write(self, name: str, plan: Sequence[PlannedFile], step: Callable[[int, int], None]) -> DocsBuildResult:
 
         out = self.out / name
         kept = manifest_path(out)

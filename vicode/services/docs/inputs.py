@@ -5,22 +5,30 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 from urllib.parse import quote
 
+from vicode.check import check_project
+from vicode.docsite import (
+    ComponentFinding,
+    SiteInput,
+    SourceText,
+    iter_action_paths,
+    iter_documented_paths,
+    make_site_input,
+)
+from vicode.findings import DesignPath as ThingPath
 from vicode.findings import Finding, Severity
+from vicode.importers import ImportResult, import_behavior
+from vicode.model.design import Design
 from vicode.services.display_paths import with_display_paths
 from vicode.services.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES, LoadedProject, load_projects
 from vicode.services.xabsl_encoding import find_encoding
-
-if TYPE_CHECKING:
-    from vicode.docsite import SiteInput, SourceText
-    from vicode.findings import DesignPath as ThingPath
-    from vicode.importers import ImportResult
-    from vicode.model.design import Design
-    from vicode.xabsl.compiler import CompileResult
-    from vicode.xabsl.parser import ParsedFile
-    from vicode.xabsl.source_loader import ProgramSource
+from vicode.store import find_projects
+from vicode.store.documents import default_project_name
+from vicode.xabsl.behavior_loader import DOUBTFUL_ENCODING, load_behavior
+from vicode.xabsl.compiler import CompileResult, compile_source
+from vicode.xabsl.parser import ParsedFile, parse
+from vicode.xabsl.source_loader import ProgramSource, find_agent_files
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,7 +41,7 @@ class LoadedSiteInput:
     """
 
     name: str
-    site_input: "SiteInput | None"
+    site_input: SiteInput | None
     read_errors: tuple[Finding, ...]
     is_incomplete: bool
     folders: tuple[Path, ...]
@@ -69,9 +77,6 @@ def load_site_inputs(paths: Sequence[Path], encoding: str = "") -> tuple[LoadedS
 
 def _find_behavior(folder: Path) -> Path | None:
     """The file with the agents if the folder contains one behavior and no designs."""
-    from vicode.store import find_projects
-    from vicode.xabsl.source_loader import find_agent_files
-
     if not folder.is_dir() or find_projects(folder):
         return None
     found = tuple(find_agent_files(folder))
@@ -95,8 +100,7 @@ def _load_project_input(opened: LoadedProject) -> LoadedSiteInput:
     )
 
 
-def _project_site_input(opened: LoadedProject) -> "SiteInput":
-    from vicode.docsite import make_site_input
+def _project_site_input(opened: LoadedProject) -> SiteInput:
 
     project = opened.open_project.project
     meant = set(opened.selected_designs)
@@ -107,9 +111,6 @@ def _project_site_input(opened: LoadedProject) -> "SiteInput":
 
 def _load_behavior_input(agents: Path, encoding: str) -> LoadedSiteInput:
     """Load a behavior as a project with XABSL sources."""
-    from vicode.xabsl.behavior_loader import DOUBTFUL_ENCODING, load_behavior
-    from vicode.xabsl.compiler import compile_source
-
     encoding = find_encoding(agents, encoding)
     source = load_behavior(agents, encoding, _parse_cached)
     compiled = compile_source(source)
@@ -129,17 +130,12 @@ def _load_behavior_input(agents: Path, encoding: str) -> LoadedSiteInput:
 
 # With --watch, most files are unchanged after an edit.
 @lru_cache(maxsize=2000)
-def _parse_cached(text: str, name: str) -> "ParsedFile":
-    from vicode.xabsl.parser import parse
+def _parse_cached(text: str, name: str) -> ParsedFile:
 
     return parse(text, name)
 
 
-def _behavior_site_input(agents: Path, source: "ProgramSource", compiled: "CompileResult") -> "SiteInput":
-    from vicode.check import check_project
-    from vicode.docsite import ComponentFinding, SiteInput
-    from vicode.importers import import_behavior
-    from vicode.store.documents import default_project_name
+def _behavior_site_input(agents: Path, source: ProgramSource, compiled: CompileResult) -> SiteInput:
 
     imported = import_behavior(source, compiled, default_project_name(agents.resolve().parent.name))
     project = imported.project
@@ -163,11 +159,10 @@ def _behavior_site_input(agents: Path, source: "ProgramSource", compiled: "Compi
     )
 
 
-def _sources(source: "ProgramSource", imported: "ImportResult") -> "dict[str, SourceText]":
+def _sources(source: ProgramSource, imported: ImportResult) -> dict[str, SourceText]:
     """The XABSL files by component, with the lines of the states, decisions and parameters of its option."""
-    from vicode.docsite import SourceText, iter_documented_paths
 
-    def text_of(path: Path, lines: "dict[ThingPath, int]", action_lines: "dict[ThingPath, int]") -> SourceText:
+    def text_of(path: Path, lines: dict[ThingPath, int], action_lines: dict[ThingPath, int]) -> SourceText:
         folder = source.main.parent
         shown = path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
         return SourceText(
@@ -198,10 +193,8 @@ def _sources(source: "ProgramSource", imported: "ImportResult") -> "dict[str, So
     return sources
 
 
-def _assignment_paths(design: "Design") -> "dict[ThingPath, Iterator[ThingPath]]":
+def _assignment_paths(design: Design) -> dict[ThingPath, Iterator[ThingPath]]:
     """The paths of the assignments of each action that assigns, in order."""
-    from vicode.docsite import iter_action_paths
-
     found: dict[ThingPath, list[ThingPath]] = {}
     for path in iter_action_paths(design):
         if len(path) > 1 and path[-2] == "set":
