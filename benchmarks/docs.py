@@ -24,10 +24,10 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from vicode.cli.docs_build import DocsBuilder
-from vicode.cli.docs_inputs import load_site_inputs
 from vicode.diagram.export_formats import EXPORT_FORMATS, ExportOptions
 from vicode.model.design import Design, Guard, State, Transition
+from vicode.services.docs.builder import DocsBuilder
+from vicode.services.docs.inputs import load_site_inputs
 
 # Draws each text of a list that it reads, in one process, as most people would let it be drawn.
 BARE_GRAPHVIZ = """

@@ -1,6 +1,5 @@
 """vicode deploy: the folder runs on a machine without vicode, and nothing else is ever deleted."""
 
-import argparse
 import os
 import shutil
 import signal
@@ -11,8 +10,6 @@ from pathlib import Path
 import pytest
 
 from tests.cli.command_runner import lamps, vicode
-from vicode.cli.deploy import build_program
-from vicode.cli.project_loader import load_projects
 
 __all__ = ["lamps"]
 
@@ -152,22 +149,6 @@ def test_pipes_loops_and_earlier_deployments_are_not_copied(rig: Path, tmp_path:
     assert (robot / "shared/sim.py").is_file()
     assert not {"pipe", "robot"} & {path.name for path in robot.iterdir()}
     assert not (robot / "rig/loop").exists()
-
-
-@pytest.mark.parametrize(
-    ("target", "folder"),
-    [
-        ("nao@robot:player", "%h/player"),
-        ("nao@robot:~/my player", "%h/my player"),
-        ("nao@robot:/opt/50%/$x", "/opt/50%%/$x"),
-    ],
-)
-def test_the_unit_names_the_folder_as_systemd_reads_it(rig: Path, tmp_path: Path, target: str, folder: str) -> None:
-    args = argparse.Namespace(to=target, python="python3", arguments="")
-    build_program(load_projects(["lamps/lamp.yaml"])[0], "Lamp", tmp_path / "built", args)
-    unit = (tmp_path / "built/lamps.service").read_text()
-    assert f"\nWorkingDirectory={folder}\n" in unit
-    assert "\nExecStart=/bin/sh run\n" in unit
 
 
 @pytest.mark.parametrize("name", ["my robot", "50%", "$x", "it's", 'a "b"', "back\\slash", "ü"])

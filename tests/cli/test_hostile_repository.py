@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from vicode.editor.session.revisions import compare_with_revision, list_revisions
 
 from tests.cli.command_runner import lamps, vicode
 from tests.cli.git_folder import ENVIRONMENT, commit, git, init
 from tests.cli.hostile_repository import READING, SIGNER, HostileRepository, make_hostile, program_keys, run_plain_git
-from vicode.editor.session.revisions import compare_with_revision, list_revisions
 from vicode.git import GitError, Repository, find_repository, merge_lines
 from vicode.store import read_design
 

@@ -7,7 +7,7 @@ import pytest
 
 from tests.xabsl.xabsl_cases import CASES
 from vicode.cli.entry_point import main
-from vicode.cli.import_record import RECORD_FILE
+from vicode.services.imported_behavior.import_record import RECORD_FILE
 from vicode.store import open_project
 
 PROGRAM = CASES / "programs" / "p1"

@@ -13,7 +13,7 @@ import pytest
 from tests.cli.command_runner import LAMP, lamps, vicode
 from tests.cli.git_folder import init
 from vicode.cli.gen import write_plan
-from vicode.cli.project_loader import LoadedProject
+from vicode.services.project_loader import LoadedProject
 from vicode.sync import GenerationPlan
 
 __all__ = ["lamps"]

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.kickoff_behavior import KICKOFF, TEXTS
+from tests.services.imported_behavior.kickoff_behavior import KICKOFF, TEXTS
 from vicode.cli.entry_point import main
 
 OPTION = "behavior/Options/SetPlays/kickoff.xabsl"

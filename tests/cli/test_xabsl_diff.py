@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.kickoff_behavior import TEXTS
+from tests.services.imported_behavior.kickoff_behavior import TEXTS
 from vicode.cli.entry_point import main
 
 INPUTS = "time,ball.x,ball.seen,ball.side\n0,500,1,1\n20,50,1,\n40,,0,\n"

@@ -6,7 +6,7 @@ import pytest
 
 from tests.importers.test_imported_designs import texts
 from vicode.cli.entry_point import main
-from vicode.cli.import_record import RECORD_FILE
+from vicode.services.imported_behavior.import_record import RECORD_FILE
 from vicode.store import open_project
 
 Paths = tuple[Path, Path]

@@ -7,12 +7,13 @@ from pathlib import Path
 from tests.cpp_tools import unoptimized
 from vicode.conformance.chosen_inputs import choose_runs
 from vicode.conformance.comparison import find_absent_languages
-from vicode.conformance.cpp import CppProgram, find_compiler
+from vicode.conformance.cpp import CppProgram
 from vicode.conformance.inputs import ConformanceRun
 from vicode.conformance.python import run_python, run_simulator
 from vicode.conformance.reference import run_reference
 from vicode.conformance.traces import TraceIteration
 from vicode.conformance.xabsl import run_xabsl
+from vicode.generators.cpp.compiler import find_compiler
 from vicode.model.project import Project
 
 Runs = Mapping[str, ConformanceRun]

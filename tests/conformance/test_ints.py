@@ -13,12 +13,13 @@ from pathlib import Path
 import pytest
 
 from tests.conformance.int_designs import MOST, int_project, random_design, random_int_run, values_of
-from vicode.conformance.cpp import COMPILER_MISSING, CppProgram, CppTools, find_compiler
+from vicode.conformance.cpp import COMPILER_MISSING, CppProgram, CppTools
 from vicode.conformance.inputs import ConformanceRun, RunStep
 from vicode.conformance.python import run_python, run_simulator
 from vicode.conformance.reference import run_reference
 from vicode.conformance.report import describe, explain
 from vicode.conformance.traces import TraceIteration, first_difference
+from vicode.generators.cpp.compiler import find_compiler
 
 SANITIZED = (
     *("-O2", "-fsanitize=undefined,float-cast-overflow,float-divide-by-zero", "-fno-sanitize-recover=all"),

@@ -17,9 +17,10 @@ from tests.conformance.conformance_cases import CASES, LANGUAGES, Case, short_fo
 from tests.conformance.random_designs import draw_projects
 from tests.conformance.scxml_cases import DOCUMENTS, expected_states, scxml_run
 from vicode.conformance.comparison import find_absent_languages
-from vicode.conformance.cpp import COMPILER_MISSING, find_compiler
+from vicode.conformance.cpp import COMPILER_MISSING
 from vicode.conformance.report import describe, explain
 from vicode.conformance.traces import EXPECTED_DIFFERENCES, first_difference, reduce_for
+from vicode.generators.cpp.compiler import find_compiler
 
 FILES = sorted(CASES.glob("*.yaml"))
 RANDOM_DESIGNS = 50

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from vicode.cli.docs_watch import iter_changes
+from vicode.services.file_changes import iter_changes
 
 ROOT = Path(__file__).parents[2]
 

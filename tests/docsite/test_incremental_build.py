@@ -16,7 +16,6 @@ from tests.docsite.link_checker import find_broken_links
 from tests.docsite.random_edits import EDITS, FORWARD, Edit
 from vicode.check import check_project
 from vicode.cli import main
-from vicode.cli.docs_inputs import load_site_inputs
 from vicode.docsite import (
     ComponentFinding,
     Manifest,
@@ -35,6 +34,7 @@ from vicode.generators import ComponentCode
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import OutputFile
+from vicode.services.docs.inputs import load_site_inputs
 
 ROOT = Path(__file__).parents[2]
 

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from vicode.cli import docs_inputs, main
+from vicode.cli import main
+from vicode.services.docs import inputs as docs_inputs
 
 DESIGNS = Path(__file__).parents[2] / "designs"
 BEHAVIOR = DESIGNS.parent / "tests" / "xabsl" / "cases" / "programs" / "p1"

@@ -16,7 +16,8 @@ from tests.conformance.random_designs import draw_projects
 from tests.sync.cpp_law import Trial, changed_behavior, count_kinds, lost_text, source_of, try_edit, try_text
 from tests.sync.cpp_player_edits import PLAYER_EDITS, edit_player
 from tests.sync.player_edits import FORWARD
-from vicode.conformance.cpp import COMPILER_MISSING, find_compiler
+from vicode.conformance.cpp import COMPILER_MISSING
+from vicode.generators.cpp.compiler import find_compiler
 from vicode.model.expressions import FLOAT
 from vicode.model.project import Project
 

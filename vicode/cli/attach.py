@@ -6,7 +6,6 @@ import os
 import socket
 import sys
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vicode.cli.ports import port_number
@@ -103,14 +102,16 @@ async def _try(address: "RobotAddress", token: str) -> None:
 
 
 def _edit(args: argparse.Namespace, address: "RobotAddress", token: str) -> int:
-    from vicode.cli.project_loader import require_design_file
-    from vicode.editor.serve import choose_address, serve
+    from vicode.cli.edit import serve_editor
 
-    path = Path(args.path)
-    path.stat()
-    require_design_file(path)
-    here = choose_address("127.0.0.1", args.port)
-    serve(path, here, open_browser=not args.no_open, tour=False, robots=(str(address), token))
+    serve_editor(
+        args.path,
+        "127.0.0.1",
+        args.port,
+        open_browser=not args.no_open,
+        tour=False,
+        robots=(str(address), token),
+    )
     return 0
 
 

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.bridge_interfaces import design_requirements, design_types, xabsl_requirements
 from vicode.cli.console import print_findings
-from vicode.cli.project_loader import XABSL_SUFFIXES, LoadedProject, load_projects
 from vicode.model.project import BridgeSettings
+from vicode.services.project_loader import XABSL_SUFFIXES, LoadedProject, load_projects
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -82,8 +81,10 @@ def _import_world(name: str) -> "type[World]":
 
 def _load_agents(args: argparse.Namespace) -> LoadedBehaviors | int:
     from vicode.bridge.behaviors import XabslCatalog
-    from vicode.cli.xabsl_behavior import compile_behavior, print_behavior_findings
+    from vicode.cli.xabsl_behavior import print_behavior_findings
     from vicode.findings import Severity
+    from vicode.services.bridge_interfaces import xabsl_requirements
+    from vicode.xabsl.behavior_loader import compile_behavior
     from vicode.xabsl.compiler import declared_symbols
 
     path = Path(args.path)
@@ -109,6 +110,7 @@ def _load_designs(args: argparse.Namespace, folder: Path) -> LoadedBehaviors | i
     from vicode.bridge.behaviors import DesignCatalog
     from vicode.generators import generate, python_class_path
     from vicode.output import apply_diffs, compare_files
+    from vicode.services.bridge_interfaces import design_requirements, design_types
 
     projects = load_projects([args.path], args.profile)
     if len(projects) > 1:

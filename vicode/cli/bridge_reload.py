@@ -12,8 +12,8 @@ from vicode.bridge.robot import Robot
 from vicode.bridge.server import BridgeServer
 from vicode.cli.bridge_behaviors import load_behaviors, load_world
 from vicode.cli.console import describe_os_error
-from vicode.cli.docs_watch import iter_changes
-from vicode.cli.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES
+from vicode.services.file_changes import iter_changes
+from vicode.services.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES
 
 _SUFFIXES = (".py", *DESIGN_SUFFIXES, *XABSL_SUFFIXES)
 

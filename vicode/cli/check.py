@@ -3,9 +3,9 @@
 import argparse
 from collections.abc import Iterator
 
-from vicode.cli.console import count_findings, print_findings
-from vicode.cli.project_loader import LoadedProject, load_projects
-from vicode.findings import Finding, Severity, render_json
+from vicode.cli.console import print_findings
+from vicode.findings import Finding, Severity, count_findings, render_json
+from vicode.services.project_loader import LoadedProject, load_projects
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _patches(project: LoadedProject) -> Iterator[Finding]:
     """Patches of generated files with edits that the program does not contain."""
-    from vicode.cli.gen import output_folder
+    from vicode.services.generation.project_output import output_folder
     from vicode.sync import find_patches
 
     folder = output_folder(project)

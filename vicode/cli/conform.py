@@ -12,9 +12,9 @@ from vicode.output import temporary_folder
 if TYPE_CHECKING:
     from vicode.conformance.design_mutants import MutantReport
     from vicode.conformance.inputs import ConformanceRun
+    from vicode.conformance.result import InputCoverage, LanguageComparison
     from vicode.findings import DesignPath
     from vicode.model.project import Project
-    from vicode.simulation.language_comparison import InputCoverage, LanguageComparison
     from vicode.store import OpenProject
 
 _MAX_ITERATIONS = 20_000
@@ -94,7 +94,7 @@ def _make_runs(args: argparse.Namespace, project: "Project", component: str) -> 
 
 def _report(args: argparse.Namespace, component: str, comparison: "LanguageComparison") -> int:
     from vicode.conformance.report import describe
-    from vicode.simulation.language_comparison import LANGUAGE_TITLES, verdict
+    from vicode.conformance.result import LANGUAGE_TITLES, verdict
 
     source = f"seed {args.seed}" if args.inputs == "chosen" else args.inputs
     print(f"{component}: {verdict(comparison)} ({source})")
@@ -117,7 +117,7 @@ def _report(args: argparse.Namespace, component: str, comparison: "LanguageCompa
 
 
 def _report_coverage(coverage: "InputCoverage", project: "OpenProject") -> None:
-    from vicode.simulation.language_comparison import as_design_path
+    from vicode.conformance.result import as_design_path
 
     print(f"coverage: {coverage.summary}")
     for each in coverage.never[:_MAX_NEVER]:

@@ -1,7 +1,6 @@
 """Prints findings with their source lines, in color on a terminal."""
 
 import sys
-from collections import Counter
 from collections.abc import Iterable
 from functools import lru_cache, partial
 from pathlib import Path
@@ -41,15 +40,6 @@ def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False, enco
         shown.highlight_regex(rf"(?m)(?<=: ){severity} [A-Z]\d+|^{severity} [A-Z]\d+", color)
     shown.highlight_regex(r"(?m)^ +\^+$", "bold green")
     Console(file=stream, soft_wrap=True).print(shown)
-
-
-def count_findings(findings: Iterable[Finding]) -> str:
-    """Count the findings of each severity, as text."""
-    counts = Counter(finding.severity for finding in findings)
-    words = [
-        f"{counts[severity]} {severity}{'s' * (counts[severity] != 1)}" for severity in Severity if counts[severity]
-    ]
-    return ", ".join(words) or "no findings"
 
 
 def describe_os_error(error: OSError) -> str:

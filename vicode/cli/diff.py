@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from vicode.cli.console import print_findings
 
 if TYPE_CHECKING:
-    from vicode.cli.diff_inputs import FileVersion, VersionPair
-    from vicode.cli.file_differences import FileDifference
+    from vicode.services.design_diff.file_differences import FileDifference
+    from vicode.services.design_diff.file_pairs import FileVersion, VersionPair
 
 _EXTERNAL_ARGUMENTS = 7
 
@@ -32,8 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the differences; return 1 if there are any."""
-    from vicode.cli.diff_inputs import find_pairs
-    from vicode.cli.file_differences import compare_pair
+    from vicode.services.design_diff.file_differences import compare_pair
+    from vicode.services.design_diff.file_pairs import find_pairs
 
     if args.external:
         return _run_external(args.items)
@@ -51,8 +51,8 @@ def run(args: argparse.Namespace) -> int:
 def _write_pictures(differences: "list[FileDifference]", args: argparse.Namespace) -> None:
     if not (args.svg or args.html):
         return
-    from vicode.cli.diff_pictures import format_page, format_svg
     from vicode.output import write_atomically
+    from vicode.services.design_diff.pictures import format_page, format_svg
 
     if args.svg:
         write_atomically(Path(args.svg), format_svg(differences, dark=args.dark))
@@ -62,8 +62,8 @@ def _write_pictures(differences: "list[FileDifference]", args: argparse.Namespac
 
 def _run_external(items: list[str]) -> int:
     """Compare as a diff driver of git, which expects exit code 0."""
-    from vicode.cli.diff_inputs import FileVersion, VersionPair
-    from vicode.cli.file_differences import compare_pair
+    from vicode.services.design_diff.file_differences import compare_pair
+    from vicode.services.design_diff.file_pairs import FileVersion, VersionPair
 
     if len(items) < _EXTERNAL_ARGUMENTS:
         print("".join(f"{item}: not merged\n" for item in items[:1]), end="")

@@ -10,11 +10,12 @@ from pathlib import Path
 
 from vicode.cli.console import print_findings
 from vicode.cli.docs_output import find_output_problem, find_source_url_problem
-from vicode.cli.docs_record import find_unchanged_build, save_record
 from vicode.cli.ports import port_number
-from vicode.cli.project_loader import DESIGN_SUFFIXES
-from vicode.cli.source_encoding import add_encoding_argument, find_encoding
+from vicode.cli.source_encoding import add_encoding_argument
 from vicode.output import cache_path
+from vicode.services.docs.build_record import find_unchanged_build, save_record
+from vicode.services.project_loader import DESIGN_SUFFIXES
+from vicode.services.xabsl_encoding import find_encoding
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -73,8 +74,8 @@ def run(args: argparse.Namespace) -> int:
         return 2
     if not args.watch:
         return _build(args, options, record_file)
-    from vicode.cli.docs_build import DocsBuilder
     from vicode.cli.docs_watch import watch_docs
+    from vicode.services.docs.builder import DocsBuilder
 
     sites = DocsBuilder(out=args.out, ignores_cache=args.fresh, title=args.title, source_url=args.source_url)
     return watch_docs(args.path, sites, encoding=args.encoding, port=args.port, open_browser=not args.no_open)
@@ -107,9 +108,9 @@ def _is_utf8(text: str) -> bool:
 
 
 def _build(args: argparse.Namespace, options: Sequence[str], record_file: Path) -> int:
-    from vicode.cli.docs_build import DocsBuilder, describe_build, record_build
-    from vicode.cli.docs_inputs import load_site_inputs
     from vicode.cli.progress import progress_bar
+    from vicode.services.docs.builder import DocsBuilder, describe_build, record_build
+    from vicode.services.docs.inputs import load_site_inputs
 
     started_s = time.time()
     sites = DocsBuilder(

@@ -1,26 +1,19 @@
 """`vicode docs --watch`: rebuilds the site after every change and serves it on this machine."""
 
 import gc
-import os
 import sys
 import time
 import webbrowser
-from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, suppress
+from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
-from watchfiles import Change, watch
-
 from vicode.cli.console import describe_os_error, format_findings, print_findings
-from vicode.cli.docs_build import DocsBuilder, DocsBuildResult, describe_build
-from vicode.cli.docs_inputs import LoadedSiteInput, load_site_inputs
 from vicode.cli.progress import progress_bar
-from vicode.cli.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES
 from vicode.docsite.site_server import ReloadBroadcaster, SiteServer
-
-_SUFFIXES = (*XABSL_SUFFIXES, *DESIGN_SUFFIXES)
-# Editors write files in several steps.
-_DEBOUNCE_STEP_MS, _MAX_DEBOUNCE_MS, _POLL_MS = 40, 400, 500
+from vicode.services.docs.builder import DocsBuilder, DocsBuildResult, describe_build
+from vicode.services.docs.inputs import LoadedSiteInput, load_site_inputs
+from vicode.services.file_changes import iter_changes
 
 
 def watch_docs(
@@ -103,50 +96,3 @@ class SiteWatcher:
     def _report_errors(self, errors: str) -> None:
         self._broadcaster.publish((), errors)
         print("The site was not updated.", file=sys.stderr, flush=True)
-
-
-def iter_changes(folders: Sequence[Path], suffixes: Sequence[str] = _SUFFIXES) -> Iterator[None]:
-    """Yield after each change of a file with one of the suffixes in these folders; stop when a folder is replaced."""
-
-    def is_watched(_change: Change, path: str) -> bool:
-        file = Path(path)
-        return file.suffix in suffixes and not file.name.startswith(".")
-
-    with ExitStack() as stack, suppress(FileNotFoundError):
-        held = {folder: number for folder in folders if (number := _open_folder(folder, stack)) is not None}
-        wanted = watch(
-            *held,
-            watch_filter=is_watched,
-            step=_DEBOUNCE_STEP_MS,
-            debounce=_MAX_DEBOUNCE_MS,
-            rust_timeout=_POLL_MS,
-            yield_on_timeout=True,
-        )
-        # Yield once at the start for changes before the watch began.
-        is_first = True
-        for changes in wanted:
-            if changes or is_first:
-                yield
-            is_first = is_first and bool(changes)
-            # A deleted folder reports no events, nor does its replacement.
-            if held != {folder: number for folder in folders if (number := _folder_id(folder)) is not None}:
-                return
-
-
-def _open_folder(folder: Path, stack: ExitStack) -> tuple[int, int] | None:
-    """Open a folder and return its identity; while it is open, no other folder gets the same inode."""
-    with suppress(OSError):
-        descriptor = os.open(folder, os.O_RDONLY)
-        stack.callback(os.close, descriptor)
-        return _file_id(os.fstat(descriptor))
-    return None
-
-
-def _folder_id(folder: Path) -> tuple[int, int] | None:
-    with suppress(OSError):
-        return _file_id(folder.stat())
-    return None
-
-
-def _file_id(status: os.stat_result) -> tuple[int, int]:
-    return status.st_dev, status.st_ino

@@ -37,17 +37,42 @@ def _command(text: str) -> tuple[str, ...]:
 
 def run(args: argparse.Namespace) -> int:
     """Serve the editor until it is stopped."""
-    from vicode.cli.project_loader import require_design_file
-    from vicode.editor.serve import choose_address, serve
+    serve_editor(
+        args.path,
+        args.host,
+        args.port,
+        open_browser=not args.no_open,
+        tour=not args.no_tour,
+        editor_command=args.editor,
+    )
+    return 0
 
-    path = Path(args.path)
+
+def serve_editor(
+    name: str,
+    host: str,
+    port: int | None,
+    *,
+    open_browser: bool,
+    tour: bool,
+    editor_command: tuple[str, ...] = (),
+    robots: tuple[str, str] | None = None,
+) -> None:
+    """Serve the editor for a design or folder until it is stopped: the only place where a command starts it.
+
+    Raises:
+        OSError: The path cannot be read, or the address is taken.
+    """
+    from vicode.editor.serve import choose_address, serve
+    from vicode.services.project_loader import require_design_file
+
+    path = Path(name)
     path.stat()
     require_design_file(path)
-    address = choose_address(args.host, args.port)
+    address = choose_address(host, port)
     if address.token:
         _reexec_with_system_malloc()
-    serve(path, address, open_browser=not args.no_open, tour=not args.no_tour, editor_command=args.editor)
-    return 0
+    serve(path, address, open_browser=open_browser, tour=tour, editor_command=editor_command, robots=robots)
 
 
 def _reexec_with_system_malloc() -> None:

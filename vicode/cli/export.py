@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.console import print_findings
-from vicode.cli.source_encoding import add_encoding_argument, find_encoding
+from vicode.cli.source_encoding import add_encoding_argument
 from vicode.diagram.export_formats import EXPORT_FORMATS, ExportFormat, ExportOptions, NotExportableError
+from vicode.services.xabsl_encoding import find_encoding
 
 if TYPE_CHECKING:
     from vicode.model.design import Design

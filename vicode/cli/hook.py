@@ -8,9 +8,9 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from vicode.cli.tracked_projects import TrackedProject, find_tracked_projects
 from vicode.git import GitError, Repository, find_repository
 from vicode.output import resolve_below, write_atomically
+from vicode.services.tracked_projects import TrackedProject, find_tracked_projects
 
 _BEGIN, _END = "# vicode hook install: begin", "# vicode hook install: end"
 _STAGED = "vicode-generated"

@@ -7,15 +7,15 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.console import count_findings
-from vicode.cli.source_encoding import add_encoding_argument, project_encoding
-from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings, print_encoding_doubts
+from vicode.cli.source_encoding import add_encoding_argument
+from vicode.cli.xabsl_behavior import print_behavior_findings, print_encoding_doubts
+from vicode.findings import count_findings
+from vicode.services.xabsl_encoding import project_encoding
 
 if TYPE_CHECKING:
-    from vicode.cli.import_record import ImportRecord
     from vicode.importers import ImportResult
     from vicode.importers.scxml import ScxmlImport
-    from vicode.model.project import Project
+    from vicode.services.imported_behavior.import_record import ImportRecord
     from vicode.xabsl.source_loader import ProgramSource
 
 
@@ -38,10 +38,12 @@ def run(args: argparse.Namespace) -> int:
         return _import_scxml(args)
     if args.event_queue:
         raise OSError("--event-queue is an option of SCXML files")
-    from vicode.cli.import_record import RECORD_FILE, format_record, read_record
     from vicode.findings import Severity
     from vicode.importers import import_behavior, render_robot_class
+    from vicode.services.imported_behavior.design_files import design_paths, format_files, with_layout, write_files
+    from vicode.services.imported_behavior.import_record import RECORD_FILE, format_record, read_record
     from vicode.store.documents import default_project_name
+    from vicode.xabsl.behavior_loader import load_behavior
     from vicode.xabsl.compiler import compile_source
 
     encoding = args.encoding or project_encoding(args.out) or project_encoding(args.agents)
@@ -58,14 +60,14 @@ def run(args: argparse.Namespace) -> int:
     record = None if args.force else read_record(args.out)
     if record is not None:
         return _merge(args.out, record, source, args.name, encoding)
-    texts = _texts(replace(imported, project=_with_layout(imported.project)))
+    texts = format_files(replace(imported, project=with_layout(imported.project)))
     if _would_overwrite(args, texts):
         return 1
-    _write(args.out, {**texts, RECORD_FILE: format_record(args.out, source, _design_paths(imported))})
+    write_files(args.out, {**texts, RECORD_FILE: format_record(args.out, source, design_paths(imported))})
     robot = args.out / "robot.py"
     # Edited by hand: never overwritten.
     if not robot.exists():
-        _write(args.out, {robot.name: render_robot_class(imported.project)})
+        write_files(args.out, {robot.name: render_robot_class(imported.project)})
     print(_summary(imported, args.out))
     _print_notes(imported, args.agents.parent)
     return 0
@@ -79,17 +81,14 @@ def _print_notes(imported: "ImportResult", folder: Path) -> None:
         print(f"  {path.as_posix()}:{note.line}: {note.text}")
 
 
-def _design_paths(imported: "ImportResult") -> dict[str, str]:
-    return {about.component: about.path for about in imported.designs}
-
-
 def _import_scxml(args: argparse.Namespace) -> int:
     """Write one design; return 1 if the document cannot be expressed, or files would be overwritten."""
     from vicode.cli.console import print_findings
-    from vicode.cli.event_queue import render_event_queue
     from vicode.importers import ImportedDesign, ImportResult
     from vicode.importers.scxml import ScxmlError, import_scxml
     from vicode.model.names import name_from_text, snake_case
+    from vicode.services.imported_behavior.design_files import format_files, with_layout, write_files
+    from vicode.services.imported_behavior.event_queue import render_event_queue
     from vicode.store.documents import default_project_name
 
     component = name_from_text(args.agents.stem) or "Machine"
@@ -102,11 +101,11 @@ def _import_scxml(args: argparse.Namespace) -> int:
     about = ImportedDesign(
         component=component, path=f"{snake_case(component)}.yaml", comments=(), file=args.agents, anchors=()
     )
-    imported = ImportResult(project=_with_layout(converted.project), designs=(about,), comments=())
-    texts = {**_texts(imported), **render_event_queue(converted)}
+    imported = ImportResult(project=with_layout(converted.project), designs=(about,), comments=())
+    texts = {**format_files(imported), **render_event_queue(converted)}
     if _would_overwrite(args, texts):
         return 1
-    _write(args.out, texts)
+    write_files(args.out, texts)
     print(_summary(imported, args.out))
     _print_exactness(converted, args.agents)
     return 0
@@ -137,37 +136,9 @@ def _would_overwrite(args: argparse.Namespace, texts: "dict[str, str]") -> bool:
 
 def _merge(folder: Path, record: "ImportRecord", source: "ProgramSource", name: str | None, encoding: str) -> int:
     """Merge the changes of a behavior since its last import into the designs."""
-    from vicode.cli.import_merge import merge_import
-    from vicode.cli.import_record import RECORD_FILE, format_record
-    from vicode.importers import import_behavior
-    from vicode.store import open_project
-    from vicode.transactions import replace_files
-    from vicode.xabsl.compiler import compile_source
+    from vicode.services.imported_behavior.import_merge import merge_behavior
 
-    opened = open_project(folder)
-    known = opened.project
-    versions = []
-    for version, title, chosen in (
-        (record.source(), known.name, known.xabsl_encoding),
-        (source, name or known.name, encoding),
-    ):
-        compiled = compile_source(version)
-        if compiled.program is None:
-            raise OSError(f"the record of the import of {folder} does not compile; import again with --force")
-        imported = import_behavior(version, compiled, title)
-        versions.append(replace(imported, project=replace(imported.project, xabsl_encoding=chosen)))
-    before, after = (_design_paths(version) for version in versions)
-    files = {component: os.path.relpath(file, folder) for component, file in opened.files.items()}
-    moved = {
-        path: Path(files[component]).as_posix()
-        for component, path in after.items()
-        if before.get(component) == path and component in files
-    }
-    merge = merge_import(folder, _texts(versions[0]), _texts(versions[1]), moved)
-    # A design that the user moved since the last update keeps the path that it had then.
-    kept = {name: path for name, path in record.designs.items() if name in after and before.get(name) == after[name]}
-    entry = format_record(folder, source, {**after, **kept}, has_comments=record.has_comments)
-    replace_files(folder, {**merge.texts, RECORD_FILE: entry})
+    merge = merge_behavior(folder, record, source, name=name, encoding=encoding)
     for path, text in sorted(merge.texts.items()):
         print(f"{'deleted' if text is None else 'merged'} {(folder / path).as_posix()}")
     if not merge.texts and not merge.conflicts:
@@ -175,50 +146,6 @@ def _merge(folder: Path, record: "ImportRecord", source: "ProgramSource", name: 
     for conflict in merge.conflicts:
         print(f"vicode: {(folder / conflict).as_posix()}", file=sys.stderr)
     return int(bool(merge.conflicts))
-
-
-def _with_layout(project: "Project") -> "Project":
-    from vicode.diagram.layout import LayoutService
-    from vicode.model.edits import move_nodes
-
-    designs = []
-    with LayoutService() as service:
-        for design in project.designs:
-            places = service.compute(design).layout
-            common = places.common if design.common.transitions or design.common.actions else None
-            designs.append(
-                move_nodes(design, _rounded(places.states), _rounded(places.uses), common and _round(common))
-            )
-    return replace(project, designs=tuple(designs))
-
-
-def _rounded(places: "dict[str, tuple[float, float]]") -> "dict[str, tuple[float, float]]":
-    return {name: _round(at) for name, at in places.items()}
-
-
-def _round(at: "tuple[float, float]") -> "tuple[float, float]":
-    return (round(at[0]), round(at[1]))
-
-
-def _texts(imported: "ImportResult") -> "dict[str, str]":
-    from vicode.store import add_comments, save_design, save_project_file
-
-    project = imported.project
-    comments = [(comment.path, comment.text) for comment in imported.comments]
-    texts = {"project.yaml": add_comments(save_project_file(project), comments, is_project_file=True)}
-    for design, about in zip(project.designs, imported.designs, strict=True):
-        comments = [(comment.path, comment.text) for comment in about.comments]
-        texts[about.path] = add_comments(save_design(design), comments)
-    return texts
-
-
-def _write(folder: Path, texts: "dict[str, str]") -> None:
-    from vicode.output import resolve_below, write_atomically
-
-    targets = {resolve_below(folder, path): text for path, text in texts.items()}
-    for target, text in targets.items():
-        target.parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(target, text)
 
 
 def _summary(imported: "ImportResult", folder: Path) -> str:

@@ -4,9 +4,9 @@ import argparse
 import sys
 from pathlib import Path
 
-from vicode.cli.tracked_projects import find_tracked_projects
 from vicode.git import GitError, find_repository, merge_lines
 from vicode.output import write_atomically
+from vicode.services.tracked_projects import find_tracked_projects
 
 _MAX_REVISIONS = 4
 

@@ -6,8 +6,8 @@ from difflib import unified_diff
 from typing import TYPE_CHECKING
 
 from vicode.cli.console import print_findings
-from vicode.cli.project_loader import LoadedProject
 from vicode.output import FileStatus
+from vicode.services.project_loader import LoadedProject
 
 if TYPE_CHECKING:
     from vicode.sync import GenerationPlan

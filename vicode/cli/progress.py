@@ -3,12 +3,14 @@
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
-from vicode.cli.docs_build import ProgressCallback
+if TYPE_CHECKING:
+    from vicode.services.docs.builder import ProgressCallback
 
 
 @contextmanager
-def progress_bar() -> Iterator[ProgressCallback]:
+def progress_bar() -> "Iterator[ProgressCallback]":
     """Yield a progress callback; without a terminal, it does nothing."""
     if not sys.stderr.isatty():
         yield lambda _name, _done, _all: None

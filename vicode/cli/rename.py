@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from vicode.editor.session.rename_files import FileRenamePlan
-    from vicode.editor.session.workspace import Workspace
     from vicode.model.rename import SymbolRef
+    from vicode.services.rename.files import FileRenamePlan
+    from vicode.services.rename.project_files import FilesOnDisk
 
 _KINDS = {
     "component": "components",
@@ -47,15 +47,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Rename in all files or none; return 1 if the rename is refused."""
-    from vicode.editor.session.rename_files import apply_rename, plan_rename
+    from vicode.services.rename.files import apply_rename, plan_rename
 
     found = _find(args)
     if found is None:
         return 1
-    workspace, symbol = found
+    project_files, symbol = found
     new = args.new.removeprefix(f"{args.old.rpartition('.')[0]}.") if "." in args.old else args.new
     try:
-        plan = plan_rename(workspace, symbol, new)
+        plan = plan_rename(project_files, symbol, new)
     except ValueError as error:
         print(f"vicode: {error}", file=sys.stderr)
         return 1
@@ -72,17 +72,17 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _find(args: argparse.Namespace) -> "tuple[Workspace, SymbolRef] | None":
+def _find(args: argparse.Namespace) -> "tuple[FilesOnDisk, SymbolRef] | None":
     """The only symbol with the name and its project; otherwise, print why there is none."""
-    from vicode.editor.session.workspace import Workspace
     from vicode.findings import did_you_mean
     from vicode.model.rename import find_symbols, list_names
-    from vicode.store import find_projects
+    from vicode.services.rename.project_files import FilesOnDisk
+    from vicode.store import find_projects, open_project
 
-    workspaces = [Workspace(folder, key="") for folder in find_projects(Path(args.path))]
-    if not workspaces:
+    projects = [FilesOnDisk(opened=open_project(folder)) for folder in find_projects(Path(args.path))]
+    if not projects:
         raise OSError(f"no designs in {args.path}")
-    found = [(each, symbol) for each in workspaces for symbol in find_symbols(each.project, args.old)]
+    found = [(each, symbol) for each in projects for symbol in find_symbols(each.project, args.old)]
     wanted = [pair for pair in found if args.kind is None or pair[1].section == _KINDS[args.kind]]
     if len(wanted) == 1:
         return wanted[0]
@@ -94,7 +94,7 @@ def _find(args: argparse.Namespace) -> "tuple[Workspace, SymbolRef] | None":
     if found:
         print(f"vicode: there is no {args.kind} '{args.old}': it is a {kinds[found[0][1].section]}", file=sys.stderr)
         return None
-    known = [name for each in workspaces for name in list_names(each.project)]
+    known = [name for each in projects for name in list_names(each.project)]
     hint = did_you_mean(args.old, known)
     print(f"vicode: there is no '{args.old}'{f'; {hint}' if hint else ''}", file=sys.stderr)
     return None

@@ -4,14 +4,12 @@ With --set, report what another value of a parameter or constant changes.
 """
 
 import argparse
-import asyncio
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
 from vicode.cli.console import print_findings
-from vicode.cli.project_loader import LoadedProject, load_projects
-from vicode.cli.root_selection import find_unsynced_edits
+from vicode.services.project_loader import LoadedProject
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -48,6 +46,8 @@ def run(args: argparse.Namespace) -> int:
     from vicode.runs import NotReadyError
     from vicode.runs.client import RunFailedError
     from vicode.runs.recorded_inputs import MissingValuesError
+    from vicode.services.root_component import find_unsynced_edits
+    from vicode.services.trace_replay import find_design, replay_design
     from vicode.simulation.trace import TraceError, open_trace
 
     if args.set and args.tolerance:
@@ -56,7 +56,7 @@ def run(args: argparse.Namespace) -> int:
         trace = open_trace(Path(args.trace))
         iterations = trace.iterations()
         first = next(iterations)
-        opened, design = _find_design(args.design, str(first.tree[0]["component"]))
+        opened, design = find_design(args.design, str(first.tree[0]["component"]))
         if opened.errors_for("python"):
             print_findings(opened.errors_for("python"), to_stderr=True)
             return 2
@@ -66,46 +66,18 @@ def run(args: argparse.Namespace) -> int:
             return 2
         if args.set:
             return _replay_values(args, opened, design, _chain(first, iterations))
-        result = _replay(args, opened, design, _chain(first, iterations))
+        result = replay_design(
+            opened.open_project,
+            design,
+            _chain(first, iterations),
+            tolerance_ns=round(args.tolerance * 1e9),
+            allows_missing=args.allow_missing,
+        )
     except TraceError as error:
         raise OSError(f"{args.trace}: {error}") from error
     except (MissingValuesError, NotReadyError, UnsoundDesignError, RunFailedError) as error:
         raise OSError(f"cannot replay {args.trace}: {error}") from error
     return _report(result, opened, design)
-
-
-def _find_design(path: str, component: str) -> "tuple[LoadedProject, Design]":
-    """The design of the root component of a trace.
-
-    Raises:
-        OSError: There is none.
-    """
-    for opened in load_projects([path]):
-        design = opened.open_project.project.design(component)
-        if design is not None and component in opened.selected_designs:
-            return opened, design
-    raise OSError(f"{path} has no design of {component}, the root component of the trace; give it with --design")
-
-
-def _replay(
-    args: argparse.Namespace, opened: LoadedProject, design: "Design", iterations: "Iterator[IterationResult]"
-) -> "ReplayResult":
-    from vicode.runs import RunConfig, prepare_run, used_components
-    from vicode.runs.replay import replay_trace
-
-    project, folder = opened.open_project.project, opened.open_project.folder.resolve()
-    prepared = prepare_run(project, design, RunConfig(), opened.design_paths, folder)
-    names = (design.component, *used_components(project, design))
-    return asyncio.run(
-        replay_trace(
-            prepared,
-            folder,
-            iterations,
-            components=frozenset(name for name in names if project.design(name) is not None),
-            tolerance_ns=round(args.tolerance * 1e9),
-            allows_missing=args.allow_missing,
-        )
-    )
 
 
 def _replay_values(
@@ -114,17 +86,16 @@ def _replay_values(
     """Print what changes with other values; return 1 if something does."""
     from vicode.runs.changed_values import ChangedValueError, apply_values, parse_changed_value
     from vicode.runs.replay_report import OPEN_LOOP, describe_effect, describe_unlike_record, summarize_effect
-    from vicode.runs.value_replay import prepare_value_replay, replay_values
+    from vicode.services.trace_replay import replay_with_values
 
-    project, folder = opened.open_project.project, opened.open_project.folder.resolve()
+    project = opened.open_project.project
     values = []
     for given in args.set:
         try:
             values.append(parse_changed_value(given, project))
         except ChangedValueError as error:
             raise OSError(f"--set {given}: {error}") from error
-    prepared = prepare_value_replay(project, design, tuple(values), opened.design_paths, folder)
-    effect = asyncio.run(replay_values(prepared, folder, iterations, allows_missing=args.allow_missing))
+    effect = replay_with_values(opened.open_project, design, values, iterations, allows_missing=args.allow_missing)
     print(summarize_effect(effect))
     for line in describe_effect(project, apply_values(project, values), effect):
         print(line)

@@ -10,13 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
-from vicode.cli.project_loader import LoadedProject
 from vicode.cli.root_selection import select_root
 from vicode.output import temporary_folder
+from vicode.services.project_loader import LoadedProject
 
 if TYPE_CHECKING:
     from vicode.cli.trace_output import TracePrinter
-    from vicode.model.project import Project
 
 _DEFAULT_SECONDS = 60.0
 
@@ -87,6 +86,8 @@ def _add_pace(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Generate into a temporary folder, run the code in a new process, and show its progress."""
+    from vicode.services.run_preparation import generate_for_run, needs_bridge
+
     if args.control and args.watch is None:
         print("vicode: --control has no effect without --watch; add --watch 7070", file=sys.stderr)
         return 2
@@ -95,7 +96,7 @@ def run(args: argparse.Namespace) -> int:
     if isinstance(selected, int):
         return selected
     opened, component = selected
-    if not args.world and not has_inputs and _needs_bridge(opened.open_project.project, component):
+    if not args.world and not has_inputs and needs_bridge(opened.open_project.project, component):
         print(
             f"vicode: {component} needs the world of a bridge; start it with: vicode bridge {args.path}",
             file=sys.stderr,
@@ -111,7 +112,7 @@ def run(args: argparse.Namespace) -> int:
                 print(f"vicode: {error}", file=sys.stderr)
                 return 2
         else:
-            class_path = generate_for_run(opened, component, folder)
+            class_path = generate_for_run(opened.open_project, component, folder)
         if args.reload:
             from vicode.cli.run_reload import start_watching
 
@@ -125,17 +126,6 @@ def run(args: argparse.Namespace) -> int:
             )
 
 
-def _needs_bridge(project: "Project", component: str) -> bool:
-    """Whether a component uses the world, and the project has one only for robots that connect."""
-    if project.world or not project.bridge.world:
-        return False
-    from vicode.generators import collect_components
-
-    designs = (project.design(name) for name in collect_components(project, {component}))
-    used = (project.interface(use.component) for design in designs if design for use in design.uses)
-    return any(interface and interface.implementation == "world" for interface in used)
-
-
 @contextlib.contextmanager
 def _duplicate_stdout() -> Iterator[int]:
     """A descriptor of the standard output, which the child writes the trace to."""
@@ -144,17 +134,6 @@ def _duplicate_stdout() -> Iterator[int]:
         yield descriptor
     finally:
         os.close(descriptor)
-
-
-def generate_for_run(opened: LoadedProject, component: str, folder: Path) -> str:
-    """Generate the component and all it uses; return the path of its class."""
-    from vicode.generators import generate, python_class_path
-    from vicode.output import apply_diffs, compare_files
-
-    project = opened.open_project.project
-    files = generate(project, components=[component], languages=["python"], sources=opened.design_paths)
-    apply_diffs(compare_files(files, folder), folder)
-    return python_class_path(project, component)
 
 
 def _command(opened: LoadedProject, names: tuple[str, str], folder: Path, args: argparse.Namespace) -> list[str]:
@@ -196,20 +175,11 @@ def _command(opened: LoadedProject, names: tuple[str, str], folder: Path, args: 
 
 
 def _origin(opened: LoadedProject, component: str) -> list[str]:
-    """The hash of the design and the git revision, so that the trace names what ran."""
-    from vicode.git import GitError, find_repository
-    from vicode.model.design_hash import hash_design
+    """The options that name what runs in the trace."""
+    from vicode.services.run_preparation import find_origin
 
-    project = opened.open_project
-    options = ["--design", hash_design(project.project, component)]
-    try:
-        repository = find_repository(project.folder)
-        if repository.head is not None:
-            is_modified = repository.is_modified([repository.relative(project.folder)])
-            options += ["--revision", repository.head + ("-dirty" if is_modified else "")]
-    except GitError:
-        pass
-    return options
+    origin = find_origin(opened.open_project, component)
+    return ["--design", origin.design, *(["--revision", origin.revision] if origin.revision else [])]
 
 
 def _run_process(command: list[str], *, is_plain: bool, kept: tuple[int, ...] = ()) -> int:

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from vicode.cli.project_loader import LoadedProject
+from vicode.services.project_loader import LoadedProject
 
 _WITHOUT_EFFECT = {"world": "--world", "reload": "--reload"}
 
@@ -22,10 +22,9 @@ def generate_with_inputs(
         OSError: The file of inputs cannot be read.
     """
     from vicode.generators import UnsoundDesignError
-    from vicode.output import apply_diffs, compare_files
-    from vicode.runs.input_script import InputTextError, TimedInput, make_script, parse_input, parse_input_lines
+    from vicode.runs.input_script import InputTextError, TimedInput, parse_input, parse_input_lines
+    from vicode.runs.scripted import write_scripted_run
     from vicode.runs.setup import NotReadyError, RunConfig, prepare_run
-    from vicode.simulation.scripted_run import MAIN, MODULE, WORLD, write_run
 
     for name, option in _WITHOUT_EFFECT.items():
         if getattr(args, name):
@@ -51,6 +50,4 @@ def generate_with_inputs(
             timed.append(parse_input(given, prepared.inputs, design))
         except InputTextError as error:
             raise RunInputsError(f"--set {given}: {error}") from error
-    apply_diffs(compare_files(prepared.files, folder), folder)
-    write_run(folder / "python", prepared.setup, make_script(timed))
-    return f"{MODULE}:{MAIN}", f"{MODULE}:{WORLD}"
+    return write_scripted_run(prepared, timed, folder)

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from vicode.bica.reload import STAMP
 from vicode.cli.console import describe_os_error, print_findings
-from vicode.cli.docs_watch import iter_changes
-from vicode.cli.project_loader import DESIGN_SUFFIXES, load_projects
-from vicode.cli.root_selection import find_root_component
-from vicode.cli.run import generate_for_run
+from vicode.services.file_changes import iter_changes
+from vicode.services.project_loader import DESIGN_SUFFIXES, load_projects
+from vicode.services.root_component import find_root_component
+from vicode.services.run_preparation import generate_for_run
 
 
 def start_watching(args: argparse.Namespace, folder: Path) -> None:
@@ -40,5 +40,5 @@ def _generate_again(args: argparse.Namespace, folder: Path) -> None:
         print_findings(errors, to_stderr=True)
         print("vicode: not reloaded; the old code keeps running", file=sys.stderr)
         return
-    generate_for_run(opened, component, folder)
+    generate_for_run(opened.open_project, component, folder)
     (folder / "python" / STAMP).touch()

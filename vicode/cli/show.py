@@ -7,10 +7,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.output import resolve_below, temporary_folder, write_atomically
+from vicode.output import resolve_below, write_atomically
 
 if TYPE_CHECKING:
-    from vicode.cli.revision_search import FoundDesign
+    from vicode.services.design_diff.revision_search import FoundDesign
 
 _HASH = re.compile(r"[0-9a-f]{6,12}\Z")
 
@@ -27,10 +27,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print or write the design; return 1 if no revision has it."""
+    from vicode.services.design_diff.revision_search import find_design
+
     wanted = _read_trace(Path(args.hash)) if Path(args.hash).is_file() else args.hash.lower()
     if not _HASH.match(wanted):
         raise OSError(f"'{args.hash}' is neither a file nor a hash of 6 to 12 hexadecimal digits")
-    found = _search(Path(args.path), wanted)
+    found = find_design(Path(args.path), wanted)
     if found is None:
         print(f"vicode: no revision has a design with the hash {wanted} in {args.path}", file=sys.stderr)
         return 1
@@ -52,18 +54,6 @@ def _read_trace(file: Path) -> str:
     if not isinstance(header, dict) or not isinstance(header.get("design"), str):
         raise OSError(f"{file} is not a trace with the hash of a design; 'vicode run --trace FILE' records one")
     return str(header["design"])
-
-
-def _search(path: Path, wanted: str) -> "FoundDesign | None":
-    """The design in the work tree, or else in the newest revision."""
-    from vicode.cli.revision_search import find_in_folder, search_revisions
-    from vicode.git import find_repository
-
-    repository = find_repository(path)
-    folder = repository.relative(path)
-    with temporary_folder("show") as copy:
-        found = next(search_revisions(repository, folder, wanted, copy), None)
-    return found or find_in_folder(path, repository.root, wanted, None)
 
 
 def _describe(found: "FoundDesign") -> str:

@@ -6,13 +6,12 @@ from vicode.cli.console import print_findings
 from vicode.cli.gen import (
     add_output_arguments,
     for_each_project,
-    generation_input,
     print_errors,
     read_choices,
-    require_known_items,
+    read_output_options,
     write_plan,
 )
-from vicode.cli.project_loader import LoadedProject
+from vicode.services.project_loader import LoadedProject
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -43,12 +42,13 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _sync(opened: LoadedProject, args: argparse.Namespace) -> int:
+    from vicode.services.generation.project_output import generation_input, require_known_items
     from vicode.sync import find_patches, plan_generation
 
     choices = read_choices(args)
     has_errors = print_errors(opened)
     plan = plan_generation(
-        generation_input(opened, args),
+        generation_input(opened, read_output_options(args)),
         applies_edits=not args.check,
         choices=choices,
         outside_regions=args.outside_regions,

@@ -5,9 +5,10 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-from vicode.cli.docs_watch import iter_changes
-from vicode.cli.gen import for_each_project, output_folder
-from vicode.cli.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES, LoadedProject, load_projects
+from vicode.cli.gen import for_each_project
+from vicode.services.file_changes import iter_changes
+from vicode.services.generation.project_output import output_folder
+from vicode.services.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES, LoadedProject, load_projects
 
 
 def watch_projects(args: argparse.Namespace, sync: Callable[[LoadedProject, argparse.Namespace], int]) -> int:

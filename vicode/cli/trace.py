@@ -2,7 +2,7 @@
 
 import argparse
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +10,6 @@ from vicode.bica import options
 from vicode.findings import escape_text
 
 if TYPE_CHECKING:
-    from vicode.findings import DesignPath
     from vicode.model.design import Design
     from vicode.simulation.trace_statistics import RunHistory, StateStatistics
 
@@ -109,7 +108,7 @@ def _diff(args: argparse.Namespace) -> int:
 
 def _export(args: argparse.Namespace) -> int:
     """Write a trace as MCAP, for viewers such as Foxglove."""
-    from vicode.cli.trace_export import export_mcap
+    from vicode.simulation.mcap_export import export_mcap
     from vicode.simulation.trace import TraceError, open_trace
 
     try:
@@ -141,7 +140,7 @@ def _read_runs(paths: Sequence[str]) -> "list[RunHistory]":
 
 
 def _find_designs(path: str, components: Sequence[str]) -> "dict[str, Design]":
-    from vicode.cli.project_loader import load_projects
+    from vicode.services.project_loader import load_projects
 
     found: dict[str, Design] = {}
     for opened in load_projects([path]):
@@ -183,38 +182,10 @@ def _print_component(
     for words, count in ends.most_common():
         _print(f"  {words:{width}} {count:8}")
     if design is not None:
-        for words in _never_taken(design, transitions):
+        from vicode.services.transition_counts import list_never_taken
+
+        for words in list_never_taken(design, transitions):
             _print(f"  {words:{width}} {'never':>8}")
-
-
-def _never_taken(design: "Design", transitions: dict[tuple[str, str, str], int]) -> Iterable[str]:
-    from vicode.model.design import COMMON
-    from vicode.model.traversal import iter_transitions
-
-    counts = _count_by_path(design, transitions)
-    for located in iter_transitions(design):
-        if not counts.get(located.path):
-            source = "common" if located.source == COMMON else located.source
-            yield f"{source} → {getattr(located.decision, 'to', '')}"
-
-
-def _count_by_path(design: "Design", transitions: dict[tuple[str, str, str], int]) -> "dict[DesignPath, int]":
-    """The counts of transitions that are known by their id or their ends.
-
-    Several transitions without ids between the same states share a count, as a trace does not tell them apart.
-    """
-    from vicode.model.design import COMMON
-    from vicode.model.traversal import iter_transitions
-
-    counts: dict[DesignPath, int] = {}
-    located_transitions = list(iter_transitions(design))
-    for (source, target, given), count in transitions.items():
-        by_id = [each for each in located_transitions if given and each.decision.id == given]
-        ends = [each for each in located_transitions if getattr(each.decision, "to", "") == target]
-        by_ends = [each for each in ends if each.source == source] or [each for each in ends if each.source == COMMON]
-        for each in by_id or by_ends:
-            counts[each.path] = counts.get(each.path, 0) + count
-    return counts
 
 
 def _draw(
@@ -227,6 +198,7 @@ def _draw(
     from vicode.diagram.heat_map import StateHeat, render_heat_map
     from vicode.diagram.svg import write_svg
     from vicode.output import write_atomically
+    from vicode.services.transition_counts import count_by_path
 
     design = designs.get(component)
     if design is None:
@@ -236,6 +208,6 @@ def _draw(
         for name, each in states[component].items()
     }
     own = {key[1:]: count for key, count in transitions.items() if key[0] == component}
-    image = render_heat_map(design, heat, _count_by_path(design, own))
+    image = render_heat_map(design, heat, count_by_path(design, own))
     write_atomically(Path(args.svg), write_svg(image).encode())
     print(f"\nwrote {args.svg}")

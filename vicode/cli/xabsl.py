@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING
 
 from vicode.bica import options
 from vicode.cli import xabsl_diff, xabsl_update
-from vicode.cli.console import count_findings, describe_os_error, print_findings
-from vicode.cli.source_encoding import add_encoding_argument, find_encoding
-from vicode.cli.xabsl_behavior import compile_behavior, print_behavior_findings, with_display_paths
+from vicode.cli.console import describe_os_error, print_findings
+from vicode.cli.source_encoding import add_encoding_argument
+from vicode.cli.xabsl_behavior import print_behavior_findings
+from vicode.findings import count_findings
+from vicode.services.display_paths import with_display_paths
+from vicode.services.xabsl_encoding import find_encoding
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -54,6 +57,8 @@ def _add_check(parser: argparse.ArgumentParser) -> None:
 
 def _check(args: argparse.Namespace) -> int:
     """Check an XABSL behavior and report all problems at once."""
+    from vicode.xabsl.behavior_loader import compile_behavior
+
     encoding = find_encoding(args.agents, args.encoding)
     compiled = compile_behavior(args.agents, encoding)
     if args.json:
@@ -76,6 +81,7 @@ def _compile(args: argparse.Namespace) -> int:
     """Compile a behavior to the intermediate code of the original compiler."""
     from vicode.findings import Severity
     from vicode.output import write_atomically
+    from vicode.xabsl.behavior_loader import compile_behavior
     from vicode.xabsl.compiler import declared_symbols
     from vicode.xabsl.engine.code_writer import write_code
     from vicode.xabsl.engine.symbols import write_symbols

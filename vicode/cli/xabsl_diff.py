@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vicode.bica import options
-from vicode.cli.source_encoding import add_encoding_argument, find_encoding
-from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings
+from vicode.cli.source_encoding import add_encoding_argument
+from vicode.cli.xabsl_behavior import print_behavior_findings
+from vicode.services.xabsl_encoding import find_encoding
 
 if TYPE_CHECKING:
     from vicode.xabsl.version_comparison import BehaviorVersion, Row, VersionDifference
@@ -47,6 +48,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _load(agents: Path, encoding: str) -> "BehaviorVersion | None":
+    from vicode.xabsl.behavior_loader import load_behavior
     from vicode.xabsl.compiler import compile_source
     from vicode.xabsl.version_comparison import BehaviorVersion
 

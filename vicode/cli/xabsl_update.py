@@ -3,21 +3,20 @@
 import argparse
 import os
 import sys
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.console import count_findings, print_findings
-from vicode.cli.source_encoding import add_encoding_argument, project_encoding
-from vicode.cli.xabsl_behavior import load_behavior, print_behavior_findings, print_encoding_doubts
+from vicode.cli.console import print_findings
+from vicode.cli.source_encoding import add_encoding_argument
+from vicode.cli.xabsl_behavior import print_behavior_findings, print_encoding_doubts
+from vicode.findings import count_findings
+from vicode.services.xabsl_encoding import project_encoding
 
 if TYPE_CHECKING:
-    from vicode.cli.behavior_update import UpdateProblem
-    from vicode.cli.comment_places import DesignFile
-    from vicode.cli.import_record import ImportRecord
-    from vicode.findings import Finding
+    from vicode.services.imported_behavior.behavior_update import UpdateProblem
+    from vicode.services.imported_behavior.import_record import ImportRecord
     from vicode.store import OpenProject
     from vicode.xabsl.patching.program_patch import FileTexts
     from vicode.xabsl.source_loader import ProgramSource
@@ -36,9 +35,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the changed files; return 1 if an edit is not written, or with --check or --diff if files differ."""
-    from vicode.cli.import_record import read_record
+    from vicode.services.imported_behavior.import_record import read_record
+    from vicode.services.imported_behavior.updated_files import behavior_folder
     from vicode.store import open_project
     from vicode.transactions import complete_interrupted, is_interrupted
+    from vicode.xabsl.behavior_loader import load_behavior
     from vicode.xabsl.compiler import compile_source
     from vicode.xabsl.source_text import read_source
 
@@ -51,8 +52,8 @@ def run(args: argparse.Namespace) -> int:
     agents = Path(os.path.relpath(agents))
     encoding = args.encoding or opened.project.xabsl_encoding or project_encoding(agents)
     source = load_behavior(agents, encoding)
-    if is_interrupted(_root(source)):
-        complete_interrupted(_root(source))
+    if is_interrupted(behavior_folder(source)):
+        complete_interrupted(behavior_folder(source))
         source = load_behavior(agents, encoding)
     compiled = compile_source(source)
     print_encoding_doubts(source, agents)
@@ -77,18 +78,25 @@ def _update(
     source: "ProgramSource",
     read: "ReadText",
 ) -> int:
-    from vicode.cli.behavior_update import EditedProject, update_behavior
+    from vicode.services.imported_behavior.behavior_update import EditedProject, update_behavior
+    from vicode.services.imported_behavior.updated_files import (
+        find_faulty_designs,
+        list_errors,
+        list_files,
+        list_paths,
+        write_update,
+    )
 
-    errors = _errors(opened)
+    errors = list_errors(opened)
     print_findings(errors, to_stderr=True)
-    left_out = _components(errors, opened)
+    left_out = find_faulty_designs(errors, opened)
     if left_out is None:
         print(f"nothing written: {count_findings(errors)}", file=sys.stderr)
         return 1
-    paths, has_comments = _paths(opened), record is not None and record.has_comments
+    paths, has_comments = list_paths(opened), record is not None and record.has_comments
     edited = EditedProject(
         project=opened.project,
-        files=_files(opened) if has_comments else {},
+        files=list_files(opened) if has_comments else {},
         paths=paths,
         known_paths=record.designs if record else {},
         left_out=left_out,
@@ -104,53 +112,9 @@ def _update(
         print(f"nothing written: {count} error{'s' if count > 1 else ''}", file=sys.stderr)
         return 1
     designs = {**paths, **{name: edited.known_paths.get(name, paths[name]) for name in left_out & paths.keys()}}
-    _write(texts, source, opened.folder, designs, read, has_comments=has_comments or record is None)
+    write_update(texts, source, opened.folder, designs, read, has_comments=has_comments or record is None)
+    _print_written(texts)
     return int(bool(count))
-
-
-def _errors(opened: "OpenProject") -> "list[Finding]":
-    """The errors of designs that prevent generating XABSL."""
-    from vicode.check import check_project
-    from vicode.store import locate_findings
-
-    project = replace(opened.project, languages=("xabsl",))
-    findings = [*opened.findings, *locate_findings(check_project(project), opened)]
-    return [each for each in findings if each.severity == "error"]
-
-
-def _components(errors: "Iterable[Finding]", opened: "OpenProject") -> set[str] | None:
-    """The designs with errors; None if one does not belong to a single design."""
-    unread = {file.name: name for name, file in _unreadable(opened)}
-    found = set()
-    for error in errors:
-        component = error.subject.component if error.subject else ""
-        if not component and error.location is not None:
-            component = unread.get(Path(error.location.file).name, "")
-        if not component:
-            return None
-        found.add(component)
-    return found
-
-
-def _unreadable(opened: "OpenProject") -> "Iterator[tuple[str, Path]]":
-    """The unreadable design files whose names are unique, with the names of their components."""
-    names = {file: name for name, file in opened.project.unreadable}
-    for file in opened.broken_files:
-        if file.name in names and sum(other.name == file.name for other in opened.broken_files) == 1:
-            yield names[file.name], file
-
-
-def _paths(opened: "OpenProject") -> dict[str, str]:
-    """The path of each design relative to the project."""
-    folder = opened.folder.resolve()
-    found = {name: file.resolve() for name, file in opened.files.items() if name}
-    return {name: file.relative_to(folder).as_posix() for name, file in found.items() if file.is_relative_to(folder)}
-
-
-def _files(opened: "OpenProject") -> "dict[str, DesignFile]":
-    from vicode.cli.comment_places import DesignFile
-
-    return {name: DesignFile(path=file.name, text=opened.texts[name]) for name, file in opened.files.items()}
 
 
 def _print_problems(problems: "Iterable[UpdateProblem]", opened: "OpenProject") -> None:
@@ -178,58 +142,8 @@ def _show(texts: "FileTexts", source: "ProgramSource", *, is_diff: bool) -> int:
     return int(bool(texts))
 
 
-def _write(
-    texts: "FileTexts",
-    source: "ProgramSource",
-    folder: Path,
-    designs: Mapping[str, str],
-    read: "ReadText",
-    *,
-    has_comments: bool,
-) -> None:
-    """Write all files or none, then the record of the import."""
-    from vicode.cli.import_record import RECORD_FILE, format_record
-    from vicode.output import resolve_below, write_atomically
-    from vicode.transactions import replace_files
-    from vicode.xabsl.source_loader import load_source
-
-    if texts:
-        contents = _encoded(texts, source)
-        root = _root(source)
-        replace_files(root, {path.relative_to(root).as_posix(): content for path, content in contents.items()})
-    record = folder / RECORD_FILE
-    text = format_record(folder, load_source(source.main, read), designs, has_comments=has_comments)
-    if not record.exists() or record.read_text("utf-8") != text:
-        write_atomically(resolve_below(folder, RECORD_FILE), text)
+def _print_written(texts: "FileTexts") -> None:
     for path in sorted(texts):
         print(f"{'deleted' if texts[path] is None else 'wrote'} {Path(os.path.relpath(path)).as_posix()}")
     if not texts:
         print("no changes")
-
-
-def _root(source: "ProgramSource") -> Path:
-    """The folder that contains all files of a behavior."""
-    return Path(os.path.commonpath([path.parent for path in source.files]))
-
-
-def _encoded(texts: "FileTexts", source: "ProgramSource") -> Mapping[Path, bytes | None]:
-    """Encode each text like its file, that of a moved file like the old one, a new one like the main file.
-
-    Raises:
-        OSError: A file changed since it was read, or its encoding does not have a character.
-    """
-    from vicode.xabsl.source_text import SourceEncodingError, decode_source, encode_source
-
-    main_encoding = source.encodings[source.main]
-    moved = {path.name: source.encodings[path] for path, text in texts.items() if text is None}
-    encoded: dict[Path, bytes | None] = {}
-    for path, text in texts.items():
-        encoding = source.encodings.get(path) or moved.get(path.name) or main_encoding.removesuffix("-sig")
-        old = path.read_bytes() if path in source.files else None
-        if old is not None and decode_source(old, encoding).text != source.files[path].tokens.text:
-            raise OSError(f"{path} was changed at the same time; run the command again")
-        try:
-            encoded[path] = None if text is None else encode_source(text, encoding, old)
-        except SourceEncodingError as error:
-            raise OSError(f"{path} {error}") from error
-    return encoded

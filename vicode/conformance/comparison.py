@@ -13,6 +13,7 @@ from vicode.conformance.python import CodeRunError, run_python, run_simulator
 from vicode.conformance.random_inputs import random_run
 from vicode.conformance.reference import run_reference
 from vicode.conformance.report import explain
+from vicode.conformance.result import AbsentLanguage, LanguageComparison, LanguageDifference, find_baseline
 from vicode.conformance.traces import TraceIteration, first_difference, large_ints_limit, reduce_for
 from vicode.conformance.xabsl import run_xabsl
 from vicode.findings import Finding, Severity
@@ -20,7 +21,6 @@ from vicode.generators import UnsoundDesignError, collect_components
 from vicode.model.project import Project
 from vicode.runs.setup import NotReadyError
 from vicode.semantics import NotInterpretableError
-from vicode.simulation.language_comparison import AbsentLanguage, LanguageComparison, LanguageDifference, find_baseline
 
 GENERATED = ("python", "cpp", "xabsl")
 _MS = 1_000_000

@@ -15,6 +15,7 @@ from typing import Any
 
 from vicode.conformance.inputs import ConformanceRun, RunStep
 from vicode.conformance.reference import ReferenceRobots
+from vicode.conformance.result import CoverageCount, InputCoverage, NeverSeen
 from vicode.findings import DesignPath
 from vicode.model.design import Decision, DecisionGroup, Guard, Transition
 from vicode.model.expressions import (
@@ -31,7 +32,6 @@ from vicode.model.expressions import (
 )
 from vicode.model.traversal import is_exhaustive, iter_decisions
 from vicode.semantics import ComponentStep, Interpreter, Machine, Outcome, build_machines, evaluate
-from vicode.simulation.language_comparison import CoverageCount, InputCoverage, NeverSeen
 
 
 class GoalKind(StrEnum):

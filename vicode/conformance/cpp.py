@@ -1,7 +1,6 @@
 """Runs designs in C++: generated code with a generated driver, compiled with g++ or clang++."""
 
 import json
-import os
 import shlex
 import shutil
 import subprocess
@@ -13,6 +12,7 @@ from pathlib import Path
 from vicode.conformance.inputs import ConformanceRun, as_number
 from vicode.conformance.traces import TraceIteration, TraceNormalizer
 from vicode.generators import GENERATORS, generate
+from vicode.generators.cpp.compiler import find_compiler
 from vicode.generators.cpp.driver import driver_support, write_driver, write_main
 from vicode.model.project import Project
 from vicode.output import apply_diffs, compare_files
@@ -45,13 +45,6 @@ class ProgramError(Exception):
 
 class ToolError(Exception):
     """A compiler or emulator cannot be found."""
-
-
-def find_compiler() -> str | None:
-    """The C++ compiler: $CXX, g++ or clang++."""
-    return next(
-        (path for name in (os.environ.get("CXX", ""), "g++", "clang++") if name and (path := shutil.which(name))), None
-    )
 
 
 def find_tools(compiler: str = "", emulator: str = "") -> CppTools | None:

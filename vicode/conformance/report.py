@@ -5,8 +5,8 @@ from itertools import zip_longest
 from typing import Any
 
 from vicode.conformance.inputs import ConformanceRun, InputKey
+from vicode.conformance.result import LANGUAGE_TITLES, IterationInput, LanguageDifference, TraceCell
 from vicode.conformance.traces import TraceDifference, TraceIteration, TraceStep
-from vicode.simulation.language_comparison import LANGUAGE_TITLES, IterationInput, LanguageDifference, TraceCell
 
 _CONTEXT = 2
 _NOTHING = TraceCell(text="")

@@ -12,7 +12,7 @@ from vicode.findings.finding import (
     worst_severity,
 )
 from vicode.findings.nearest import did_you_mean, nearest_name, write_instead
-from vicode.findings.render import escape_text, render_json, render_text
+from vicode.findings.render import count_findings, escape_text, render_json, render_text
 
 __all__ = [
     "RULES",
@@ -24,6 +24,7 @@ __all__ = [
     "Severity",
     "SourceLocation",
     "Span",
+    "count_findings",
     "did_you_mean",
     "escape_text",
     "get_rule",

@@ -1,8 +1,10 @@
 """Rendering of findings as text with source excerpts, and as JSON."""
 
 import json
+from collections import Counter
 from collections.abc import Callable, Iterable
 
+from vicode.findings.catalogue import Severity
 from vicode.findings.finding import Finding, SourceLocation
 
 SourceLine = Callable[[str, int], str | None]
@@ -63,3 +65,12 @@ def _excerpt(location: SourceLocation | None, source_line: SourceLine) -> list[s
     start = max(0, location.column - 80)
     caret = " " * (location.column - 1 - start) + "^" * max(1, min(location.length, len(shown) - location.column + 1))
     return [f"    {shown[start : start + 160]}", f"    {caret[:160]}"]
+
+
+def count_findings(findings: Iterable[Finding]) -> str:
+    """Count the findings of each severity, as text."""
+    counts = Counter(finding.severity for finding in findings)
+    words = [
+        f"{counts[severity]} {severity}{'s' * (counts[severity] != 1)}" for severity in Severity if counts[severity]
+    ]
+    return ", ".join(words) or "no findings"

@@ -4,6 +4,7 @@ import keyword
 import re
 import unicodedata
 
+MAX_NAME_LENGTH = 80
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z", re.ASCII)
 _STATE_NAME = re.compile(r"[A-Za-z0-9_]+\Z", re.ASCII)
 _WORD_BOUNDARY = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
@@ -11,12 +12,12 @@ _WORD_BOUNDARY = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 
 def is_valid_name(text: str) -> bool:
     """Return whether a text is valid as any name other than that of a state."""
-    return bool(_NAME.match(text)) and len(text) <= 80
+    return bool(_NAME.match(text)) and len(text) <= MAX_NAME_LENGTH
 
 
 def is_valid_state_name(text: str) -> bool:
     """Return whether a text is a valid state name, which may also start with a digit or underscore."""
-    return bool(_STATE_NAME.match(text)) and len(text) <= 80
+    return bool(_STATE_NAME.match(text)) and len(text) <= MAX_NAME_LENGTH
 
 
 def name_from_text(text: str) -> str:

@@ -1,6 +1,7 @@
 """Runs one component in a separate process: takes inputs, steps, and reports a record of each iteration.
 
-The process is started as `python -m vicode.simulation`; user code runs nowhere else.
+The process is started as `python -m vicode.simulation`. All modules that run user code are listed in
+`tests/architecture/test_user_code.py`.
 """
 
 from vicode.simulation.messages import (

@@ -61,6 +61,16 @@ class OpenProject:
     def project_file(self) -> Path | None:
         return self.files.get("")
 
+    @property
+    def design_paths(self) -> dict[str, str]:
+        """The design files by component, relative to the folder of the project."""
+        folder = self.folder.resolve()
+        files = {name: path.resolve() for name, path in self.files.items() if name}
+        return {
+            name: path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
+            for name, path in files.items()
+        }
+
     def find_component(self, path: Path) -> str | None:
         """The component with this design file, None if the project has no such file."""
         resolved = path.resolve()

@@ -12,8 +12,8 @@ from typing import Any
 from nicegui import app, ui
 from nicegui.events import GenericEventArguments
 
+from vicode.decoding import decode
 from vicode.editor.canvas import Canvas
-from vicode.editor.session.decoding import decode
 from vicode.editor.session.gestures import NodePosition
 from vicode.editor.view import ItemRef
 

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 from tests.editor.canvas.run_js import JS
+from vicode.decoding import MalformedEventError
 from vicode.editor.canvas import element
 from vicode.editor.canvas.protocol import GESTURES, GestureReport, decode_gesture
-from vicode.editor.session.decoding import MalformedEventError
 from vicode.editor.session.gestures import MoveGesture, NodePosition
 from vicode.editor.session.transition_gestures import LabelGesture
 

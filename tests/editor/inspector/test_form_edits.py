@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 
 from tests.editor.session.conftest import open_design
+from vicode.decoding import MalformedEventError, decode_event
 from vicode.editor.session import DocumentSession
-from vicode.editor.session.decoding import MalformedEventError, decode_event
 from vicode.editor.session.forms.edits import FORM_EDITS
 from vicode.editor.session.forms.form_data import item_form
 from vicode.editor.session.forms.form_places import FormResult

@@ -7,8 +7,8 @@ import pytest
 
 from tests.editor.inspector.test_form_edits import edit
 from tests.editor.session.conftest import open_design
+from vicode.decoding import MalformedEventError
 from vicode.editor.session import DocumentSession, texts
-from vicode.editor.session.decoding import MalformedEventError
 from vicode.editor.session.forms.action_form import adders
 from vicode.editor.session.forms.form_data import FormWriter, item_form
 from vicode.editor.session.forms.form_places import FormResult

@@ -2,9 +2,9 @@
 
 from vicode.check import check_design
 from vicode.editor.session.code_marks import CodeMark, mark_assignments, mark_text
-from vicode.editor.session.lint import LintWarning
 from vicode.model.design import Assign, Declaration, Design, Guard, State, Stay
 from vicode.model.project import Project
+from vicode.services.lint import LintWarning
 
 
 def shown(text: str, marks: tuple[CodeMark, ...]) -> list[tuple[str, str, int]]:

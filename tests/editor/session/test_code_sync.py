@@ -6,13 +6,13 @@ from pathlib import Path
 import pytest
 
 from vicode.editor.session import DocumentSession, Workspace, code_sync
-from vicode.editor.session.code_generation import choose_texts
 from vicode.editor.session.code_sync import OutdatedChoiceError
 from vicode.editor.session.edits import apply_edit
 from vicode.editor.session.gestures import RenameGesture
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design, Guard, RunCode, Transition
 from vicode.model.edits import replace_decision
+from vicode.services.generation.design_output import choose_texts
 from vicode.sync import set_code
 
 GENERATED = "self._distances: list[float] = []"

@@ -6,9 +6,10 @@ import pytest
 
 from tests.editor.session.conftest import texts_of
 from vicode.check import check_project
-from vicode.editor.session import Library, Workspace, rename_component, templates, trash
+from vicode.editor.session import Library, Workspace, renames, templates, trash
 from vicode.editor.session.overview import ProjectOverview
 from vicode.findings import Severity
+from vicode.services.rename import component as rename_component
 from vicode.store import open_project
 
 
@@ -23,7 +24,7 @@ def test_renaming_a_component_changes_only_its_references(workspace: Workspace, 
     plan = rename_component.plan_component_rename(workspace, "Player", "Striker")
     assert texts_of(folder) == before
     assert [change.file.name for change in plan.changes] == ["striker.yaml", "project.yaml"]
-    assert rename_component.apply_component_rename(workspace, plan) == ""
+    assert renames.apply_component_rename(workspace, plan) == ""
     after = texts_of(folder)
     assert after["striker.yaml"] == before["player.yaml"].replace("component: Player", "component: Striker")
     assert after["project.yaml"] == before["project.yaml"].replace("root: Player", "root: Striker")
@@ -39,7 +40,7 @@ def test_renaming_back_restores_the_files(workspace: Workspace, folder: Path) ->
     for old, new in (("FaceBall", "LookAtBall"), ("LookAtBall", "FaceBall")):
         plan = rename_component.plan_component_rename(workspace, old, new)
         assert {change.file.name for change in plan.changes} >= {"player.yaml", "follow_ball.yaml"}
-        assert rename_component.apply_component_rename(workspace, plan) == ""
+        assert renames.apply_component_rename(workspace, plan) == ""
         assert_sound(folder)
     assert texts_of(folder) == before
     player = workspace.open_document("Player")
@@ -85,7 +86,7 @@ def test_renaming_requires_saved_and_unchanged_files(workspace: Workspace, folde
     assert plan.error == ""
     file = folder / "follow_ball.yaml"
     file.write_text(file.read_text() + "# theirs\n")
-    assert "another program has just changed" in rename_component.apply_component_rename(workspace, plan)
+    assert "another program has just changed" in renames.apply_component_rename(workspace, plan)
     assert (folder / "face_ball.yaml").exists()
     player.edit("add", lambda design: design.__class__(component="Player", uses=design.uses, states=design.states))
     assert (

@@ -6,13 +6,13 @@ from tests.editor.session.conftest import apply_gesture
 from vicode.editor.session import DocumentSession, apply_edit, clipboard
 from vicode.editor.session.clipboard import DuplicateGesture
 from vicode.editor.session.rebase import rebase_selection
-from vicode.editor.session.text_search import TextQuery, find_text, replace_matches
 from vicode.editor.view import ItemRef, make_scene
 from vicode.editor.view.page_urls import format_selection, parse_selection
 from vicode.model.design import Design, DiagramFrame, DiagramNote, State, Transition
 from vicode.model.diagram_edits import rename_frame
 from vicode.model.edits import remove_states, rename_state
 from vicode.model.project import Project
+from vicode.model.text_search import TextQuery, find_text, replace_matches
 
 FRAME = DiagramFrame(name="Play", color="red", states=("A", "B"))
 NOTE = DiagramNote(name="why", text="Slow ball", at=(0, -100))

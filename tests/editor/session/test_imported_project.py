@@ -8,10 +8,10 @@ from tests.xabsl.xabsl_cases import CASES
 from vicode.check import check_design
 from vicode.cli.entry_point import main
 from vicode.editor.session.code_preview import preview_code
-from vicode.editor.session.completion import complete_assignments, complete_expression
 from vicode.editor.view.scene import make_scene
 from vicode.editor.view.table import make_table
 from vicode.findings import Severity
+from vicode.model.completion import complete_assignments, complete_expression
 from vicode.model.design import Assign
 from vicode.model.edits import rename_state
 from vicode.model.expressions import build_scope

@@ -9,10 +9,11 @@ from tests.editor.session.conftest import texts_of
 from vicode.editor.session import Workspace, project_edits
 from vicode.editor.session.project_edits import ProjectEditResult, edit_project_file
 from vicode.editor.session.project_paths import ProjectNodePath
-from vicode.editor.session.references import ReferenceLocation, find_references
-from vicode.editor.session.rename_symbol import RenameEdit, apply_symbol_rename, plan_symbol_rename
+from vicode.editor.session.renames import RenameEdit, apply_symbol_rename
 from vicode.model.project import Project
+from vicode.model.references import ReferenceLocation, find_references
 from vicode.model.rename import SymbolRef, sibling_names
+from vicode.services.rename.symbol import plan_symbol_rename
 from vicode.store import open_project
 
 

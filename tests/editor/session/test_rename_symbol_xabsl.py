@@ -5,11 +5,12 @@ from pathlib import Path
 import pytest
 
 from vicode.editor.session import Library, Workspace
-from vicode.editor.session.rename_component import apply_component_rename, plan_component_rename
-from vicode.editor.session.rename_symbol import SymbolRenamePlan, apply_symbol_rename, plan_symbol_rename
+from vicode.editor.session.renames import apply_component_rename, apply_symbol_rename
 from vicode.model.design import Design
 from vicode.model.rename import SymbolRef
 from vicode.model.traversal import iter_code
+from vicode.services.rename.component import plan_component_rename
+from vicode.services.rename.symbol import SymbolRenamePlan, plan_symbol_rename
 
 PROJECT = """\
 vicode: 1

@@ -14,7 +14,6 @@ from tests.editor.simulation.robot_program import RobotProgram, running_robot, w
 from vicode.bica import Component, Root, SimulatedClock
 from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.panels.simulation.status_message import robot_message
-from vicode.editor.session.robot_version import find_other_versions
 from vicode.editor.session.robots import LinkStatus, RobotLink, RobotRequestError
 from vicode.editor.session.simulation import Breakpoints
 from vicode.editor.view import ItemRef
@@ -23,6 +22,7 @@ from vicode.model.project import Project
 from vicode.runs import Recording, Simulation, prepare_view
 from vicode.runs.guard_values import evaluate_guards
 from vicode.runs.traces import focus_iteration
+from vicode.services.robot_version import find_other_versions
 from vicode.simulation import IterationResult
 from vicode.store import open_project
 

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from tests.strategies.commented_texts import commented_texts
 from tests.strategies.designs import designs, projects
 from tests.strategies.value_edits import ValueEdit, draw_edit
-from vicode.cli.diff_inputs import FileVersion, VersionPair
-from vicode.cli.file_differences import FileDifference, compare_pair
 from vicode.model.diff import Change, ChangeKind, changed_lines, describe_change, diff_designs, diff_projects
+from vicode.services.design_diff.file_differences import FileDifference, compare_pair
+from vicode.services.design_diff.file_pairs import FileVersion, VersionPair
 
 SINGLE = {"insert": "+", "remove": "-", "regroup": ">"}
 

@@ -8,6 +8,7 @@ from typing import Any
 from nicegui import json, ui
 from nicegui.events import GenericEventArguments
 
+from vicode.decoding import MalformedEventError
 from vicode.editor.canvas.commands import commands_json
 from vicode.editor.canvas.protocol import (
     OnGesture,
@@ -20,7 +21,6 @@ from vicode.editor.canvas.protocol import (
     item_json,
 )
 from vicode.editor.js_modules import CANVAS_JS
-from vicode.editor.session.decoding import MalformedEventError
 from vicode.editor.session.delivery import Inbox
 from vicode.editor.session.gestures import NodePosition
 from vicode.editor.view import ItemRef

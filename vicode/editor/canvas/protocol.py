@@ -4,7 +4,7 @@ from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypedDict, get_args
 
-from vicode.editor.session.decoding import MalformedEventError, decode, decode_event
+from vicode.decoding import MalformedEventError, decode, decode_event
 from vicode.editor.session.edits import RequestedEdit
 from vicode.editor.session.gestures import EDIT_GESTURES
 from vicode.editor.view import ItemRef

@@ -7,9 +7,9 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
+from vicode.decoding import MalformedEventError, decode_event
 from vicode.editor.inspector.protocol import FORM_EVENTS, FormEvent
 from vicode.editor.js_modules import INSPECTOR_JS
-from vicode.editor.session.decoding import MalformedEventError, decode_event
 from vicode.editor.session.delivery import Inbox
 from vicode.editor.session.forms.edits import FORM_EDITS, FormEdit
 from vicode.editor.session.forms.form_data import diff_forms

@@ -5,12 +5,7 @@ from dataclasses import dataclass
 
 from nicegui import ui
 
-from vicode.editor.panels import texts
-from vicode.editor.panels.open_design import open_design
-from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.view import ItemRef, item_at_path
-from vicode.editor.view.page_urls import design_url
-from vicode.simulation.language_comparison import (
+from vicode.conformance.result import (
     LANGUAGE_TITLES,
     AbsentLanguage,
     CoverageCount,
@@ -22,6 +17,11 @@ from vicode.simulation.language_comparison import (
     as_design_path,
     verdict,
 )
+from vicode.editor.panels import texts
+from vicode.editor.panels.open_design import open_design
+from vicode.editor.panels.window_context import WindowContext
+from vicode.editor.view import ItemRef, item_at_path
+from vicode.editor.view.page_urls import design_url
 
 # A browser shows a longer table slowly; the sandbox could send any text.
 _MAX_ROWS, _MAX_INPUTS, _MAX_TEXT = 200, 60, 400

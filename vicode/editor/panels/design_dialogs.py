@@ -9,10 +9,11 @@ from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.open_design import open_design
 from vicode.editor.panels.widgets import primary_button
-from vicode.editor.session import Workspace, rename_component, templates, trash
+from vicode.editor.session import Workspace, renames, templates, trash
 from vicode.editor.session.workspace import TrashedDesign
 from vicode.editor.view.page_urls import design_url
 from vicode.model.names import is_valid_name, name_from_text
+from vicode.services.rename import component as rename_component
 
 ShowToast = Callable[[str, str], None]
 
@@ -137,7 +138,7 @@ class DesignDialogs:
 
     def _rename(self, workspace: Workspace, rename_plan: rename_component.ComponentRenamePlan) -> bool:
         def rename() -> None:
-            error = rename_component.apply_component_rename(workspace, rename_plan)
+            error = renames.apply_component_rename(workspace, rename_plan)
             if error:
                 self._show_error(error)
                 return
@@ -151,7 +152,7 @@ class DesignDialogs:
     def _rename_back(self, workspace: Workspace, rename_plan: rename_component.ComponentRenamePlan) -> None:
         plan = rename_component.plan_component_rename(workspace, rename_plan.old, rename_plan.new)
         error = plan.error
-        if error or not self._run_file_operation(lambda: rename_component.apply_component_rename(workspace, plan)):
+        if error or not self._run_file_operation(lambda: renames.apply_component_rename(workspace, plan)):
             self._show_error(error)
             return
         self.show_toast(texts.renamed_back(rename_plan.new), "positive")

@@ -10,9 +10,9 @@ from vicode.editor.panels.code_choices import CodeChoices
 from vicode.editor.panels.text_choice import OfferedTexts, TextChoice
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DiskConflictError, DocumentSession
-from vicode.editor.session.code_generation import FileReading, PendingOutput, choose_texts
 from vicode.editor.session.code_sync import apply_to_design
 from vicode.editor.session.descriptions import error_reason
+from vicode.services.generation.design_output import FileReading, PendingOutput, choose_texts
 from vicode.sync import OutsideConflict, describe_problems
 
 

@@ -11,8 +11,8 @@ from vicode.editor.panels.edits_to_apply import EditsToApply
 from vicode.editor.panels.texts import files_to_write
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.code_generation import PendingOutput
 from vicode.output import FileDiff, FileStatus
+from vicode.services.generation.design_output import PendingOutput
 
 _ICONS = {FileStatus.NEW: "add_circle", FileStatus.CHANGED: "change_circle", FileStatus.STALE: "remove_circle"}
 _WORDS = {FileStatus.NEW: "new", FileStatus.CHANGED: "changed", FileStatus.STALE: "no longer generated"}

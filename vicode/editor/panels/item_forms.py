@@ -23,12 +23,6 @@ from vicode.editor.panels.open_in_editor import open_in_editor
 from vicode.editor.panels.project.edits import ProjectFormEdits
 from vicode.editor.panels.rename_dialog import rename_declaration
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.completion import (
-    CompletionResult,
-    complete_assignments,
-    complete_expression,
-    complete_python,
-)
 from vicode.editor.session.fixes import find_fixes
 from vicode.editor.session.forms.action_form import component_parameters, settable_declarations
 from vicode.editor.session.forms.declaration_form import declared_symbol
@@ -44,6 +38,12 @@ from vicode.editor.session.rebase import rebase_selection
 from vicode.editor.session.texts import ITEM_MISSING
 from vicode.editor.view import ItemKind, ItemRef, item_at_path
 from vicode.findings import DesignPath
+from vicode.model.completion import (
+    CompletionResult,
+    complete_assignments,
+    complete_expression,
+    complete_python,
+)
 from vicode.model.design import Call, Design
 
 _MOVING_KINDS: Mapping[str, ItemKind] = {

@@ -5,8 +5,8 @@ from nicegui import run, ui
 from vicode.diagram.diff_diagram import DARK_DIFF, LIGHT_DIFF, DiffColors, diff_variables
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.revisions import compare_with_revision, list_revisions
 from vicode.git import Commit, GitError
+from vicode.services.design_diff.revisions import compare_with_revision, list_revisions
 
 
 async def show_revisions(context: WindowContext) -> None:

@@ -8,8 +8,8 @@ from nicegui import run, ui
 from vicode.editor.panels import texts
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.text_search import TextMatch, TextQuery, TextSearchResult, find_text, replace_matches
 from vicode.editor.view import item_at_path, item_label, part_label
+from vicode.model.text_search import TextMatch, TextQuery, TextSearchResult, find_text, replace_matches
 from vicode.model.texts import TextKind
 
 _MAX_SHOWN = 100

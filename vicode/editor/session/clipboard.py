@@ -27,6 +27,7 @@ from vicode.model.fragments import (
 )
 from vicode.model.names import is_valid_name, is_valid_state_name
 from vicode.model.traversal import find_decision
+from vicode.services import messages
 from vicode.store import read_design, save_design
 
 MAX_CHARACTERS = 400_000
@@ -131,7 +132,7 @@ def _read_part(text: str) -> Design | str:
     wrong = [state.name for state in design.states if not is_valid_state_name(state.name)]
     wrong += [use.alias for use in design.uses if not is_valid_name(use.alias)]
     if wrong:
-        return f"{texts.NOTHING_TO_PASTE}: {texts.invalid_name(wrong[0])}"
+        return f"{texts.NOTHING_TO_PASTE}: {messages.invalid_name(wrong[0])}"
     return design if design.states or design.common.transitions or design.notes else texts.NOTHING_TO_PASTE
 
 

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from vicode.editor.session.forms.pairs import PAIR
-from vicode.editor.session.lint import LintWarning
 from vicode.findings import DesignPath, Finding, Severity
+from vicode.services.lint import LintWarning
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

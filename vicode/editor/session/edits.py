@@ -1,6 +1,5 @@
 """Edits that a browser requests: their protocol and result, and steps that several of them share."""
 
-from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Protocol
 
@@ -9,7 +8,7 @@ from vicode.editor.session.document import DocumentSession
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design, Guard, Point, State
 from vicode.model.edits import add_state, add_transition, unique_name
-from vicode.model.names import is_valid_state_name
+from vicode.services.rename.name_errors import state_name_error
 
 _MAX_COORDINATE = 1_000_000
 
@@ -91,13 +90,6 @@ def naming_key(document: DocumentSession, name: str) -> str:
     latest = document.history.next_undo(document.user_id)
     key = latest.coalesce_key if latest else ""
     return key if key.rpartition(" ")[0] == f"create {name}" else ""
-
-
-def state_name_error(name: str, taken: Collection[str]) -> str:
-    """Why a state cannot get this name; "" if it can."""
-    if not is_valid_state_name(name):
-        return texts.invalid_state_name(name)
-    return texts.name_exists("state", name) if name in taken else ""
 
 
 def canvas_point(x: float, y: float) -> Point:

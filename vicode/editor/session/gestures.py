@@ -18,7 +18,6 @@ from vicode.editor.session.edits import (
     create_state,
     naming_key,
     require_state,
-    state_name_error,
 )
 from vicode.editor.session.transition_gestures import (
     ConnectGesture,
@@ -45,8 +44,10 @@ from vicode.model.edits import (
     unique_name,
     update_state,
 )
-from vicode.model.names import is_valid_name
+from vicode.model.names import MAX_NAME_LENGTH, is_valid_name
 from vicode.model.traversal import find_decision
+from vicode.services import messages
+from vicode.services.rename.name_errors import state_name_error
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -165,7 +166,7 @@ class RenameGesture:
         if old == new:
             return EditResult()
         if not new or design.frame(new) is not None or design.frame(old) is None:
-            raise EditError(texts.name_exists("frame", new) if new else texts.FRAME_WITHOUT_TITLE)
+            raise EditError(messages.name_exists("frame", new) if new else texts.FRAME_WITHOUT_TITLE)
         document.edit(texts.rename(old, new), lambda design: rename_frame(design, old, new))
         return EditResult(new_selection=(replace(self.item, id=new),))
 
@@ -291,7 +292,7 @@ def apply_layout(design: Design, layout: NodeLayout, only: Collection[str] | Non
 
 def _title(text: str) -> str:
     """The title of a frame: one line, up to the length of a name."""
-    return " ".join(text.split())[: texts.MAX_NAME_LENGTH]
+    return " ".join(text.split())[:MAX_NAME_LENGTH]
 
 
 def _alias_error(design: Design, alias: str) -> str:

@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from vicode.editor.session import texts
 from vicode.model.design import Declaration, Design, Use
 from vicode.model.edits import unique_name
 from vicode.model.expressions import BOOL, FLOAT, INT
 from vicode.model.names import is_valid_name, snake_case
 from vicode.model.project import MISSING, Interface, Project
+from vicode.services import messages
 
 _SENSORS = "Sensors"
 
@@ -76,10 +76,10 @@ def _parse_parameter(text: str) -> Declaration:
 
 def _validate_name(name: str, kind: str, is_taken: bool) -> str:
     if not name:
-        return texts.NAME_MISSING
+        return messages.NAME_MISSING
     if not is_valid_name(name):
-        return texts.invalid_identifier(name)
-    return texts.name_exists(kind, name) if is_taken else ""
+        return messages.invalid_identifier(name)
+    return messages.name_exists(kind, name) if is_taken else ""
 
 
 def _has_declaration(interface: Interface, name: str) -> bool:

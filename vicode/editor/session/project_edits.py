@@ -12,12 +12,13 @@ from vicode.editor.session.document import DocumentSession, FileTransaction
 from vicode.editor.session.interface_edits import shared_names
 from vicode.editor.session.presence import DISK_USER
 from vicode.editor.session.project_paths import ProjectNodePath
-from vicode.editor.session.rename_symbol import describe_new_errors, find_errors
 from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Declaration, Design
 from vicode.model.edits import unique_name
 from vicode.model.merge import merge_designs, merge_lines
 from vicode.model.project import Agent, Enumeration, Interface, Project
+from vicode.services import messages
+from vicode.services.rename.symbol import describe_new_errors, find_errors
 from vicode.store import (
     ProjectReadResult,
     find_project_file,
@@ -156,7 +157,7 @@ def edit_project_file(
     """
     file = find_project_file(workspace.folder)
     if file is not None and is_read_only(file):
-        return ProjectEditResult(error=texts.read_only([file.name]))
+        return ProjectEditResult(error=messages.read_only([file.name]))
     known = workspace.project
     content = file.read_bytes() if file else b""
     read = read_project_file(content, file.name) if file else None
@@ -166,7 +167,7 @@ def edit_project_file(
     old = content.decode("utf-8") if file else None
     project = replace(project, designs=known.designs)
     if node is not None and node.names(project) != node.names(known):
-        return ProjectEditResult(error=texts.changed_on_disk("project.yaml"))
+        return ProjectEditResult(error=messages.changed_on_disk("project.yaml"))
     changed = change(project)
     error = "" if allow_errors else describe_new_errors(project, changed, ())
     if error:
@@ -174,7 +175,7 @@ def edit_project_file(
     try:
         new = save_project_file(changed, old or "")
     except ValueError as reason:
-        return ProjectEditResult(error=texts.not_representable(reason))
+        return ProjectEditResult(error=messages.not_representable(reason))
     if new == old:
         return ProjectEditResult()
     _write_or_remove(workspace, file, new, old)

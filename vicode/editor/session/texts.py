@@ -6,10 +6,8 @@ do. Notes and announcements are sentences. The labels of quick fixes stand next 
 
 from collections.abc import Collection, Sequence
 
-from vicode.model.names import name_from_text
+from vicode.services.messages import invalid_name, quoted
 
-MAX_NAME_LENGTH = 80
-_MAX_QUOTED_LENGTH = 40
 _COLUMNS = {"name": "target", "when": "guard", "doc": "description"}
 
 # Labels of the undo history.
@@ -38,6 +36,10 @@ ALIGNMENTS = {
 }
 
 
+def rename(old: str, new: str) -> str:
+    return f"rename {old} to {new}"
+
+
 def undo_label(label: str) -> str:
     return f"undo {label}"
 
@@ -52,10 +54,6 @@ def add_state(name: str) -> str:
 
 def remove(name: str) -> str:
     return f"remove {name}"
-
-
-def rename(old: str, new: str) -> str:
-    return f"rename {old} to {new}"
 
 
 def move_items(count: int, name: str) -> str:
@@ -125,39 +123,13 @@ def edit_project_file(summary: str) -> str:
 # Names.
 
 
-def invalid_name(name: str) -> str:
-    return f"'{_quoted(name)}' is not a valid name"
-
-
-def invalid_state_name(name: str) -> str:
-    if len(name) > MAX_NAME_LENGTH:
-        return f"{invalid_name(name)}: use at most {MAX_NAME_LENGTH} characters"
-    return f"{invalid_name(name)}: use letters, digits and underscores{_example(name_from_text(name))}"
-
-
 def invalid_alias(name: str) -> str:
     return f"{invalid_name(name)}: start with a letter, then use letters, digits and underscores"
-
-
-def invalid_component_name(name: str) -> str:
-    return f"use letters, digits and underscores{_example(name_from_text(name) or 'FollowBall')}"
-
-
-def invalid_identifier(name: str) -> str:
-    example = name_from_text(name)
-    return f"use letters, digits and underscores, a letter first{_example(example[:1].lower() + example[1:])}"
-
-
-def name_exists(kind: str, name: str) -> str:
-    return f"there is already {'an' if kind[0] in 'aeio' else 'a'} {kind} {name}"
 
 
 def alias_exists(name: str) -> str:
     return f"there is already a component with the alias {name}"
 
-
-NAME_MISSING = "enter a name"
-NAME_UNCHANGED = "the name is unchanged"
 
 # Gestures, the clipboard and the table.
 
@@ -185,15 +157,15 @@ INITIAL_REQUIRED = "a design needs an initial state: mark another state instead"
 
 
 def unused_alias(alias: str) -> str:
-    return f"this design no longer uses '{_quoted(alias)}'"
+    return f"this design no longer uses '{quoted(alias)}'"
 
 
 def unknown_alias(alias: str, known: Collection[str]) -> str:
-    return f"this design uses no component '{_quoted(alias)}' (it uses: {', '.join(known) or 'none'})"
+    return f"this design uses no component '{quoted(alias)}' (it uses: {', '.join(known) or 'none'})"
 
 
 def unknown_state(name: str) -> str:
-    return f"there is no state '{_quoted(name)}'"
+    return f"there is no state '{quoted(name)}'"
 
 
 def cell_changed(value: str) -> str:
@@ -214,23 +186,6 @@ INVALID_COUNT = "enter a whole number of robots, such as 1, or leave this empty"
 
 def invalid_frequency(text: str) -> str:
     return f"'{text[:20]}' is not a number: enter Hz, such as 10 or 0.5"
-
-
-# Search.
-
-SEARCH_TIMEOUT = "the search took too long: simplify the pattern"
-
-
-def too_many_matches(limit: int) -> str:
-    return f"only the first {limit} matches are listed"
-
-
-def invalid_pattern(reason: object) -> str:
-    return f"invalid pattern: {reason}"
-
-
-def invalid_replacement(reason: object) -> str:
-    return f"invalid replacement: {reason}"
 
 
 # Undo and redo.
@@ -254,10 +209,8 @@ def not_done(reason: str) -> str:
 
 # Files.
 
-PROJECT_FILE_MISSING = "there is no project.yaml"
 DESIGN_CHANGED = "these parts of the design have changed in the meantime"
 PROJECT_LINES_CHANGED = "these lines of project.yaml have changed in the meantime"
-PLAN_OUTDATED = "a file has changed: check the list again"
 NO_READABLE_DESIGN = "the file contains no readable design"
 
 
@@ -273,37 +226,8 @@ def edit_refused(reason: str) -> str:
     return f"Not changed: {reason}"
 
 
-def not_representable(reason: object) -> str:
-    return f"this cannot be saved in a file: {reason}"
-
-
-def read_only(files: Collection[str]) -> str:
-    return f"{', '.join(files)} {'is' if len(files) == 1 else 'are'} read-only"
-
-
-def unsaved_changes(components: Sequence[str]) -> str:
-    verb = "has" if len(components) == 1 else "have"
-    return f"{', '.join(components)} {verb} unsaved changes: save or undo them first"
-
-
-def changed_on_disk(file: str) -> str:
-    return f"another program has just changed {file}: check it and try again"
-
-
-def changed_or_unreadable(file: str) -> str:
-    return f"another program has just changed {file}, or it cannot be read: check it and try again"
-
-
 def project_file_unreadable(reason: str) -> str:
     return f"project.yaml cannot be read{f': {reason}' if reason else ''}"
-
-
-def file_exists(file: str) -> str:
-    return f"there is already a file {file}"
-
-
-def no_design(component: str) -> str:
-    return f"there is no design of {component}"
 
 
 def design_gone(file: str, component: str) -> str:
@@ -312,45 +236,6 @@ def design_gone(file: str, component: str) -> str:
 
 def cannot_restore(file: str, component: str) -> str:
     return f"{file} already exists: {component} stays in the trash"
-
-
-# Renaming.
-
-
-def symbol_gone(symbol: str) -> str:
-    return f"{symbol} no longer exists"
-
-
-def name_used_in_code(component: str, expression: str) -> str:
-    return f"the code of {component} already uses {expression} for something else"
-
-
-def class_keeps_name(implementation: str) -> str:
-    return f"The hand-written class {implementation} keeps its name."
-
-
-def rename_in_class(implementation: str) -> str:
-    return f"Rename it in the hand-written class {implementation}, too."
-
-
-def component_summary(old: str, new: str) -> str:
-    return f"component {old} → {new}"
-
-
-def file_summary(old: str, new: str) -> str:
-    return f"{old} is renamed to {new}"
-
-
-def user_summary(component: str, used: str, aliases: Collection[str]) -> str:
-    return f"{component} uses {used} as {', '.join(aliases)}" if aliases else f"{component} refers to {used}"
-
-
-def agent_summary(agents: Collection[str], root: str) -> str:
-    return f"agent {', '.join(agents)} starts with {root}"
-
-
-def line_summary(what: str, count: int) -> str:
-    return f"{what}: {count} line{'s' * (count != 1)}"
 
 
 # Announcements to the other users of a design.
@@ -368,20 +253,7 @@ def merged_from_disk(file: str) -> str:
     return f"Merged changes that another program wrote to {file}"
 
 
-# Generate.
-
-
-def nothing_generated(reason: str, languages: Collection[str] = ()) -> str:
-    scope = f" for {' and '.join(languages)}" if languages else ""
-    return f"Nothing generated{scope}. {reason}"
-
-
-def generated(files: Sequence[str], folder: object) -> str:
-    return f"Generated {', '.join(files[:4])}{', …' if len(files) > 4 else ''} in {folder}"
-
-
-def up_to_date(folder: str) -> str:
-    return f"Generated code in {folder} is up to date"
+# Code.
 
 
 def no_generator(languages: Collection[str]) -> str:
@@ -390,11 +262,3 @@ def no_generator(languages: Collection[str]) -> str:
 
 def no_code(reason: object, language: str) -> str:
     return f"No code{f' for {language}' if language else ''} yet: {reason}"
-
-
-def _quoted(text: str) -> str:
-    return text[:_MAX_QUOTED_LENGTH]
-
-
-def _example(name: str) -> str:
-    return f", such as {name}" if name else ""

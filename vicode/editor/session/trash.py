@@ -6,14 +6,15 @@ from vicode.editor.session import texts
 from vicode.editor.session.workspace import TrashedDesign, Workspace
 from vicode.model.edits import unique_name
 from vicode.model.names import is_valid_name, snake_case
+from vicode.services import messages
 from vicode.store import replace_text, save_design
 
 
 def validate_move_to_trash(workspace: Workspace, component: str) -> str:
     """An error message if a design cannot be moved to the trash, else an empty string."""
     if workspace.project.design(component) is None:
-        return texts.no_design(component)
-    return texts.unsaved_changes([component]) if component in workspace.unsaved_components else ""
+        return messages.no_design(component)
+    return messages.unsaved_changes([component]) if component in workspace.unsaved_components else ""
 
 
 def find_dependents(workspace: Workspace, component: str) -> tuple[str, ...]:
@@ -60,11 +61,11 @@ def copy_name(workspace: Workspace, component: str) -> str:
 def validate_component_name(workspace: Workspace, name: str) -> str:
     """An error message if a new design cannot have this name, else an empty string."""
     if not is_valid_name(name):
-        return texts.invalid_component_name(name)
+        return messages.invalid_component_name(name)
     if workspace.project.interface(name) is not None:
-        return texts.name_exists("component", name)
+        return messages.name_exists("component", name)
     file = workspace.folder / f"{snake_case(name)}.yaml"
-    return texts.file_exists(file.name) if file.exists() else ""
+    return messages.file_exists(file.name) if file.exists() else ""
 
 
 def duplicate_design(workspace: Workspace, component: str, name: str) -> None:

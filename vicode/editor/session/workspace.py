@@ -7,8 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.check import check_design, check_project
-from vicode.editor.session import code_generation, code_sync, texts
-from vicode.editor.session.code_generation import GenerationRequest, GenerationResult, PendingOutput
+from vicode.editor.session import code_sync, texts
 from vicode.editor.session.code_sync import GeneratedPaths, file_signature
 from vicode.editor.session.document import DiskVersion, DocumentSession, FileTransaction, SharedDocument
 from vicode.editor.session.presence import DISK_USER, UserDirectory
@@ -19,6 +18,8 @@ from vicode.model.merge import merge_designs
 from vicode.model.names import snake_case
 from vicode.model.project import Project
 from vicode.output import back_up_edited
+from vicode.services.generation import design_output
+from vicode.services.generation.design_output import GenerationRequest, GenerationResult, PendingOutput
 from vicode.store import (
     FileChangedError,
     OpenProject,
@@ -285,7 +286,7 @@ class Workspace:
             applied=code_sync.applied_edits(self),
             project_folder=self.folder,
         )
-        return code_generation.prepare_output(self.output_folder, job, document.design.component)
+        return design_output.prepare_output(self.output_folder, job, document.design.component)
 
     def generate(self, document: DocumentSession, *, is_forced: bool = False) -> GenerationResult:
         """Generate and write code; hand-edited files are backed up if `is_forced`, and else prevent writing.
@@ -294,7 +295,7 @@ class Workspace:
             DiskConflictError: Another program changed the file of the design.
             OSError: A file cannot be written.
         """
-        return code_generation.write_output(self.prepare_output(document), is_forced=is_forced)
+        return design_output.write_output(self.prepare_output(document), is_forced=is_forced)
 
     def _write(self, document: DocumentSession, text: str | None, patched: str) -> None:
         """Write a design as a patch of `patched`; `text` is the content of the file, None if it is missing."""

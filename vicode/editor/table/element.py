@@ -6,8 +6,8 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
+from vicode.decoding import MalformedEventError, decode_event
 from vicode.editor.js_modules import TABLE_JS
-from vicode.editor.session.decoding import MalformedEventError, decode_event
 from vicode.editor.session.edits import RequestedEdit
 from vicode.editor.session.table_edits import SetCell
 from vicode.editor.table.protocol import TABLE_EVENTS, SelectRow

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 from nicegui import run
 
-from vicode.editor.session.robot_version import find_other_versions
 from vicode.editor.session.robots import LinkStatus, RobotRequestError, WatchedRobot
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design
@@ -15,6 +14,7 @@ from vicode.runs import Recording, RunStatus, Simulation, prepare_view
 from vicode.runs.guard_values import evaluate_guards
 from vicode.runs.traces import focus_iteration
 from vicode.runs.why_not import PastConditions, WhyNot, explain
+from vicode.services.robot_version import find_other_versions
 from vicode.simulation import IterationResult
 from vicode.simulation.robots import RobotDescription
 

@@ -26,6 +26,7 @@ from vicode.model.design import (
 )
 from vicode.model.names import is_valid_name
 from vicode.model.project import Agent, Enumeration, Interface, Project
+from vicode.services import messages
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -180,7 +181,7 @@ _DESIGN: Mapping[DesignPath, FormField] = {
 
 def _validate_name(text: str) -> str:
     name = text.strip()
-    return ("" if is_valid_name(name) else texts.invalid_identifier(name)) if name else texts.NAME_MISSING
+    return ("" if is_valid_name(name) else messages.invalid_identifier(name)) if name else messages.NAME_MISSING
 
 
 _PROJECT: Mapping[DesignPath, FormField] = {

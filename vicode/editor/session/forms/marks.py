@@ -11,11 +11,11 @@ from vicode.editor.session.forms.form_paths import file_path, item_path, resolve
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import CodeText, Field, MultiChoice, Node, iter_fields
 from vicode.editor.session.forms.project_places import project_fields
-from vicode.editor.session.lint import LintWarning
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath, Finding
 from vicode.model.design import Design
 from vicode.model.project import Project
+from vicode.services.lint import LintWarning
 
 _CODES: tuple[DesignPath, ...] = (("code",), ("module",), ("members",))
 Lint = Callable[[DesignPath, str], Sequence[LintWarning]]

@@ -1,0 +1,1 @@
+"""What both faces do with a project: use cases that combine several packages."""

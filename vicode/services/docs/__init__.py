@@ -1,0 +1,1 @@
+"""Builds documentation sites: loads projects and behaviors, builds their pages, and remembers the last build."""
