@@ -34,7 +34,7 @@ COMMANDS = {
     "vicode/sync/history.py": (("gen", "lamps"), ("sync", "lamps")),
 }
 """Commands for each module that reads repositories; the editor has a test of its own."""
-EDITOR_MODULES = {"vicode/editor/session/revisions.py", "vicode/editor/panels/revisions_dialog.py"}
+EDITOR_MODULES = {"vicode/editor/session/revisions.py", "vicode/editor/panels/versions/revisions_dialog.py"}
 METHODS: dict[str, Callable[[Repository], Any]] = {
     "resolve": lambda each: each.resolve("HEAD~1"),
     "has_revision": lambda each: each.has_revision("main"),

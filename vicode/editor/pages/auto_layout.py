@@ -11,7 +11,7 @@ from vicode.diagram.layout import LayoutMethod, LayoutService
 from vicode.editor.pages import texts
 from vicode.editor.pages.canvas_controller import CanvasController
 from vicode.editor.pages.shortcuts import ESCAPE_ATTRIBUTE
-from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import apply_layout

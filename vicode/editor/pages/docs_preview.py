@@ -12,7 +12,7 @@ from nicegui import app, run, ui
 from starlette.requests import Request
 from starlette.responses import Response
 
-from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import Library
 from vicode.editor.view.page_urls import docs_url

@@ -8,7 +8,7 @@ from pathlib import Path
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.panels.command import Command, CommandHandler
+from vicode.editor.panels.commands.command import Command, CommandHandler
 from vicode.editor.session.delivery import Inbox
 
 ESCAPE_ATTRIBUTE = "data-escape-clicks"

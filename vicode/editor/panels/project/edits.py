@@ -4,9 +4,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from vicode.editor.panels.inspector.rename_dialog import rename_declaration
 from vicode.editor.panels.project.removal import confirm_and_remove
 from vicode.editor.panels.project.writing import write_design_and_project, write_node, write_project
-from vicode.editor.panels.rename_dialog import rename_declaration
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import project_edits
 from vicode.editor.session.forms.edits import ButtonEdit, CheckEdit, ChoiceEdit, FormEdit, NameEdit, TextEdit

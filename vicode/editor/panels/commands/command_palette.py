@@ -6,7 +6,7 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.panels.command import Command, TypedCommand
+from vicode.editor.panels.commands.command import Command, TypedCommand
 from vicode.editor.panels.texts import NO_RESULTS, pluralize
 from vicode.editor.session.search_index import (
     SearchIndex,

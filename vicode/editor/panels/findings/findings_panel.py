@@ -7,7 +7,7 @@ from pathlib import PurePath
 from nicegui import ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.finding_navigation import FindingNavigator, fix_button
+from vicode.editor.panels.findings.finding_navigation import FindingNavigator, fix_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.finding_list import filter_findings, group_by_severity
 from vicode.editor.session.fixes import is_fixable

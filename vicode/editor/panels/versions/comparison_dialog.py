@@ -5,9 +5,9 @@ from nicegui import ui
 from vicode.conformance.process import ComparisonError, ComparisonProcess
 from vicode.conformance.result import LANGUAGE_TITLES, LanguageComparison, verdict
 from vicode.editor.panels import texts
-from vicode.editor.panels.comparison_view import ComparisonView
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.simulation.trust_dialog import COMPARE, ask_for_trust
+from vicode.editor.panels.versions.comparison_view import ComparisonView
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 

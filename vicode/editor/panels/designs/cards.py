@@ -3,9 +3,9 @@
 from nicegui import ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.design_dialogs import DesignDialogs
-from vicode.editor.panels.design_menu import add_design_menu
-from vicode.editor.panels.thumbnails import thumbnail_address
+from vicode.editor.panels.designs.design_dialogs import DesignDialogs
+from vicode.editor.panels.designs.design_menu import add_design_menu
+from vicode.editor.panels.designs.thumbnails import thumbnail_address
 from vicode.editor.session import Workspace
 from vicode.editor.session.overview import BrokenFile, DesignCard, HandWrittenComponent
 from vicode.editor.view import ItemRef

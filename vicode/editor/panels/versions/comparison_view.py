@@ -18,7 +18,7 @@ from vicode.conformance.result import (
     verdict,
 )
 from vicode.editor.panels import texts
-from vicode.editor.panels.open_design import open_design
+from vicode.editor.panels.designs.open_design import open_design
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.view import ItemRef, item_at_path
 from vicode.editor.view.page_urls import design_url

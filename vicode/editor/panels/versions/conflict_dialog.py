@@ -7,7 +7,7 @@ from nicegui import ui
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.side_choice import ChoiceSide, side_choice
+from vicode.editor.panels.versions.side_choice import ChoiceSide, side_choice
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DiskConflictError

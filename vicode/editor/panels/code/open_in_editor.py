@@ -5,7 +5,7 @@ import json
 from nicegui import run, ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DiskConflictError
 from vicode.editor.session.external_editor import CodePlace, find_place

@@ -6,8 +6,8 @@ from pathlib import PurePath
 from nicegui import ui
 
 from vicode.editor.panels import texts
+from vicode.editor.panels.code.text_choice import OfferedTexts, TextChoice
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.text_choice import OfferedTexts, TextChoice
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DocumentSession, code_sync

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.revisions_dialog import show_revisions
 from vicode.editor.panels.texts import history_jump_warning
+from vicode.editor.panels.versions.revisions_dialog import show_revisions
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.history_rows import HistoryRow, list_history_rows

@@ -6,8 +6,8 @@ from pathlib import PurePath
 from nicegui import ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.code_choices import CodeChoices
-from vicode.editor.panels.text_choice import OfferedTexts, TextChoice
+from vicode.editor.panels.code.code_choices import CodeChoices
+from vicode.editor.panels.code.text_choice import OfferedTexts, TextChoice
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DiskConflictError, DocumentSession
 from vicode.editor.session.code_sync import apply_to_design

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from nicegui import ui
 
+from vicode.editor.panels.code.edits_to_apply import EditsToApply
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.diff_view import diff_view
-from vicode.editor.panels.edits_to_apply import EditsToApply
 from vicode.editor.panels.texts import files_to_write
+from vicode.editor.panels.versions.diff_view import diff_view
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.output import FileDiff, FileStatus

@@ -5,7 +5,7 @@ from functools import partial
 
 from nicegui import ui
 
-from vicode.editor.panels.color_choice import color_choice
+from vicode.editor.panels.inspector.color_choice import color_choice
 from vicode.editor.panels.widgets import heading, icon_button, panel_title
 from vicode.editor.panels.window_context import WindowContext
 

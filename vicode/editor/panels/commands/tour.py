@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 
 from nicegui import ui
 
-from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.window_context import WindowContext
 from vicode.model.traversal import iter_transitions
 

@@ -2,7 +2,7 @@
 
 from nicegui import ui
 
-from vicode.editor.panels.design_dialogs import DesignDialogs
+from vicode.editor.panels.designs.design_dialogs import DesignDialogs
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.session import Workspace
 

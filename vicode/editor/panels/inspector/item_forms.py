@@ -18,10 +18,10 @@ from vicode.editor.inspector.protocol import (
     ToggleSection,
 )
 from vicode.editor.panels import texts
-from vicode.editor.panels.finding_navigation import apply_fix
-from vicode.editor.panels.open_in_editor import open_in_editor
+from vicode.editor.panels.code.open_in_editor import open_in_editor
+from vicode.editor.panels.findings.finding_navigation import apply_fix
+from vicode.editor.panels.inspector.rename_dialog import rename_declaration
 from vicode.editor.panels.project.edits import ProjectFormEdits
-from vicode.editor.panels.rename_dialog import rename_declaration
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.fixes import find_fixes
 from vicode.editor.session.forms.action_form import component_parameters, settable_declarations

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from nicegui import ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.project.writing import write_design_and_project
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.finding_list import next_finding

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from nicegui import ui
 
 from vicode.editor.panels import texts
+from vicode.editor.panels.designs.open_design import open_design
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.open_design import open_design
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.session import Workspace, renames, templates, trash
 from vicode.editor.session.workspace import TrashedDesign

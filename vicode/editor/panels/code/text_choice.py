@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from nicegui import ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.side_choice import ChoiceSide, side_choice
+from vicode.editor.panels.versions.side_choice import ChoiceSide, side_choice
 from vicode.editor.panels.window_context import WindowContext
 
 _FILE, _BASE, _DESIGN, _TEXT = "file", "base", "design", "text"

@@ -5,8 +5,8 @@ from typing import Any
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.panels.design_dialogs import DesignDialogs
-from vicode.editor.panels.folders import MANY_DESIGNS, group_by_folder
+from vicode.editor.panels.designs.design_dialogs import DesignDialogs
+from vicode.editor.panels.designs.folders import MANY_DESIGNS, group_by_folder
 from vicode.editor.panels.texts import NO_MATCHING_DESIGNS, pluralize, unreadable_file
 from vicode.editor.session import Library, Workspace
 from vicode.editor.view.page_urls import broken_file_url, design_url

@@ -5,9 +5,9 @@ from pathlib import PurePath
 from nicegui import ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.code_choices import ask_to_resolve_code, reason_of
+from vicode.editor.panels.code.code_choices import ask_to_resolve_code, reason_of
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.diff_view import diff_view
+from vicode.editor.panels.versions.diff_view import diff_view
 from vicode.editor.panels.widgets import ClickHandler
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import code_sync

@@ -6,7 +6,7 @@ The code of the selected item is highlighted; a click in the code selects the it
 from nicegui import run, ui
 
 from vicode.editor.code import CodeAssist
-from vicode.editor.panels.missing_edits import MissingEdits
+from vicode.editor.panels.code.missing_edits import MissingEdits
 from vicode.editor.panels.widgets import ClickHandler, icon_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import code_preview

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from nicegui import ui
 
 from vicode.editor.canvas.commands import CANVAS_COMMANDS, GESTURE_HELP, CommandGroup
-from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.dialogs import titled_dialog
 
 _PAGE = {MenuGroup.DESIGN: "design", MenuGroup.EDIT: "edit", MenuGroup.VIEW: "view", MenuGroup.SIMULATE: "Simulate tab"}

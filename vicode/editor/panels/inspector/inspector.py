@@ -2,9 +2,9 @@
 
 from nicegui import ui
 
-from vicode.editor.panels.item_forms import ItemForms
-from vicode.editor.panels.link_panel import link_panel
-from vicode.editor.panels.multi_selection_panel import multi_selection_panel
+from vicode.editor.panels.inspector.item_forms import ItemForms
+from vicode.editor.panels.inspector.link_panel import link_panel
+from vicode.editor.panels.inspector.multi_selection_panel import multi_selection_panel
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.view import ItemRef
 
