@@ -11,7 +11,7 @@ from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.texts import recovered
 from vicode.editor.panels.versions.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.autosave import AutosaveService
+from vicode.editor.session.recovery.autosave import AutosaveService
 
 _TICK_S = 0.5
 # Writing recovery files takes at most a tenth of the time, whatever the number and size of the designs.

@@ -20,7 +20,7 @@ from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.panels.versions.merge_conflicts import MergeConflictList
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.session import Library, Workspace
-from vicode.editor.session.broken_file import (
+from vicode.editor.session.recovery.broken_file import (
     FileModifiedError,
     ParsedText,
     parse_text,

@@ -28,10 +28,10 @@ from vicode.editor.panels.header import Header
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DocumentSession, User, UserDirectory, Workspace
-from vicode.editor.session.autosave import AutosaveService
-from vicode.editor.session.delivery import Inbox
 from vicode.editor.session.external_editor import ExternalEditor
-from vicode.editor.session.search_index import SearchTarget
+from vicode.editor.session.gestures.delivery import Inbox
+from vicode.editor.session.recovery.autosave import AutosaveService
+from vicode.editor.session.search.search_index import SearchTarget
 from vicode.editor.view import ItemRef
 from vicode.editor.view.page_urls import DesignAddress, parse_trail
 

@@ -25,8 +25,8 @@ from vicode.editor.panels.header import Header
 from vicode.editor.panels.toasts import show_toast
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.session import Library
-from vicode.editor.session.autosave import AutosaveService
-from vicode.editor.session.search_index import SearchIndex, SearchTarget
+from vicode.editor.session.recovery.autosave import AutosaveService
+from vicode.editor.session.search.search_index import SearchIndex, SearchTarget
 from vicode.editor.view.page_urls import DesignAddress, design_url, parse_design_url
 
 _PANELS_DELAY_S = 0.01

@@ -26,8 +26,8 @@ from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.panels.widgets import icon_button, primary_button
 from vicode.editor.session import Library, Workspace
 from vicode.editor.session.descriptions import error_reason
-from vicode.editor.session.overview import BrokenFile, DesignCard, ProjectOverview
-from vicode.editor.session.search_index import SearchIndex, SearchTarget
+from vicode.editor.session.project.overview import BrokenFile, DesignCard, ProjectOverview
+from vicode.editor.session.search.search_index import SearchIndex, SearchTarget
 from vicode.editor.view.page_urls import design_url
 
 _SHEET = Path(__file__).parent / "home.css"

@@ -13,9 +13,10 @@ from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.texts import SAVED, not_saved
 from vicode.editor.panels.versions.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import DiskConflictError, DocumentSession, code_sync
+from vicode.editor.session import DiskConflictError, DocumentSession
+from vicode.editor.session.code import code_sync
 from vicode.editor.session.descriptions import error_reason
-from vicode.editor.session.gestures import DisableGesture
+from vicode.editor.session.gestures.canvas_gestures import DisableGesture
 from vicode.editor.view.changed_places import find_changed_places
 
 T = TypeVar("T")

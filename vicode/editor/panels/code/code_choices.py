@@ -10,9 +10,10 @@ from vicode.editor.panels.code.text_choice import OfferedTexts, TextChoice
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import DocumentSession, code_sync
-from vicode.editor.session.code_sync import OutdatedChoiceError
-from vicode.editor.session.outside_edits import OutsideEdit
+from vicode.editor.session import DocumentSession
+from vicode.editor.session.code import code_sync
+from vicode.editor.session.code.code_sync import OutdatedChoiceError
+from vicode.editor.session.code.outside_edits import OutsideEdit
 
 
 class CodeChoices:

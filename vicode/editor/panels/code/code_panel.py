@@ -9,8 +9,8 @@ from vicode.editor.code import CodeAssist
 from vicode.editor.panels.code.missing_edits import MissingEdits
 from vicode.editor.panels.widgets import ClickHandler, icon_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import code_preview
-from vicode.editor.session.code_preview import CodePreview, PreviewFile
+from vicode.editor.session.code import code_preview
+from vicode.editor.session.code.code_preview import CodePreview, PreviewFile
 from vicode.editor.view import ItemRef
 from vicode.languages import LANGUAGES
 

@@ -10,7 +10,7 @@ from vicode.editor.panels.code.code_choices import CodeChoices
 from vicode.editor.panels.code.text_choice import OfferedTexts, TextChoice
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DiskConflictError, DocumentSession
-from vicode.editor.session.code_sync import apply_to_design
+from vicode.editor.session.code.code_sync import apply_to_design
 from vicode.editor.session.descriptions import error_reason
 from vicode.services.generation.design_output import FileReading, PendingOutput, choose_texts
 from vicode.sync import OutsideConflict, describe_problems

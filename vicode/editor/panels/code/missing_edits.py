@@ -10,8 +10,8 @@ from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.versions.diff_view import diff_view
 from vicode.editor.panels.widgets import ClickHandler
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import code_sync
-from vicode.editor.session.outside_edits import OutsideEdit
+from vicode.editor.session.code import code_sync
+from vicode.editor.session.code.outside_edits import OutsideEdit
 from vicode.sync import FileEdits
 
 

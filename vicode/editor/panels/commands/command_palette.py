@@ -8,7 +8,7 @@ from nicegui.events import GenericEventArguments
 
 from vicode.editor.panels.commands.command import Command, TypedCommand
 from vicode.editor.panels.texts import NO_RESULTS, pluralize
-from vicode.editor.session.search_index import (
+from vicode.editor.session.search.search_index import (
     SearchIndex,
     SearchItem,
     SearchKind,

@@ -7,7 +7,7 @@ from vicode.editor.panels.designs.design_dialogs import DesignDialogs
 from vicode.editor.panels.designs.design_menu import add_design_menu
 from vicode.editor.panels.designs.thumbnails import thumbnail_address
 from vicode.editor.session import Workspace
-from vicode.editor.session.overview import BrokenFile, DesignCard, HandWrittenComponent
+from vicode.editor.session.project.overview import BrokenFile, DesignCard, HandWrittenComponent
 from vicode.editor.view import ItemRef
 from vicode.editor.view.page_urls import broken_file_url, design_url
 from vicode.findings import Severity

@@ -9,7 +9,8 @@ from vicode.editor.panels import texts
 from vicode.editor.panels.designs.open_design import open_design
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.widgets import primary_button
-from vicode.editor.session import Workspace, renames, templates, trash
+from vicode.editor.session import Workspace, templates
+from vicode.editor.session.project import renames, trash
 from vicode.editor.session.workspace import TrashedDesign
 from vicode.editor.view.page_urls import design_url
 from vicode.model.names import is_valid_name, name_from_text

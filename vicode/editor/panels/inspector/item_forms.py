@@ -33,8 +33,8 @@ from vicode.editor.session.forms.form_places import FormResult
 from vicode.editor.session.forms.marks import ItemFields, marks_of, note_at, project_marks
 from vicode.editor.session.forms.project_places import resolve_in_project
 from vicode.editor.session.forms.state_form import OUTSIDE
-from vicode.editor.session.item_paths import item_at
-from vicode.editor.session.rebase import rebase_selection
+from vicode.editor.session.gestures.item_paths import item_at
+from vicode.editor.session.gestures.rebase import rebase_selection
 from vicode.editor.session.texts import ITEM_MISSING
 from vicode.editor.view import ItemKind, ItemRef, item_at_path
 from vicode.findings import DesignPath

@@ -7,7 +7,7 @@ from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.descriptions import error_reason
-from vicode.editor.session.renames import RenameEdit, apply_symbol_rename
+from vicode.editor.session.project.renames import RenameEdit, apply_symbol_rename
 from vicode.model.rename import SymbolRef
 from vicode.services.rename.symbol import SymbolRenamePlan, describe_symbol, plan_symbol_rename
 

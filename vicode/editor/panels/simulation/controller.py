@@ -14,7 +14,7 @@ from vicode.editor.panels.code.code_choices import ask_to_resolve_code
 from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.panels.simulation.trust_dialog import ask_for_trust
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.code_sync import find_lacking
+from vicode.editor.session.code.code_sync import find_lacking
 from vicode.editor.session.simulation import Breakpoints
 from vicode.editor.view import ItemRef
 from vicode.generators import UnsoundDesignError

@@ -9,7 +9,7 @@ from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.panels.simulation.trust_dialog import REPLAY, ask_for_trust
 from vicode.editor.panels.widgets import primary_button
-from vicode.editor.session.code_sync import find_lacking
+from vicode.editor.session.code.code_sync import find_lacking
 from vicode.runs.changed_values import ChangedValue
 from vicode.runs.replay_report import OPEN_LOOP, changed_times, describe_unlike_record, summarize_effect
 from vicode.runs.value_records import RecordReplays, RecordResult

@@ -8,9 +8,9 @@ from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.autosave import AutosaveService, format_diff
 from vicode.editor.session.descriptions import error_reason
-from vicode.editor.session.recovery import RecoverableDesign
+from vicode.editor.session.recovery.autosave import AutosaveService, format_diff
+from vicode.editor.session.recovery.recovery_store import RecoverableDesign
 
 _TODAY_S = 18 * 3600
 

@@ -12,7 +12,7 @@ from typing import ClassVar
 from vicode.diagram.layered_layout import complete_layout, note_position
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.edits import EditResult
+from vicode.editor.session.gestures.edits import EditResult
 from vicode.editor.view import ItemKind, ItemRef
 from vicode.findings import Severity
 from vicode.model.decision_keys import parse_transition_key, transition_key

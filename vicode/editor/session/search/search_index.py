@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from re import Pattern
 
-from vicode.editor.session.fuzzy_match import Alignment, align, subsequence_pattern
 from vicode.editor.session.library import Library
+from vicode.editor.session.search.fuzzy_match import Alignment, align, subsequence_pattern
 from vicode.editor.session.workspace import Workspace
 from vicode.editor.view import ItemKind, ItemRef, transition_label
 from vicode.model.decision_keys import transition_key

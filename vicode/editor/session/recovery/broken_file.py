@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from vicode.editor.session.code_marks import CodeMark, message_with_fix
+from vicode.editor.session.code.code_marks import CodeMark, message_with_fix
 from vicode.findings import Finding
 from vicode.store import FileChangedError, is_project_text, read_design, read_project_file, replace_text
 

@@ -11,9 +11,9 @@ from vicode.editor.session import texts
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import ChangeNotice, DocumentSession
 from vicode.editor.session.library import Library
-from vicode.editor.session.open_folders import OpenFolders
 from vicode.editor.session.presence import DISK_USER
-from vicode.editor.session.recovery import JournalSnapshot, RecoverableDesign, RecoveryStore
+from vicode.editor.session.recovery.open_folders import OpenFolders
+from vicode.editor.session.recovery.recovery_store import JournalSnapshot, RecoverableDesign, RecoveryStore
 from vicode.editor.session.workspace import DiskConflictError, Workspace
 from vicode.model.merge import merge_designs
 from vicode.store import read_design

@@ -9,9 +9,9 @@ from typing import Any
 from vicode.editor.session import texts
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import DocumentSession, FileTransaction
-from vicode.editor.session.interface_edits import shared_names
 from vicode.editor.session.presence import DISK_USER
-from vicode.editor.session.project_paths import ProjectNodePath
+from vicode.editor.session.project.interface_edits import shared_names
+from vicode.editor.session.project.project_paths import ProjectNodePath
 from vicode.editor.session.workspace import Workspace
 from vicode.model.design import Declaration, Design
 from vicode.model.edits import unique_name

@@ -5,7 +5,8 @@ from typing import ClassVar, Literal
 
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.edits import (
+from vicode.editor.session.forms.text_merge import merge_texts
+from vicode.editor.session.gestures.edits import (
     EditError,
     EditResult,
     StateName,
@@ -14,7 +15,6 @@ from vicode.editor.session.edits import (
     create_state,
     require_state,
 )
-from vicode.editor.session.forms.text_merge import merge_texts
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.decision_keys import parse_transition_key, transition_key

@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from vicode.editor.session.gestures.item_paths import TrackedItem
 from vicode.editor.session.history import UndoHistory
-from vicode.editor.session.item_paths import TrackedItem
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath, Finding
 from vicode.model.decision_keys import parse_transition_key

@@ -6,9 +6,9 @@ from dataclasses import replace
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING
 
+from vicode.editor.session.code.outside_edits import OutsideEdit
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.item_paths import TrackedItem
-from vicode.editor.session.outside_edits import OutsideEdit
+from vicode.editor.session.gestures.item_paths import TrackedItem
 from vicode.editor.session.presence import DISK_USER
 from vicode.findings import DesignPath, Finding, FindingSubject
 from vicode.generators import UnsoundDesignError, collect_components, component_generator, list_component_paths

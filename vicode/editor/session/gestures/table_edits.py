@@ -8,8 +8,8 @@ from typing import ClassVar, Literal
 
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.edits import EditError, EditResult, RequestedEdit, creation_key
-from vicode.editor.session.gestures import RenameGesture
+from vicode.editor.session.gestures.canvas_gestures import RenameGesture
+from vicode.editor.session.gestures.edits import EditError, EditResult, RequestedEdit, creation_key
 from vicode.editor.view import ItemRef, make_table, parse_row_id
 from vicode.findings import DesignPath
 from vicode.model.decision_keys import parse_transition_key, transition_key

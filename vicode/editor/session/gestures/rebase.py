@@ -4,8 +4,8 @@ from dataclasses import fields, replace
 from functools import cache
 from typing import Annotated, Any, TypeVar, cast, get_args, get_origin, get_type_hints
 
-from vicode.editor.session.gestures import NodePosition
-from vicode.editor.session.item_paths import rebase_path, renamed_frame, renamed_state, renamed_use
+from vicode.editor.session.gestures.canvas_gestures import NodePosition
+from vicode.editor.session.gestures.item_paths import rebase_path, renamed_frame, renamed_state, renamed_use
 from vicode.editor.view import ItemKind, ItemRef
 from vicode.model.decision_keys import parse_transition_key, transition_key
 from vicode.model.design import COMMON, Design

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from vicode.editor.session.item_paths import change_item, item_at
+from vicode.editor.session.gestures.item_paths import change_item, item_at
 from vicode.findings import DesignPath
 from vicode.model.project import Interface, Project
 from vicode.model.rename import SymbolRef

@@ -6,9 +6,9 @@ from typing import ClassVar, Literal
 
 from vicode.diagram.layered_layout import NodeLayout
 from vicode.editor.session import texts
-from vicode.editor.session.clipboard import DuplicateGesture
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.edits import (
+from vicode.editor.session.gestures.clipboard import DuplicateGesture
+from vicode.editor.session.gestures.edits import (
     ComponentAlias,
     EditError,
     EditResult,
@@ -19,7 +19,7 @@ from vicode.editor.session.edits import (
     naming_key,
     require_state,
 )
-from vicode.editor.session.transition_gestures import (
+from vicode.editor.session.gestures.transition_gestures import (
     ConnectGesture,
     GuardGesture,
     LabelGesture,
