@@ -11,7 +11,7 @@ from nicegui import run
 from vicode.editor.canvas import Canvas
 from vicode.editor.panels import texts
 from vicode.editor.panels.code.code_choices import ask_to_resolve_code
-from vicode.editor.panels.simulation.robot_view import RobotView
+from vicode.editor.panels.robots.robot_view import RobotView
 from vicode.editor.panels.simulation.trust_dialog import ask_for_trust
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.code.code_sync import find_lacking

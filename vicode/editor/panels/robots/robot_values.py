@@ -7,7 +7,7 @@ from functools import partial
 from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.simulation.robot_view import RobotView
+from vicode.editor.panels.robots.robot_view import RobotView
 from vicode.editor.panels.widgets import icon_button, primary_button
 from vicode.editor.session.robots import WatchedRobot
 from vicode.editor.view.robot_values import RobotComponentRow, RobotValueRow, component_row, input_row, parse_value

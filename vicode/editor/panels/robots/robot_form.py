@@ -5,11 +5,11 @@ from functools import partial
 
 from nicegui import ui
 
-from vicode.editor.panels.simulation.robot_tuning import RobotTuning
-from vicode.editor.panels.simulation.robot_values import RobotValues
-from vicode.editor.panels.simulation.robot_view import NO_CONTROL, RobotView
+from vicode.editor.panels.robots.robot_tuning import RobotTuning
+from vicode.editor.panels.robots.robot_values import RobotValues
+from vicode.editor.panels.robots.robot_view import NO_CONTROL, RobotView
 from vicode.editor.session.robots import LinkStatus, WatchedRobot
-from vicode.simulation.robots import AttachError
+from vicode.robots import AttachError
 
 _STALE_S = 1.0
 

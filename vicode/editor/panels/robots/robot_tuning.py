@@ -6,9 +6,9 @@ from typing import Any
 from nicegui import ui
 
 from vicode.editor.panels.project.writing import write_project
+from vicode.editor.panels.robots.robot_view import RobotView
+from vicode.editor.panels.robots.write_back_dialog import WriteBackDialog
 from vicode.editor.panels.simulation.inputs_form import input_controls, short_value
-from vicode.editor.panels.simulation.robot_view import RobotView
-from vicode.editor.panels.simulation.write_back_dialog import WriteBackDialog
 from vicode.editor.panels.widgets import icon_button
 from vicode.model.design import Design
 from vicode.model.project import Project

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from vicode.bica import Component, Root, SimulatedClock
-from vicode.simulation.robots import AttachError, Hello, RobotAddress, connect, parse_address
+from vicode.robots import AttachError, Hello, RobotAddress, connect, parse_address
 
 
 class Idle(Component):

@@ -6,7 +6,7 @@ from nicegui import ui
 
 from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.simulation.robot_view import RobotView
+from vicode.editor.panels.robots.robot_view import RobotView
 from vicode.editor.panels.simulation.trust_dialog import REPLAY, ask_for_trust
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.session.code.code_sync import find_lacking
