@@ -321,7 +321,7 @@ def run_tests(target: Path, tests: list[str], limit_s: int) -> Outcome:
     match os.waitstatus_to_exitcode(status):
         case pytest.ExitCode.OK:
             return Outcome.SURVIVED
-        case pytest.ExitCode.TESTS_FAILED:
+        case pytest.ExitCode.TESTS_FAILED | pytest.ExitCode.INTERRUPTED:  # The latter: an error of a module of tests.
             return Outcome.KILLED
     return Outcome.NOT_RUN
 

@@ -17,6 +17,7 @@ def count(limit: int) -> int:
         index += 1
     unused = [3]
     return index
+FIRST = [1][0]
 """
 TEST = "from vicode.sample import count\n\ndef test_count() -> None:\n    assert (count(0), count(4)) == (0, 4)\n"
 
@@ -41,7 +42,7 @@ def run(checkout: Path, at: str, tests: str) -> subprocess.CompletedProcess[str]
 
 def test_only_a_failed_test_kills(checkout: Path) -> None:
     lines = run(checkout, "vicode/sample.py", "tests").stdout.splitlines()
-    # Killed are `index = 1`, `<=`, `while False` and `return None`; `while True` and a loop without `+=` never end.
+    # Killed are `index = 1`, `<=`, `while False`, `return None` and `[1][1]`; two loops never end.
     assert [line for line in lines if line[0] in "RSN+"] == [
         "Reached the time limit (1 tests): vicode/sample.py:3",
         "+     while True:",
@@ -51,8 +52,10 @@ def test_only_a_failed_test_kills(checkout: Path) -> None:
         "+         index += 2",
         "Survived (1 tests): vicode/sample.py:5",
         "+     unused = [4]",
+        "Survived (1 tests): vicode/sample.py:7",
+        "+ FIRST = [2][0]",
     ]
-    assert lines[-1] == "8 mutants: 4 killed, 2 survived, 2 reached the time limit, 0 not run."
+    assert lines[-1] == "10 mutants: 5 killed, 3 survived, 2 reached the time limit, 0 not run."
 
 
 def test_tests_must_pass_without_a_mutant(checkout: Path) -> None:

@@ -117,6 +117,7 @@ def test_only_values_of_the_design_and_shared_variables_are_compared() -> None:
     assert iteration.shared == {"Board.total": "2"}
     assert (iteration.number, iteration.time_ns, iteration.robot) == (3, 40, 2)
     assert normalized({}, inputs=None).shared == {}
+    assert TraceNormalizer(PROJECT).iteration({"iteration": 1, "time_ns": 0, "tree": []}).robot == FIRST.robot == 0
     outside = TraceNormalizer(PROJECT).iteration(
         {"iteration": 1, "time_ns": 0, "tree": [{**STEP, "component": "Field", "values": {"ball": 1.0}}]}
     )
@@ -220,5 +221,8 @@ def test_large_ints_explain_a_difference_from_then_on(language: str, large_at: i
     trace = [replace(FIRST, had_large_ints=index >= large_at) for index in range(4)]
     limit = large_ints_limit(language, trace, TraceDifference(index=1, component="", field="", values=("", "")))
     assert (limit is not None) == explains
+    assert (
+        large_ints_limit(language, [FIRST], TraceDifference(index=0, component="", field="", values=("", ""))) is None
+    )
     if limit is not None:
         assert (limit.language, limit.part) == (language, "large ints")

@@ -103,6 +103,15 @@ def test_two_orders_of_actions_are_a_conflict() -> None:
     assert merge_designs(*sides, theirs_at=[path]).design == sides[2]
 
 
+def test_different_calls_of_one_component_are_both_added() -> None:
+    def calling(*arguments: str) -> Design:
+        calls = tuple(Call(alias="arm", arguments=(("x", text),)) for text in arguments)
+        return Design(component="P", initial="A", states=(State(name="A", actions=calls),))
+
+    result = merge_designs(calling(), calling("1", "2"), calling("2", "3"))
+    assert (result.conflicts, result.design) == ((), calling("1", "2", "3"))
+
+
 # Decisions
 
 
