@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -101,6 +102,19 @@ def test_an_emptied_region_has_no_effect(tmp_path: Path, language: str, place: s
     for file in generate(replaced(result, only)):
         if file.path.endswith(".py"):
             compile(file.text, file.path, "exec")
+
+
+@pytest.mark.parametrize("path", ["python/lamps/lamp.py", "other/lamp.py"])
+@pytest.mark.parametrize("choices", [Choices(), Choices(default="file"), Choices(default="design")])
+def test_an_edit_without_a_design_is_a_conflict(tmp_path: Path, path: str, choices: Choices) -> None:
+    now = project()
+    found = edits_of(tmp_path, now, lambda text: text.replace("three = 3", "three = 33"))
+    stale = replace(found[0], component="", path=path)
+    result = apply_regions(now, [stale], choices)
+    assert (dict(result.designs), result.applied) == ({}, ())
+    is_dropped = choices.default == "design"
+    assert result.conflicts == (() if is_dropped else ((stale, stale.regions[0], ()),))
+    assert [each.side for each in result.settled] == (["design"] if is_dropped else [])
 
 
 @pytest.mark.parametrize(("side", "kept"), [("file", "three = 33"), ("design", "three = 333")])

@@ -56,6 +56,8 @@ def design(order: str) -> Design:
         ("ABCD", "ABXCD", "DABC", "DABXC"),
         ("ABC", "ABCX", "CABX", "CABX"),
         ("AB", "ABX", "ABX", "ABX"),
+        ("ABC", "CAXB", "AYBC", "CAXYB"),
+        ("ABC", "CABX", "ABYC", "CABXY"),
     ],
 )
 def test_states_of_both_sides_have_one_order(base: str, ours: str, theirs: str, expected: str) -> None:
@@ -82,6 +84,8 @@ def with_actions(text: str) -> Design:
         ("abc", "ab", "bc", "b"),
         ("aab", "ab", "aabx", "abx"),
         ("abc", "cab", "abcx", "cxab"),
+        ("abc", "cabx", "abcx", "cabx"),
+        ("abc", "abcx", "cabx", "cabx"),
     ],
 )
 def test_actions_of_both_sides_have_one_order(base: str, ours: str, theirs: str, expected: str) -> None:
@@ -240,6 +244,15 @@ def test_a_different_item_of_the_same_name_can_be_chosen() -> None:
     assert merge_designs(base, ours, theirs, theirs_at=[conflict.path]).design == theirs
 
 
+def test_a_different_item_of_the_same_name_in_another_place_stays_with_ours() -> None:
+    first = Declaration(name="a")
+    base = Design(component="P", initial="A", states=(State(name="A"),), variables=(first,))
+    mine, yours = Declaration(name="n", type="int"), Declaration(name="n", type="bool")
+    result = merge_designs(base, replace(base, variables=(first, mine)), replace(base, variables=(yours, first)))
+    assert [(each.ours, each.theirs) for each in result.conflicts] == [(mine, yours)]
+    assert result.design.variables == (mine, first)
+
+
 @pytest.mark.parametrize("section", ["actions", "requires"])
 def test_a_removed_use_that_the_other_side_calls_is_a_conflict(section: str) -> None:
     arm = Use(alias="arm", component="Arm")
@@ -343,6 +356,9 @@ def test_uses_of_one_component_are_renamed() -> None:
     assert find_renamed_uses(uses(("a", "A"), ("b", "A")), uses(("y", "A"), ("z", "A"))) == {}
     assert find_renamed_uses(uses(("a", "A")), uses(("y", "A"), ("z", "A"))) == {}
     assert find_renamed_uses(uses(("a", "")), uses(("b", ""))) == {}
+    # A use that stays is not renamed.
+    assert find_renamed_uses(uses(("a", "A")), uses(("a", "A"), ("z", "A"))) == {}
+    assert find_renamed_uses(uses(("a", "A"), ("z", "A")), uses(("a", "A"))) == {}
 
 
 @pytest.mark.parametrize(
@@ -364,6 +380,9 @@ def test_uses_of_one_component_are_renamed() -> None:
         ),
         (State(name="A", transitions=(Transition(to="A"),)), State(name="Z", transitions=(Transition(to="Z"),)), True),
         (State(name="A", id="i", doc="d"), State(name="Z", id="i", doc="e"), True),
+        # Color and final are shared by many states.
+        (State(name="A", doc="d", color="red"), State(name="Z", doc="d", color="red", at=(1, 2)), False),
+        (State(name="A", doc="d", final=True), State(name="Z", doc="d", final=True, at=(1, 2)), False),
         (State(name="A", id="A", doc="d"), State(name="Z", id="j", doc="e"), False),
     ],
 )
@@ -376,5 +395,7 @@ def test_a_state_with_most_of_its_content_is_renamed(old: State, new: State, is_
 def test_each_new_state_continues_one_old_state() -> None:
     old, new = design("AB"), Design(component="P", initial="A", states=(State(name="Z", doc="is A"),))
     assert find_renamed_states(replace(old, states=(State(name="A"), State(name="B"))), new) == {}
+    copied = replace(old, states=(*old.states, replace(old.states[0], name="Z")))
+    assert find_renamed_states(old, copied) == find_renamed_states(copied, old) == {}
     equal = (State(name="A"), State(name="B")), (State(name="Y"), State(name="Z"))
     assert find_renamed_states(replace(old, states=equal[0]), replace(old, states=equal[1])) == {"A": "Y", "B": "Z"}
