@@ -126,6 +126,11 @@ def test_a_conflict_takes_the_chosen_side(tmp_path: Path, side: str, kept: str) 
     assert [(file.path, path[-4:]) for file, _region, path in unsettled.conflicts] == [
         (file.path, ("A", "enter", 0, "code")) for file in found
     ]
+    # Edits after a conflict are applied.
+    more = edits_of(
+        tmp_path, now, lambda text: text.replace("three = 3", "three = 33").replace("four = 4", "four = 5"), project()
+    )
+    assert [edit.region.file_text.strip("int ;") for edit in apply_regions(now, more).applied] == ["four = 5"] * 2
     result = apply_regions(now, found, Choices(default=side))
     assert result.conflicts == ()
     assert {each.side for each in result.settled} == {side}

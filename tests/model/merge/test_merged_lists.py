@@ -279,9 +279,6 @@ def test_projects_are_merged_with_our_designs() -> None:
     assert merge_projects(base, ours, theirs, theirs_at=[("doc",)]).project == replace(theirs, designs=(FULL,))
 
 
-# Matching
-
-
 def test_the_nth_items_of_a_name_match() -> None:
     one, two, three = (Declaration(name="n", doc=doc) for doc in "123")
     other = Declaration(name="m")
