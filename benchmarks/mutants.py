@@ -177,7 +177,7 @@ def _change_values(node: ast.AST) -> Iterator[tuple[Part, str]]:
             yield node, "return None"
     for condition in node.ifs if isinstance(node, ast.comprehension) else [getattr(node, "test", None)]:
         if condition is not None:
-            yield from ((condition, value) for value in ("True", "False"))
+            yield from ((condition, value) for value in ("True", "False") if ast.unparse(condition) != value)
 
 
 def _drop_parts(node: ast.AST) -> Iterator[tuple[Part, str]]:
