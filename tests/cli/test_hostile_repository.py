@@ -7,34 +7,37 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from vicode.editor.session.revisions import compare_with_revision, list_revisions
 
 from tests.cli.command_runner import lamps, vicode
 from tests.cli.git_folder import ENVIRONMENT, commit, git, init
 from tests.cli.hostile_repository import READING, SIGNER, HostileRepository, make_hostile, program_keys, run_plain_git
 from vicode.git import GitError, Repository, find_repository, merge_lines
+from vicode.services.design_diff.revisions import compare_with_revision, list_revisions
 from vicode.store import read_design
 
 __all__ = ["lamps"]
 
 ROOT = Path(__file__).parents[2]
 COMMANDS = {
-    "vicode/cli/diff_inputs.py": (
+    "vicode/services/design_diff/file_pairs.py": (
         ("diff",),
         ("diff", "HEAD~1"),
         ("diff", "{missing}", "HEAD"),
         ("diff", "HEAD~2...HEAD", "--", "lamps/lamp.yaml"),
     ),
-    "vicode/cli/revision_search.py": (("show", "abcdef", "lamps"),),
-    "vicode/cli/show.py": (("show", "000000"),),
-    "vicode/cli/run.py": (("run", "lamps/lamp.yaml", "--ticks", "1", "--trace", "run.trace"),),
+    "vicode/services/design_diff/revision_search.py": (("show", "abcdef", "lamps"), ("show", "000000")),
+    "vicode/services/run_preparation.py": (("run", "lamps/lamp.yaml", "--ticks", "1", "--trace", "run.trace"),),
     "vicode/cli/merge.py": (("merge", "--generated", "--path=lamps/generated/lamp.py", "base", "ours", "theirs"),),
-    "vicode/cli/tracked_projects.py": (("hook", "pre-commit"), ("hook", "pre-merge-commit"), ("hook", "post-merge")),
+    "vicode/services/tracked_projects.py": (
+        ("hook", "pre-commit"),
+        ("hook", "pre-merge-commit"),
+        ("hook", "post-merge"),
+    ),
     "vicode/cli/hook.py": (("hook", "install"), ("hook", "install", "--uninstall")),
     "vicode/sync/history.py": (("gen", "lamps"), ("sync", "lamps")),
 }
 """Commands for each module that reads repositories; the editor has a test of its own."""
-EDITOR_MODULES = {"vicode/editor/session/revisions.py", "vicode/editor/panels/revisions_dialog.py"}
+EDITOR_MODULES = {"vicode/services/design_diff/revisions.py", "vicode/editor/panels/versions/revisions_dialog.py"}
 METHODS: dict[str, Callable[[Repository], Any]] = {
     "resolve": lambda each: each.resolve("HEAD~1"),
     "has_revision": lambda each: each.has_revision("main"),

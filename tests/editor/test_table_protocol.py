@@ -8,7 +8,7 @@ import pytest
 
 from vicode.decoding import MalformedEventError, decode_event
 from vicode.editor.js_modules import TABLE_JS
-from vicode.editor.session.table_edits import FlagColumn, MoveRow, SetCell, TextColumn
+from vicode.editor.session.gestures.table_edits import FlagColumn, MoveRow, SetCell, TextColumn
 from vicode.editor.table import element
 from vicode.editor.table.protocol import TABLE_EVENTS, SelectRow
 

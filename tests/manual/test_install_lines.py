@@ -34,7 +34,8 @@ def _read_texts() -> Iterator[tuple[str, str]]:
         name = str(path.relative_to(ROOT))
         if path.suffix == ".py":
             source = path.read_text(encoding="utf-8")
-            yield from ((name, text) for text in _strings(ast.parse(source)))
+            if re.search(r"\b(pip|pipx|uv|uvx)\b|vicode\[", source):
+                yield from ((name, text) for text in _strings(ast.parse(source)))
         elif path.suffix in SUFFIXES or "templates" in path.parts:
             yield name, path.read_text(encoding="utf-8", errors="replace")
 

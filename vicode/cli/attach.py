@@ -12,7 +12,7 @@ from vicode.cli.ports import port_number
 from vicode.findings import escape_text
 
 if TYPE_CHECKING:
-    from vicode.simulation.robots import Hello, RobotAddress, SocketTransport
+    from vicode.robots import Hello, RobotAddress, SocketTransport
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Connect once, so that mistakes are reported here; then print, or serve the editor."""
-    from vicode.simulation.robots import TOKEN_VARIABLE, parse_address
+    from vicode.robots import TOKEN_VARIABLE, parse_address
 
     if args.find:
         return _print_robots()
@@ -93,7 +93,7 @@ def _is_reachable(host: str, address: str) -> bool:
 
 
 async def _try(address: "RobotAddress", token: str) -> None:
-    from vicode.simulation.robots import connect
+    from vicode.robots import connect
 
     transport, hello = await connect(address, token)
     transport.close()
@@ -117,7 +117,7 @@ def _edit(args: argparse.Namespace, address: "RobotAddress", token: str) -> int:
 
 async def _print_changes(address: "RobotAddress", token: str) -> int:
     """Print the state changes of all robots until the connection ends; 1 if robots closed it."""
-    from vicode.simulation.robots import connect
+    from vicode.robots import connect
 
     transport, hello = await connect(address, token)
     print(_describe(address, hello), file=sys.stderr, flush=True)
@@ -130,7 +130,7 @@ async def _print_changes(address: "RobotAddress", token: str) -> int:
 
 
 async def _print_lines(transport: "SocketTransport", hello: "Hello") -> None:
-    from vicode.simulation.robots import decode_line
+    from vicode.robots import decode_line
 
     is_alone = len(hello.robots) == 1
     seen: set[str] = set()

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from nicegui import App
 
     from vicode.editor.session import Library
-    from vicode.editor.session.autosave import AutosaveService
+    from vicode.editor.session.recovery.autosave import AutosaveService
 
 STORAGE_VARIABLE = "NICEGUI_STORAGE_PATH"
 
@@ -131,8 +131,8 @@ def _open_library(
 
 
 def _start_autosave(library: "Library") -> "AutosaveService":
-    from vicode.editor.session.autosave import AutosaveService, read_delay_s
-    from vicode.editor.session.recovery import open_recovery_store
+    from vicode.editor.session.recovery.autosave import AutosaveService, read_delay_s
+    from vicode.editor.session.recovery.recovery_store import open_recovery_store
 
     autosave = AutosaveService(library, open_recovery_store(), read_delay_s())
     # A second Ctrl-C skips the shutdown of the server.

@@ -8,7 +8,7 @@ from itertools import product
 from vicode.generators import UnsoundDesignError, generate, list_component_paths, list_outputs
 from vicode.model.design import Declaration
 from vicode.model.project import Project, select_profile
-from vicode.simulation.robots import RobotDescription
+from vicode.robots import RobotDescription
 
 WrittenValues = Mapping[tuple[str, str], tuple[str, str]]
 """Values of a running robot that were written into the files, by component ("" for constants) and name: what the file

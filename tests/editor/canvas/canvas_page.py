@@ -14,7 +14,7 @@ from nicegui.events import GenericEventArguments
 
 from vicode.decoding import decode
 from vicode.editor.canvas import Canvas
-from vicode.editor.session.gestures import NodePosition
+from vicode.editor.session.gestures.canvas_gestures import NodePosition
 from vicode.editor.view import ItemRef
 
 ARGUMENT_TYPES: dict[str, Any] = {

@@ -10,8 +10,8 @@ from tests.editor.canvas.run_js import JS
 from vicode.decoding import MalformedEventError
 from vicode.editor.canvas import element
 from vicode.editor.canvas.protocol import GESTURES, GestureReport, decode_gesture
-from vicode.editor.session.gestures import MoveGesture, NodePosition
-from vicode.editor.session.transition_gestures import LabelGesture
+from vicode.editor.session.gestures.canvas_gestures import MoveGesture, NodePosition
+from vicode.editor.session.gestures.transition_gestures import LabelGesture
 
 NODE = {"of": "states", "id": "Kick", "x": 10, "y": 20.5}
 MOVE: dict[str, Any] = {"kind": "move", "rev": 3, "seq": 2, "items": [NODE], "how": "drag"}

@@ -7,8 +7,8 @@ import pytest
 
 from vicode.decoding import MalformedEventError, decode_event
 from vicode.editor.session import DocumentSession, EditResult, Library, SharedDocument, Workspace, apply_edit
-from vicode.editor.session.gestures import EDIT_GESTURES
-from vicode.editor.session.table_edits import TABLE_EDITS
+from vicode.editor.session.gestures.canvas_gestures import EDIT_GESTURES
+from vicode.editor.session.gestures.table_edits import TABLE_EDITS
 from vicode.model.design import Design
 
 

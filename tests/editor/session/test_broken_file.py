@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vicode.editor.session import Workspace
-from vicode.editor.session.broken_file import FileModifiedError, parse_text, read_file_text, write_fixed_text
+from vicode.editor.session.recovery.broken_file import FileModifiedError, parse_text, read_file_text, write_fixed_text
 
 BROKEN = "vicode: 1\ncomponent: A\nstats:\n  S: {}\n"
 

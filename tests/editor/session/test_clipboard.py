@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.editor.session.conftest import open_design
-from vicode.editor.session import DocumentSession, EditResult, apply_edit, clipboard
+from vicode.editor.session import DocumentSession, EditResult, apply_edit
+from vicode.editor.session.gestures import clipboard
 from vicode.editor.view import ItemRef
 from vicode.model.design import (
     Assign,

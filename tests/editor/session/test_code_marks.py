@@ -1,7 +1,7 @@
 """Marks are at the characters of their findings."""
 
 from vicode.check import check_design
-from vicode.editor.session.code_marks import CodeMark, mark_assignments, mark_text
+from vicode.editor.session.code.code_marks import CodeMark, mark_assignments, mark_text
 from vicode.model.design import Assign, Declaration, Design, Guard, State, Stay
 from vicode.model.project import Project
 from vicode.services.lint import LintWarning

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
-from vicode.editor.session.code_preview import preview_code
+from vicode.editor.session.code.code_preview import preview_code
 from vicode.editor.view import ItemRef
 from vicode.generators import generate
 from vicode.model.design import Design, Guard, State, Transition

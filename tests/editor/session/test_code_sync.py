@@ -5,10 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from vicode.editor.session import DocumentSession, Workspace, code_sync
-from vicode.editor.session.code_sync import OutdatedChoiceError
-from vicode.editor.session.edits import apply_edit
-from vicode.editor.session.gestures import RenameGesture
+from vicode.editor.session import DocumentSession, Workspace
+from vicode.editor.session.code import code_sync
+from vicode.editor.session.code.code_sync import OutdatedChoiceError
+from vicode.editor.session.gestures.canvas_gestures import RenameGesture
+from vicode.editor.session.gestures.edits import apply_edit
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design, Guard, RunCode, Transition
 from vicode.model.edits import replace_decision

@@ -7,8 +7,8 @@ import pytest
 
 from vicode.editor.session import DocumentSession, Workspace
 from vicode.editor.session.fixes import Fix, find_fixes
-from vicode.editor.session.interface_edits import add_command, add_input
-from vicode.editor.session.project_edits import edit_design_and_project
+from vicode.editor.session.project.interface_edits import add_command, add_input
+from vicode.editor.session.project.project_edits import edit_design_and_project
 from vicode.model.project import Interface
 from vicode.model.texts import rewrite_text
 

@@ -6,8 +6,9 @@ import pytest
 
 from tests.editor.session.conftest import texts_of
 from vicode.check import check_project
-from vicode.editor.session import Library, Workspace, renames, templates, trash
-from vicode.editor.session.overview import ProjectOverview
+from vicode.editor.session import Library, Workspace, templates
+from vicode.editor.session.project import renames, trash
+from vicode.editor.session.project.overview import ProjectOverview
 from vicode.findings import Severity
 from vicode.services.rename import component as rename_component
 from vicode.store import open_project

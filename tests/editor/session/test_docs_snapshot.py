@@ -5,7 +5,7 @@ from pathlib import Path
 
 from vicode.docsite import build_site
 from vicode.editor.session import Workspace
-from vicode.editor.session.docs_snapshot import load_docs_subject, take_snapshot
+from vicode.editor.session.project.docs_snapshot import load_docs_subject, take_snapshot
 from vicode.store import save_design
 
 

@@ -3,9 +3,10 @@
 from dataclasses import replace
 
 from tests.editor.session.conftest import apply_gesture
-from vicode.editor.session import DocumentSession, apply_edit, clipboard
-from vicode.editor.session.clipboard import DuplicateGesture
-from vicode.editor.session.rebase import rebase_selection
+from vicode.editor.session import DocumentSession, apply_edit
+from vicode.editor.session.gestures import clipboard
+from vicode.editor.session.gestures.clipboard import DuplicateGesture
+from vicode.editor.session.gestures.rebase import rebase_selection
 from vicode.editor.view import ItemRef, make_scene
 from vicode.editor.view.page_urls import format_selection, parse_selection
 from vicode.model.design import Design, DiagramFrame, DiagramNote, State, Transition

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from tests.editor.session.conftest import apply_gesture, open_design
 from vicode.editor.session import DocumentSession, apply_edit
-from vicode.editor.session.gestures import (
+from vicode.editor.session.gestures.canvas_gestures import (
     ConnectGesture,
     CreateGesture,
     DeleteGesture,

@@ -7,7 +7,7 @@ import pytest
 from tests.xabsl.xabsl_cases import CASES
 from vicode.check import check_design
 from vicode.cli.entry_point import main
-from vicode.editor.session.code_preview import preview_code
+from vicode.editor.session.code.code_preview import preview_code
 from vicode.editor.view.scene import make_scene
 from vicode.editor.view.table import make_table
 from vicode.findings import Severity

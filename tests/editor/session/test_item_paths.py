@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from vicode.editor.session.item_paths import TrackedItem, change_item, item_at, rebase_path
+from vicode.editor.session.gestures.item_paths import TrackedItem, change_item, item_at, rebase_path
 from vicode.findings import DesignPath
 from vicode.model.design import (
     Assign,

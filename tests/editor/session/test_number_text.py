@@ -3,7 +3,7 @@
 import pytest
 
 from vicode.editor.session import texts
-from vicode.editor.session.number_text import (
+from vicode.editor.session.gestures.number_text import (
     format_number,
     format_range,
     parse_count,

@@ -6,10 +6,11 @@ from pathlib import Path
 import pytest
 
 from tests.editor.session.conftest import texts_of
-from vicode.editor.session import Workspace, project_edits
-from vicode.editor.session.project_edits import ProjectEditResult, edit_project_file
-from vicode.editor.session.project_paths import ProjectNodePath
-from vicode.editor.session.renames import RenameEdit, apply_symbol_rename
+from vicode.editor.session import Workspace
+from vicode.editor.session.project import project_edits
+from vicode.editor.session.project.project_edits import ProjectEditResult, edit_project_file
+from vicode.editor.session.project.project_paths import ProjectNodePath
+from vicode.editor.session.project.renames import RenameEdit, apply_symbol_rename
 from vicode.model.project import Project
 from vicode.model.references import ReferenceLocation, find_references
 from vicode.model.rename import SymbolRef, sibling_names

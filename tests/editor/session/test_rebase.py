@@ -7,7 +7,7 @@ from hypothesis import given
 
 from tests.strategies.designs import designs
 from vicode.editor.session import rebase_gesture, rebase_selection
-from vicode.editor.session.gestures import (
+from vicode.editor.session.gestures.canvas_gestures import (
     ConnectGesture,
     DeleteGesture,
     LabelGesture,

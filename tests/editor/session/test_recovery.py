@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from vicode.editor.session import Library, Workspace
-from vicode.editor.session.autosave import AutosaveService, format_diff
-from vicode.editor.session.recovery import RecoveryStore, state_folder
+from vicode.editor.session.recovery.autosave import AutosaveService, format_diff
+from vicode.editor.session.recovery.recovery_store import RecoveryStore, state_folder
 from vicode.model.design import Declaration
 
 

@@ -8,8 +8,9 @@ import pytest
 
 from tests.editor.session.conftest import texts_of
 from vicode.check import check_project
-from vicode.editor.session import DocumentSession, Workspace, renames
-from vicode.editor.session.renames import apply_symbol_rename
+from vicode.editor.session import DocumentSession, Workspace
+from vicode.editor.session.project import renames
+from vicode.editor.session.project.renames import apply_symbol_rename
 from vicode.model.design import Code, RunCode
 from vicode.model.edits import remove_states
 from vicode.model.rename import SymbolRef, is_declared, sibling_names

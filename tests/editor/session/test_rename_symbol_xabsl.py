@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from vicode.editor.session import Library, Workspace
-from vicode.editor.session.renames import apply_component_rename, apply_symbol_rename
+from vicode.editor.session.project.renames import apply_component_rename, apply_symbol_rename
 from vicode.model.design import Design
 from vicode.model.rename import SymbolRef
 from vicode.model.traversal import iter_code

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vicode.editor.session import Library
-from vicode.editor.session.fuzzy_match import align
-from vicode.editor.session.search_index import SearchIndex, SearchItem, SearchKind, SearchTarget, rank_items
+from vicode.editor.session.search.fuzzy_match import align
+from vicode.editor.session.search.search_index import SearchIndex, SearchItem, SearchKind, SearchTarget, rank_items
 from vicode.editor.view import ItemRef
 
 DESIGNS = Path(__file__).parents[3] / "designs"

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from tests.editor.session.conftest import apply_table_edit, open_design
 from tests.strategies.designs import designs
 from vicode.editor.session import DocumentSession, EditResult
-from vicode.editor.session.table_edits import MAX_CELL_LENGTH
+from vicode.editor.session.gestures.table_edits import MAX_CELL_LENGTH
 from vicode.editor.view import ItemRef, diff_tables, make_table
 from vicode.model.design import COMMON, Call, CommonSection, DecisionGroup, Design, Guard, State, Transition, Use
 from vicode.store import read_design, save_design

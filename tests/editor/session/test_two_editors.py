@@ -9,9 +9,9 @@ import pytest
 
 from vicode.editor.session import DocumentSession, Library, texts
 from vicode.editor.session import workspace as workspace_module
-from vicode.editor.session.autosave import AutosaveService
-from vicode.editor.session.open_folders import OpenFolders
-from vicode.editor.session.recovery import RecoveryStore
+from vicode.editor.session.recovery.autosave import AutosaveService
+from vicode.editor.session.recovery.open_folders import OpenFolders
+from vicode.editor.session.recovery.recovery_store import RecoveryStore
 from vicode.store import FileChangedError, read_design, replace_text
 
 SAVES = 25

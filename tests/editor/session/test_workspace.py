@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from vicode.editor.session import DISK_USER, DiskConflictError, DocumentSession, Library, Workspace, apply_edit
-from vicode.editor.session.gestures import DeleteGesture, RenameGesture
+from vicode.editor.session.gestures.canvas_gestures import DeleteGesture, RenameGesture
 from vicode.editor.view import ItemRef
 from vicode.model.design import Declaration, Guard, Transition
 from vicode.model.edits import replace_decision

@@ -12,7 +12,7 @@ import pytest
 
 from tests.editor.simulation.robot_program import RobotProgram, running_robot, write_robot
 from vicode.bica import Component, Root, SimulatedClock
-from vicode.editor.panels.simulation.robot_view import RobotView
+from vicode.editor.panels.robots.robot_view import RobotView
 from vicode.editor.panels.simulation.status_message import robot_message
 from vicode.editor.session.robots import LinkStatus, RobotLink, RobotRequestError
 from vicode.editor.session.simulation import Breakpoints

@@ -21,8 +21,8 @@ from vicode.editor.canvas.protocol import (
     item_json,
 )
 from vicode.editor.js_modules import CANVAS_JS
-from vicode.editor.session.delivery import Inbox
-from vicode.editor.session.gestures import NodePosition
+from vicode.editor.session.gestures.canvas_gestures import NodePosition
+from vicode.editor.session.gestures.delivery import Inbox
 from vicode.editor.view import ItemRef
 from vicode.model.design import Point
 

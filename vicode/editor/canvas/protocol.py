@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypedDict, get_args
 
 from vicode.decoding import MalformedEventError, decode, decode_event
-from vicode.editor.session.edits import RequestedEdit
-from vicode.editor.session.gestures import EDIT_GESTURES
+from vicode.editor.session.gestures.canvas_gestures import EDIT_GESTURES
+from vicode.editor.session.gestures.edits import RequestedEdit
 from vicode.editor.view import ItemRef
 
 # {"rev", "component", "states", "transitions", "components", "links", "common", …}, built by `vicode.editor.view`.

@@ -7,7 +7,7 @@ from nicegui import ui
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.js_modules import CODE_JS
-from vicode.editor.session.code_marks import CodeMark
+from vicode.editor.session.code.code_marks import CodeMark
 
 
 class CodeAssist(ui.element, component=CODE_JS / "vicode_code.js"):

@@ -10,9 +10,9 @@ from nicegui.events import GenericEventArguments
 from vicode.decoding import MalformedEventError, decode_event
 from vicode.editor.inspector.protocol import FORM_EVENTS, FormEvent
 from vicode.editor.js_modules import INSPECTOR_JS
-from vicode.editor.session.delivery import Inbox
 from vicode.editor.session.forms.edits import FORM_EDITS, FormEdit
 from vicode.editor.session.forms.form_data import diff_forms
+from vicode.editor.session.gestures.delivery import Inbox
 from vicode.editor.view import ItemRef
 
 _SERVER = secrets.token_hex(8)

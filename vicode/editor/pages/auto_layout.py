@@ -11,11 +11,11 @@ from vicode.diagram.layout import LayoutMethod, LayoutService
 from vicode.editor.pages import texts
 from vicode.editor.pages.canvas_controller import CanvasController
 from vicode.editor.pages.shortcuts import ESCAPE_ATTRIBUTE
-from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import apply_layout
-from vicode.editor.session.gestures import NodePosition
+from vicode.editor.session.gestures.canvas_gestures import NodePosition
 from vicode.model.design import Design
 
 # Graphviz needs longer for more states than this.

@@ -6,12 +6,12 @@ import time
 from nicegui import app, run
 
 from vicode.editor.pages import texts
-from vicode.editor.panels.code_choices import ask_to_resolve_code
-from vicode.editor.panels.command import Command, MenuGroup
-from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
+from vicode.editor.panels.code.code_choices import ask_to_resolve_code
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.texts import recovered
+from vicode.editor.panels.versions.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.autosave import AutosaveService
+from vicode.editor.session.recovery.autosave import AutosaveService
 
 _TICK_S = 0.5
 # Writing recovery files takes at most a tenth of the time, whatever the number and size of the designs.
@@ -57,7 +57,7 @@ class AutosaveControls:
 
     def offer_recovery(self) -> None:
         if self.autosave is not None:
-            from vicode.editor.panels.recovery_dialog import offer_recovery
+            from vicode.editor.panels.versions.recovery_dialog import offer_recovery
 
             offer_recovery(self.context, self.autosave)
 

@@ -10,17 +10,17 @@ from vicode.editor.pages.delivery import open_inbox
 from vicode.editor.pages.navigation import HOME
 from vicode.editor.pages.shortcuts import register_shortcuts
 from vicode.editor.pages.theme import Theme, apply_theme
-from vicode.editor.panels.code_editor import CodeEditorFactory
-from vicode.editor.panels.command import Command, MenuGroup
-from vicode.editor.panels.design_dialogs import DesignDialogs
-from vicode.editor.panels.designs_list import DesignsList
-from vicode.editor.panels.merge_conflicts import MergeConflictList
+from vicode.editor.panels.code.code_editor import CodeEditorFactory
+from vicode.editor.panels.commands.command import Command, MenuGroup
+from vicode.editor.panels.designs.design_dialogs import DesignDialogs
+from vicode.editor.panels.designs.designs_list import DesignsList
 from vicode.editor.panels.texts import pluralize
 from vicode.editor.panels.toasts import show_toast
 from vicode.editor.panels.undo_bar import UndoBar
+from vicode.editor.panels.versions.merge_conflicts import MergeConflictList
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.session import Library, Workspace
-from vicode.editor.session.broken_file import (
+from vicode.editor.session.recovery.broken_file import (
     FileModifiedError,
     ParsedText,
     parse_text,

@@ -21,13 +21,14 @@ from vicode.editor.canvas.protocol import (
 )
 from vicode.editor.pages import texts
 from vicode.editor.pages.inside_views import InsideViews
-from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.commands.command import Command, MenuGroup
+from vicode.editor.panels.inspector.use_dialog import ask_for_component
 from vicode.editor.panels.texts import invalid_event
-from vicode.editor.panels.use_dialog import ask_for_component
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import EditResult, apply_edit, clipboard, rebase_gesture, rebase_selection
-from vicode.editor.session.edits import RequestedEdit, canvas_point
-from vicode.editor.session.gestures import NoteGesture
+from vicode.editor.session import EditResult, apply_edit, rebase_gesture, rebase_selection
+from vicode.editor.session.gestures import clipboard
+from vicode.editor.session.gestures.canvas_gestures import NoteGesture
+from vicode.editor.session.gestures.edits import RequestedEdit, canvas_point
 from vicode.editor.view import ItemRef, Scene, tooltip_sections
 from vicode.editor.view.page_urls import design_url
 from vicode.model.design import Point

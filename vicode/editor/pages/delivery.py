@@ -1,10 +1,10 @@
-"""Opens the inbox of a page, see `vicode.editor.session.delivery`."""
+"""Opens the inbox of a page, see `vicode.editor.session.gestures.delivery`."""
 
 from pathlib import Path
 
 from nicegui import ui
 
-from vicode.editor.session.delivery import Inbox
+from vicode.editor.session.gestures.delivery import Inbox
 
 _SCRIPT = Path(__file__).with_name("delivery.js")
 

@@ -15,23 +15,23 @@ from vicode.editor.pages.page_commands import PageCommands
 from vicode.editor.pages.presence import PresenceSync
 from vicode.editor.pages.side_panels import SidePanels, SideTabs
 from vicode.editor.pages.theme import Theme
-from vicode.editor.panels.code_editor import CodeEditorFactory
-from vicode.editor.panels.command import Command, MenuGroup
-from vicode.editor.panels.command_palette import CommandPalette
-from vicode.editor.panels.design_dialogs import DesignDialogs
+from vicode.editor.panels.code.code_editor import CodeEditorFactory
+from vicode.editor.panels.code.open_in_editor import editor_command
+from vicode.editor.panels.commands.command import Command, MenuGroup
+from vicode.editor.panels.commands.command_palette import CommandPalette
+from vicode.editor.panels.commands.help_dialog import show_help
+from vicode.editor.panels.commands.tour import Tour
+from vicode.editor.panels.designs.design_dialogs import DesignDialogs
 from vicode.editor.panels.export_dialog import ExportDialog
-from vicode.editor.panels.finding_navigation import FindingNavigator
+from vicode.editor.panels.findings.finding_navigation import FindingNavigator
 from vicode.editor.panels.header import Header
-from vicode.editor.panels.help_dialog import show_help
-from vicode.editor.panels.open_in_editor import editor_command
-from vicode.editor.panels.tour import Tour
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DocumentSession, User, UserDirectory, Workspace
-from vicode.editor.session.autosave import AutosaveService
-from vicode.editor.session.delivery import Inbox
 from vicode.editor.session.external_editor import ExternalEditor
-from vicode.editor.session.search_index import SearchTarget
+from vicode.editor.session.gestures.delivery import Inbox
+from vicode.editor.session.recovery.autosave import AutosaveService
+from vicode.editor.session.search.search_index import SearchTarget
 from vicode.editor.view import ItemRef
 from vicode.editor.view.page_urls import DesignAddress, parse_trail
 

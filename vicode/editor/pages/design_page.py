@@ -16,17 +16,17 @@ from vicode.editor.pages.shortcuts import register_shortcuts
 from vicode.editor.pages.side_panels import SideTabs
 from vicode.editor.pages.theme import Theme, apply_theme
 from vicode.editor.pages.user_identity import identify_user
-from vicode.editor.panels.code_editor import CodeEditorFactory
-from vicode.editor.panels.command_palette import CommandPalette
-from vicode.editor.panels.design_dialogs import DesignDialogs
-from vicode.editor.panels.designs_list import DesignsList
+from vicode.editor.panels.code.code_editor import CodeEditorFactory
+from vicode.editor.panels.commands.command_palette import CommandPalette
+from vicode.editor.panels.designs.design_dialogs import DesignDialogs
+from vicode.editor.panels.designs.designs_list import DesignsList
+from vicode.editor.panels.designs.open_design import open_design
 from vicode.editor.panels.header import Header
-from vicode.editor.panels.open_design import open_design
 from vicode.editor.panels.toasts import show_toast
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.session import Library
-from vicode.editor.session.autosave import AutosaveService
-from vicode.editor.session.search_index import SearchIndex, SearchTarget
+from vicode.editor.session.recovery.autosave import AutosaveService
+from vicode.editor.session.search.search_index import SearchIndex, SearchTarget
 from vicode.editor.view.page_urls import DesignAddress, design_url, parse_design_url
 
 _PANELS_DELAY_S = 0.01

@@ -6,7 +6,7 @@ from nicegui import ui
 
 from vicode.editor.pages.auto_layout import AutoLayout
 from vicode.editor.pages.canvas_controller import CanvasController
-from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.window_context import WindowContext
 
 if TYPE_CHECKING:

@@ -12,14 +12,14 @@ from nicegui import app, run, ui
 from starlette.requests import Request
 from starlette.responses import Response
 
-from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import Library
 from vicode.editor.view.page_urls import docs_url
 
 if TYPE_CHECKING:
     from vicode.docsite import PlannedFile, SiteBuilder
-    from vicode.editor.session.docs_snapshot import DocsSnapshot
+    from vicode.editor.session.project.docs_snapshot import DocsSnapshot
 
 _TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 _RELOAD_SCRIPT = Path(__file__).with_name("docs_reload.js")
@@ -41,7 +41,7 @@ class _ProjectDocs:
             OSError: The project cannot be read.
         """
         from vicode.docsite import SiteBuilder
-        from vicode.editor.session.docs_snapshot import load_docs_subject
+        from vicode.editor.session.project.docs_snapshot import load_docs_subject
 
         with self.lock:
             self.builder = self.builder or SiteBuilder()
@@ -59,7 +59,7 @@ def serve_docs_preview(library: Library) -> None:
 
     @app.api_route("/docs/{key}/{path}", methods=["GET", "HEAD"])
     async def page(key: str, path: str, request: Request) -> Response:
-        from vicode.editor.session.docs_snapshot import take_snapshot
+        from vicode.editor.session.project.docs_snapshot import take_snapshot
 
         workspace = library.workspace(key)
         if workspace is None:

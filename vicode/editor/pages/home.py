@@ -15,19 +15,19 @@ from vicode.editor.pages import texts
 from vicode.editor.pages.delivery import open_inbox
 from vicode.editor.pages.shortcuts import register_shortcuts
 from vicode.editor.pages.theme import Theme, apply_theme
-from vicode.editor.panels.cards import broken_card, design_card, hand_written_row
-from vicode.editor.panels.code_editor import CodeEditorFactory
-from vicode.editor.panels.command import Command, MenuGroup
-from vicode.editor.panels.command_palette import CommandPalette
-from vicode.editor.panels.design_dialogs import DesignDialogs
-from vicode.editor.panels.folders import MANY_DESIGNS, Folder, group_by_folder
+from vicode.editor.panels.code.code_editor import CodeEditorFactory
+from vicode.editor.panels.commands.command import Command, MenuGroup
+from vicode.editor.panels.commands.command_palette import CommandPalette
+from vicode.editor.panels.designs.cards import broken_card, design_card, hand_written_row
+from vicode.editor.panels.designs.design_dialogs import DesignDialogs
+from vicode.editor.panels.designs.folders import MANY_DESIGNS, Folder, group_by_folder
 from vicode.editor.panels.toasts import show_toast
 from vicode.editor.panels.undo_bar import UndoBar
 from vicode.editor.panels.widgets import icon_button, primary_button
 from vicode.editor.session import Library, Workspace
 from vicode.editor.session.descriptions import error_reason
-from vicode.editor.session.overview import BrokenFile, DesignCard, ProjectOverview
-from vicode.editor.session.search_index import SearchIndex, SearchTarget
+from vicode.editor.session.project.overview import BrokenFile, DesignCard, ProjectOverview
+from vicode.editor.session.search.search_index import SearchIndex, SearchTarget
 from vicode.editor.view.page_urls import design_url
 
 _SHEET = Path(__file__).parent / "home.css"

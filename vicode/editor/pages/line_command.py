@@ -1,7 +1,7 @@
 """A line of states and transitions typed into the command palette, such as "Idle -order-> Drive -20 s-> Idle"."""
 
 from vicode.editor.pages import texts
-from vicode.editor.panels.command import TypedCommand
+from vicode.editor.panels.commands.command import TypedCommand
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.view import ItemRef
 from vicode.model.transition_line import TransitionLine, add_line, is_transition_line, parse_transition_line

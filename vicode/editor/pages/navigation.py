@@ -7,10 +7,10 @@ from nicegui import ui
 
 from vicode.editor.pages import texts
 from vicode.editor.pages.canvas_controller import CanvasController
-from vicode.editor.panels.command import Command, MenuGroup
-from vicode.editor.panels.open_design import open_design
+from vicode.editor.panels.commands.command import Command, MenuGroup
+from vicode.editor.panels.designs.open_design import open_design
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.search_index import SearchTarget
+from vicode.editor.session.search.search_index import SearchTarget
 from vicode.editor.view import ItemRef
 from vicode.editor.view.page_urls import design_url, extend_trail
 

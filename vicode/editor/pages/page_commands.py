@@ -9,13 +9,14 @@ from nicegui import run
 from vicode.editor.pages import texts
 from vicode.editor.pages.canvas_controller import CanvasController
 from vicode.editor.pages.theme import Theme
-from vicode.editor.panels.command import Command, MenuGroup
-from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.texts import SAVED, not_saved
+from vicode.editor.panels.versions.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import DiskConflictError, DocumentSession, code_sync
+from vicode.editor.session import DiskConflictError, DocumentSession
+from vicode.editor.session.code import code_sync
 from vicode.editor.session.descriptions import error_reason
-from vicode.editor.session.gestures import DisableGesture
+from vicode.editor.session.gestures.canvas_gestures import DisableGesture
 from vicode.editor.view.changed_places import find_changed_places
 
 T = TypeVar("T")
@@ -96,7 +97,7 @@ class PageCommands:
 
     async def _write_code(self) -> None:
         """Ask for confirmation if files change, unless the user disabled it."""
-        from vicode.editor.panels.generate_dialog import confirm_writing, is_confirmation_disabled
+        from vicode.editor.panels.code.generate_dialog import confirm_writing, is_confirmation_disabled
 
         context = self.context
         prepared = await self._run_in_thread(context.workspace.prepare_output)

@@ -11,11 +11,11 @@ from vicode.editor.pages.autosave_ui import run_autosave
 from vicode.editor.pages.design_page import DesignPage, open_design_at
 from vicode.editor.pages.docs_preview import serve_docs_preview
 from vicode.editor.pages.theme import apply_theme
-from vicode.editor.panels.thumbnails import serve_thumbnails
+from vicode.editor.panels.designs.thumbnails import serve_thumbnails
 from vicode.editor.panels.toasts import show_internal_error
 from vicode.editor.session import Library, Workspace
-from vicode.editor.session.autosave import AutosaveService
-from vicode.editor.session.search_index import SearchIndex
+from vicode.editor.session.recovery.autosave import AutosaveService
+from vicode.editor.session.search.search_index import SearchIndex
 from vicode.editor.view.page_urls import DesignAddress, broken_file_url, parse_selection
 
 

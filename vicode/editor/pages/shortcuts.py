@@ -8,8 +8,8 @@ from pathlib import Path
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.panels.command import Command, CommandHandler
-from vicode.editor.session.delivery import Inbox
+from vicode.editor.panels.commands.command import Command, CommandHandler
+from vicode.editor.session.gestures.delivery import Inbox
 
 ESCAPE_ATTRIBUTE = "data-escape-clicks"
 """Attribute of a button that Escape clicks while the button is visible, independent of the focus."""

@@ -5,18 +5,18 @@ from typing import TYPE_CHECKING
 from nicegui import ui
 
 from vicode.editor.canvas import Canvas
-from vicode.editor.panels.command import Command, MenuGroup
-from vicode.editor.panels.finding_navigation import FindingNavigator
+from vicode.editor.panels.commands.command import Command, MenuGroup
+from vicode.editor.panels.findings.finding_navigation import FindingNavigator
 from vicode.editor.panels.simulation.commands import simulation_commands
 from vicode.editor.panels.splitters import add_splitters, dock_splitter, side_splitter
 from vicode.editor.panels.tabs import Tabs
 from vicode.editor.panels.window_context import WindowContext
 
 if TYPE_CHECKING:
-    from vicode.editor.panels.comparison_dialog import ComparisonDialog
-    from vicode.editor.panels.search_panel import SearchPanel
+    from vicode.editor.panels.commands.search_panel import SearchPanel
     from vicode.editor.panels.simulation.controller import SimulationController
     from vicode.editor.panels.simulation.panel import SimulationPanel
+    from vicode.editor.panels.versions.comparison_dialog import ComparisonDialog
 
 _DOCK = _FINDINGS, _SEARCH, _HISTORY, _SIMULATE = "Findings", "Search", "History", "Simulate"
 _SIDE = _INSPECT, _CODE = "Inspect", "Generated code"
@@ -58,10 +58,10 @@ class SidePanels:
         self._comparison: ComparisonDialog | None = None
 
     def build(self) -> None:
-        from vicode.editor.panels.code_panel import CodePanel
-        from vicode.editor.panels.findings_panel import FindingsPanel
-        from vicode.editor.panels.history_panel import HistoryPanel
-        from vicode.editor.panels.inspector import Inspector
+        from vicode.editor.panels.code.code_panel import CodePanel
+        from vicode.editor.panels.findings.findings_panel import FindingsPanel
+        from vicode.editor.panels.inspector.inspector import Inspector
+        from vicode.editor.panels.versions.history_panel import HistoryPanel
 
         context = self._context
         if context.workspace.robots.is_open:
@@ -110,7 +110,7 @@ class SidePanels:
         self._side.refresh()
 
     def _compare(self) -> None:
-        from vicode.editor.panels.comparison_dialog import ComparisonDialog
+        from vicode.editor.panels.versions.comparison_dialog import ComparisonDialog
 
         if self._comparison is None:
             self._comparison = ComparisonDialog(self._context)
@@ -129,7 +129,7 @@ class SidePanels:
         return self._simulator
 
     def _search_panel(self) -> "SearchPanel":
-        from vicode.editor.panels.search_panel import SearchPanel
+        from vicode.editor.panels.commands.search_panel import SearchPanel
 
         return SearchPanel(self._context)
 

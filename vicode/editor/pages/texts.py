@@ -6,9 +6,9 @@ Labels of single widgets stay where the widget is built; texts of panels are in 
 from collections.abc import Sequence
 
 from vicode.editor.panels.texts import pluralize
-from vicode.editor.session.edits import RequestedEdit
-from vicode.editor.session.gestures import DisableGesture, NoteGesture, StateFlagGesture
-from vicode.editor.session.transition_gestures import ReorderGesture
+from vicode.editor.session.gestures.canvas_gestures import DisableGesture, NoteGesture, StateFlagGesture
+from vicode.editor.session.gestures.edits import RequestedEdit
+from vicode.editor.session.gestures.transition_gestures import ReorderGesture
 from vicode.editor.view import ItemRef
 from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Design

@@ -6,7 +6,7 @@ from pathlib import Path
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from vicode.editor.panels.code_editor import CodeEditorFactory
+from vicode.editor.panels.code.code_editor import CodeEditorFactory
 
 _STYLE_SHEET = Path(__file__).parent / "theme.css"
 _DESCRIPTION = "vicode: editor, checker, simulator and code generator for state machines of robots"

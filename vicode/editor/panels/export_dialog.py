@@ -7,7 +7,7 @@ from nicegui import run, ui
 
 from vicode.diagram.export_formats import EXPORT_FORMATS, ExportFormat, ExportOptions, NotExportableError
 from vicode.editor.panels import texts
-from vicode.editor.panels.command import Command, MenuGroup
+from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.copy_text import copy_text
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.widgets import primary_button

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from nicegui import ui
 
 from vicode.editor.panels import texts
-from vicode.editor.panels.code_choices import ask_to_resolve_code
-from vicode.editor.panels.command import Command
-from vicode.editor.panels.conflict_dialog import ask_to_resolve_conflict
+from vicode.editor.panels.code.code_choices import ask_to_resolve_code
+from vicode.editor.panels.commands.command import Command
 from vicode.editor.panels.presence_bar import PresenceBar
+from vicode.editor.panels.versions.conflict_dialog import ask_to_resolve_conflict
 from vicode.editor.panels.widgets import icon_button, primary_button, set_enabled
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.view.page_urls import design_url

@@ -7,8 +7,8 @@ from nicegui import ui
 from vicode.editor.panels.texts import SELECT_ROW_FIRST, invalid_event
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.edits import RequestedEdit, apply_edit
-from vicode.editor.session.table_edits import AddState, AddTransition, MoveRow, RemoveRow, SetCell
+from vicode.editor.session.gestures.edits import RequestedEdit, apply_edit
+from vicode.editor.session.gestures.table_edits import AddState, AddTransition, MoveRow, RemoveRow, SetCell
 from vicode.editor.table import TableGrid
 from vicode.editor.view import TableData, diff_tables, item_row_id, make_table, parse_row_id
 

@@ -6,12 +6,12 @@ from typing import Any, Protocol
 
 from nicegui import Client, background_tasks
 
-from vicode.editor.panels.code_editor import CodeEditorFactory
-from vicode.editor.panels.code_linter import CodeLinter
+from vicode.editor.panels.code.code_editor import CodeEditorFactory
+from vicode.editor.panels.code.code_linter import CodeLinter
 from vicode.editor.panels.toasts import show_toast
 from vicode.editor.session import DocumentSession, PresenceRoom, Workspace
-from vicode.editor.session.delivery import Inbox
 from vicode.editor.session.external_editor import ExternalEditor
+from vicode.editor.session.gestures.delivery import Inbox
 from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design

@@ -10,10 +10,10 @@ from typing import Any
 
 from vicode.diagram.kept_positions import keep_positions
 from vicode.editor.session import texts
+from vicode.editor.session.code.outside_edits import OutsideEdits
 from vicode.editor.session.forms.form_data import FormLists, Forms, FormWriter
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
-from vicode.editor.session.outside_edits import OutsideEdits
 from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
 from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import Scene, diff_scenes, make_scene

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from vicode.editor.session.external_editor import ExternalEditor
-from vicode.editor.session.overview import ProjectOverview
 from vicode.editor.session.presence import UserDirectory
-from vicode.editor.session.recovery import state_folder
+from vicode.editor.session.project.overview import ProjectOverview
+from vicode.editor.session.recovery.recovery_store import state_folder
 from vicode.editor.session.robots import RobotLink
 from vicode.editor.session.trust import trust_folder
 from vicode.editor.session.workspace import Workspace

@@ -10,9 +10,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
 from vicode.editor.session.subscribers import Subscribers
-from vicode.simulation import IterationResult, ProtocolError
-from vicode.simulation.messages import decode_iteration
-from vicode.simulation.robots import (
+from vicode.robots import (
     AttachError,
     Hello,
     RobotAddress,
@@ -24,6 +22,8 @@ from vicode.simulation.robots import (
     encode,
     parse_address,
 )
+from vicode.simulation import IterationResult, ProtocolError
+from vicode.simulation.messages import decode_iteration
 
 if TYPE_CHECKING:
     from vicode.runs import Recording

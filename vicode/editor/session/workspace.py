@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.check import check_design, check_project
-from vicode.editor.session import code_sync, texts
-from vicode.editor.session.code_sync import GeneratedPaths, file_signature
+from vicode.editor.session import texts
+from vicode.editor.session.code import code_sync
+from vicode.editor.session.code.code_sync import GeneratedPaths, file_signature
 from vicode.editor.session.document import DiskVersion, DocumentSession, FileTransaction, SharedDocument
 from vicode.editor.session.presence import DISK_USER, UserDirectory
 from vicode.editor.session.robots import RobotLink

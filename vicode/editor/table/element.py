@@ -8,8 +8,8 @@ from nicegui.events import GenericEventArguments
 
 from vicode.decoding import MalformedEventError, decode_event
 from vicode.editor.js_modules import TABLE_JS
-from vicode.editor.session.edits import RequestedEdit
-from vicode.editor.session.table_edits import SetCell
+from vicode.editor.session.gestures.edits import RequestedEdit
+from vicode.editor.session.gestures.table_edits import SetCell
 from vicode.editor.table.protocol import TABLE_EVENTS, SelectRow
 
 
@@ -17,7 +17,7 @@ class TableGrid(ui.element, component=TABLE_JS / "vicode_table.js"):
     """Tree grid with the rows of a design (see `vicode.editor.view.table`), fully usable by keyboard.
 
     Args:
-        on_edit: called with every edit that the user requests (see `vicode.editor.session.table_edits`).
+        on_edit: called with every edit that the user requests (see `vicode.editor.session.gestures.table_edits`).
         on_select: called with the id of the current row.
         on_malformed: called with the reason when the browser sent a malformed event, which is ignored.
     """

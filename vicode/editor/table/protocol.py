@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from vicode.editor.session.edits import RequestedEdit
-from vicode.editor.session.table_edits import TABLE_EDITS
+from vicode.editor.session.gestures.edits import RequestedEdit
+from vicode.editor.session.gestures.table_edits import TABLE_EDITS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,18 +4,18 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from vicode.editor.panels.inspector.rename_dialog import rename_declaration
 from vicode.editor.panels.project.removal import confirm_and_remove
 from vicode.editor.panels.project.writing import write_design_and_project, write_node, write_project
-from vicode.editor.panels.rename_dialog import rename_declaration
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session import project_edits
 from vicode.editor.session.forms.edits import ButtonEdit, CheckEdit, ChoiceEdit, FormEdit, NameEdit, TextEdit
 from vicode.editor.session.forms.form_paths import parse_path
 from vicode.editor.session.forms.form_places import FormResult
 from vicode.editor.session.forms.list_ids import DECLARATION_LISTS
 from vicode.editor.session.forms.project_places import ProjectPlace, find_project_place, node_path, resolve_in_project
 from vicode.editor.session.forms.text_merge import merge_texts
-from vicode.editor.session.interface_edits import add_command, add_input
+from vicode.editor.session.project import project_edits
+from vicode.editor.session.project.interface_edits import add_command, add_input
 from vicode.editor.session.texts import ITEM_MISSING
 from vicode.findings import DesignPath
 from vicode.model.project import Project

@@ -9,7 +9,7 @@ from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.project.writing import write_project
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.project_paths import ProjectNodePath
+from vicode.editor.session.project.project_paths import ProjectNodePath
 from vicode.model.references import ReferenceLocation, find_references
 
 _MAX_LISTED = 40

@@ -6,8 +6,8 @@ from typing import Any
 from vicode.editor.panels import texts
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.descriptions import error_reason
-from vicode.editor.session.project_edits import ProjectEdit, edit_design_and_project, edit_project_file
-from vicode.editor.session.project_paths import ProjectNodePath
+from vicode.editor.session.project.project_edits import ProjectEdit, edit_design_and_project, edit_project_file
+from vicode.editor.session.project.project_paths import ProjectNodePath
 from vicode.model.design import Design
 from vicode.model.project import Project
 

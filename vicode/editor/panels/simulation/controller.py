@@ -10,11 +10,11 @@ from nicegui import run
 
 from vicode.editor.canvas import Canvas
 from vicode.editor.panels import texts
-from vicode.editor.panels.code_choices import ask_to_resolve_code
-from vicode.editor.panels.simulation.robot_view import RobotView
+from vicode.editor.panels.code.code_choices import ask_to_resolve_code
+from vicode.editor.panels.robots.robot_view import RobotView
 from vicode.editor.panels.simulation.trust_dialog import ask_for_trust
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.code_sync import find_lacking
+from vicode.editor.session.code.code_sync import find_lacking
 from vicode.editor.session.simulation import Breakpoints
 from vicode.editor.view import ItemRef
 from vicode.generators import UnsoundDesignError

@@ -6,8 +6,8 @@ from nicegui import ui
 from nicegui.events import UploadEventArguments
 
 from vicode.editor.access import MAX_BODY_BYTES
+from vicode.editor.panels.robots.robot_form import RobotForm
 from vicode.editor.panels.simulation.controller import SimulationController
-from vicode.editor.panels.simulation.robot_form import RobotForm
 from vicode.editor.panels.simulation.trace_files import TraceFileChoice
 from vicode.editor.panels.simulation.trace_overlays import TraceOverlays
 from vicode.runs import stubbed_components, used_components

@@ -1,8 +1,8 @@
 """The status line of a simulation: errors, the position in the past, the reason why it stopped."""
 
 from vicode.editor.panels import texts
+from vicode.editor.panels.robots.robot_view import RobotView
 from vicode.editor.panels.simulation.controller import SimulationController
-from vicode.editor.panels.simulation.robot_view import RobotView
 from vicode.editor.session.robots import LinkStatus
 from vicode.editor.view.activation import code_error_view
 from vicode.runs import RunStatus, Simulation

@@ -7,7 +7,7 @@ from vicode.check import build_context
 from vicode.check.typed_expressions import ExpressionSite
 from vicode.editor.session.fixes.context import DesignEdit, Fix, FixContext
 from vicode.editor.session.fixes.uses import add_use_fixes
-from vicode.editor.session.interface_edits import place_input
+from vicode.editor.session.project.interface_edits import place_input
 from vicode.findings import DesignPath
 from vicode.model.design import Assign, Declaration, Design
 from vicode.model.edits import replace_action

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
-from vicode.editor.session import number_text
 from vicode.editor.session.forms.fields import known_field
 from vicode.editor.session.forms.form_paths import parse_path, resolve
 from vicode.editor.session.forms.item_place import ItemPlace
@@ -26,6 +25,7 @@ from vicode.editor.session.forms.nodes import (
     TextField,
     form_json,
 )
+from vicode.editor.session.gestures import number_text
 from vicode.model.design import Declaration, Design
 from vicode.model.rename import SymbolRef
 

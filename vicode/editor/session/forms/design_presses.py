@@ -10,7 +10,7 @@ from vicode.editor.session.forms.form_paths import parse_path, resolve
 from vicode.editor.session.forms.form_places import FormResult
 from vicode.editor.session.forms.list_ids import DECLARATION_LISTS
 from vicode.editor.session.forms.presses import Handler, Press
-from vicode.editor.session.item_paths import change_item, item_at
+from vicode.editor.session.gestures.item_paths import change_item, item_at
 from vicode.findings import DesignPath
 from vicode.model.design import Declaration
 from vicode.model.edits import add_use, remove_uses, unique_name

@@ -6,14 +6,14 @@ from typing import ClassVar, Protocol
 
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.edits import apply_edit
 from vicode.editor.session.forms.design_presses import DESIGN_PRESSES
 from vicode.editor.session.forms.form_paths import item_path
 from vicode.editor.session.forms.form_places import FormPlace, FormResult, find_place, rebase_owner
 from vicode.editor.session.forms.presses import PRESSES, FormAction
 from vicode.editor.session.forms.text_merge import merge_texts
-from vicode.editor.session.gestures import RenameGesture
-from vicode.editor.session.item_paths import change_item
+from vicode.editor.session.gestures.canvas_gestures import RenameGesture
+from vicode.editor.session.gestures.edits import apply_edit
+from vicode.editor.session.gestures.item_paths import change_item
 from vicode.editor.view import ItemRef
 from vicode.model.design import Guard
 from vicode.model.guard_text import settle_guard

@@ -4,8 +4,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from vicode.editor.session import number_text, texts
+from vicode.editor.session import texts
 from vicode.editor.session.forms.pairs import find_error, find_lost_pairs, format_pairs, parse_pairs
+from vicode.editor.session.gestures import number_text
 from vicode.findings import DesignPath
 from vicode.languages import LANGUAGES
 from vicode.model.design import (

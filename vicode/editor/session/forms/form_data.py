@@ -16,8 +16,8 @@ from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import Node, form_json
 from vicode.editor.session.forms.project_form import project_adders, project_parts
 from vicode.editor.session.forms.state_form import common_form, state_form, uses_xabsl
-from vicode.editor.session.interface_edits import type_names
-from vicode.editor.session.item_paths import item_at
+from vicode.editor.session.gestures.item_paths import item_at
+from vicode.editor.session.project.interface_edits import type_names
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.decision_keys import parse_transition_key, transition_key

@@ -7,7 +7,7 @@ its own: "enter/n3/values", "guard/when".
 from collections.abc import Sequence
 
 from vicode.editor.session.forms.list_ids import ID_LISTS, ListIds
-from vicode.editor.session.item_paths import item_at
+from vicode.editor.session.gestures.item_paths import item_at
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.decision_keys import parse_transition_key

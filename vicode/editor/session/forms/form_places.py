@@ -6,7 +6,7 @@ from typing import Any
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.forms.fields import FormField, field_of, initial_field
 from vicode.editor.session.forms.form_paths import file_path, is_in_list, item_path, parse_path, resolve, split_path
-from vicode.editor.session.item_paths import change_item, item_at, rebase_path
+from vicode.editor.session.gestures.item_paths import change_item, item_at, rebase_path
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.design import Design

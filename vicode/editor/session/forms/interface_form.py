@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from vicode.editor.session import number_text
 from vicode.editor.session.forms.declaration_form import describe_value
 from vicode.editor.session.forms.item_place import ItemPlace
 from vicode.editor.session.forms.list_ids import ListIds
@@ -20,6 +19,7 @@ from vicode.editor.session.forms.nodes import (
     Title,
 )
 from vicode.editor.session.forms.project_form import SCOPE, declaration_lines, project_place
+from vicode.editor.session.gestures import number_text
 from vicode.model.design import Declaration, Design, Use
 from vicode.model.expressions import BOOL
 from vicode.model.project import INTERNAL, MISSING, WORLD, Interface, Project

@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from vicode.editor.session.item_paths import rebase_path
+from vicode.editor.session.gestures.item_paths import rebase_path
 from vicode.findings import DesignPath
 from vicode.model.design import Design
 from vicode.model.merge import find_renamed_states, match_items

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from vicode.editor.session.code_marks import CodeMark, mark_assignments, mark_text
+from vicode.editor.session.code.code_marks import CodeMark, mark_assignments, mark_text
 from vicode.editor.session.fixes import is_fixable
 from vicode.editor.session.forms.form_data import item_form
 from vicode.editor.session.forms.form_paths import file_path, item_path, resolve

@@ -11,7 +11,7 @@ from vicode.editor.session.forms.fields import replace_text
 from vicode.editor.session.forms.form_paths import item_path, parse_path, resolve
 from vicode.editor.session.forms.form_places import FormResult, rebase_owner
 from vicode.editor.session.forms.list_ids import ACTION_LISTS
-from vicode.editor.session.item_paths import change_item, item_at
+from vicode.editor.session.gestures.item_paths import change_item, item_at
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.decision_keys import transition_key

@@ -27,7 +27,7 @@ from vicode.editor.session.forms.nodes import (
     Section,
     TextField,
 )
-from vicode.editor.session.interface_edits import shared_names
+from vicode.editor.session.project.interface_edits import shared_names
 from vicode.model.design import Declaration
 from vicode.model.edits import unique_name
 from vicode.model.project import Agent, Enumeration, Interface, Project

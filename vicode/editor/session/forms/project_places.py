@@ -8,8 +8,8 @@ from vicode.editor.session.forms.form_paths import resolve
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import CodeText, Field, Node, iter_fields
 from vicode.editor.session.forms.project_form import project_parts
-from vicode.editor.session.item_paths import item_at
-from vicode.editor.session.project_paths import ProjectNodePath
+from vicode.editor.session.gestures.item_paths import item_at
+from vicode.editor.session.project.project_paths import ProjectNodePath
 from vicode.findings import DesignPath
 from vicode.model.project import Project
 

@@ -1,0 +1,1 @@
+"""Panels and dialogs for generated code and its edits."""

@@ -1,0 +1,1 @@
+"""Commands: palette, search, help and the tour."""

@@ -1,0 +1,1 @@
+"""Lists of designs, and dialogs that create, copy and delete them."""

@@ -1,0 +1,1 @@
+"""Shows and controls running robots, and writes tuned values back."""

@@ -1,0 +1,1 @@
+"""Earlier versions, comparisons, conflicts and recovered edits."""

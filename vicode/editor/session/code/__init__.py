@@ -1,0 +1,1 @@
+"""Generated code of an open design, and edits of it."""

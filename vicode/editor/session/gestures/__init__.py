@@ -1,0 +1,1 @@
+"""Edits that the canvas, the table and the forms request, and their way to the current design."""

@@ -1,0 +1,1 @@
+"""Edits of the project and its files: renames, interfaces, trash."""

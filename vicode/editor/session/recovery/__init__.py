@@ -1,0 +1,1 @@
+"""Saving by itself, and what is left after a crash."""
