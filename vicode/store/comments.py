@@ -2,9 +2,10 @@
 
 import re
 from bisect import bisect_left
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 from vicode.findings import DesignPath
 from vicode.store.documents import read_record
@@ -42,8 +43,13 @@ class CommentedFile:
         self.comments = tuple(self._read_comments())
 
     @property
+    def root(self) -> TypedNode | None:
+        """None if the text is not readable."""
+        return self._source.root
+
+    @property
     def is_readable(self) -> bool:
-        return self._source.root is not None
+        return self.root is not None
 
     def line_of(self, path: DesignPath) -> int:
         """The line above which `add_comments` writes a comment of a node."""
@@ -53,13 +59,30 @@ class CommentedFile:
 
     def path_at(self, line: int) -> DesignPath:
         """The path of the outermost node that starts in a line; empty if there is none."""
-        pending: list[tuple[DesignPath, TypedNode]] = [((), self._source.root)] if self._source.root else []
+        return next((path for path, _node in self._nodes_by_line.get(line, ())), ())
+
+    def owner_of(self, comment: FileComment) -> DesignPath:
+        """The path of the node that a comment is beside, or above; empty if there is none."""
+        nodes = self._nodes_by_line.get(comment.content_line, [])
+        if comment.line != comment.content_line or not nodes:
+            return self.path_at(comment.content_line)
+        ended = (path for path, node in nodes if self._end_line(node) == comment.line)
+        return next(ended, nodes[-1][0])
+
+    def _end_line(self, node: TypedNode) -> int:
+        return self._report.line_index.locate(node.node.end, node.node.end).line
+
+    @cached_property
+    def _nodes_by_line(self) -> dict[int, list[tuple[DesignPath, TypedNode]]]:
+        """The nodes that start in each line, the outermost first."""
+        found: dict[int, list[tuple[DesignPath, TypedNode]]] = {}
+        pending: deque[tuple[DesignPath, TypedNode]] = deque([((), self.root)] if self.root else [])
         while pending:
-            path, node = pending.pop(0)
-            if path and self.line_of(path) == line:
-                return path
+            path, node = pending.popleft()
+            if path:
+                found.setdefault(self.line_of(path), []).append((path, node))
             pending += [((*path, step), child) for step, child in node.children.items()]
-        return ()
+        return found
 
     def block_of(self, line: int) -> range:
         """The lines of the node that starts in a line."""
@@ -76,9 +99,9 @@ class CommentedFile:
 
     def _read_comments(self) -> Iterator[FileComment]:
         index = self._report.line_index
-        tree = parse_yaml(index.text, ReadReport(line_index=index))
+        root = self.root.node if self.root else parse_yaml(index.text, ReadReport(line_index=index)).root
         end = 0
-        for start, after in [*_scalar_spans(tree.root), (len(index.text), len(index.text))]:
+        for start, after in [*_scalar_spans(root), (len(index.text), len(index.text))]:
             for match in _COMMENT.finditer(index.text, end, start):
                 location = index.locate(match.start(), match.end())
                 words = match[0].removeprefix("#").removeprefix(" ").rstrip()
@@ -170,7 +193,7 @@ def add_comments(text: str, comments: Iterable[PathComment], *, is_project_file:
         index = source.locate(path, of_key=True).line - 1 if path else 0
         above.setdefault(index, []).extend(_format_comment(comment, lines[index] if path else ""))
     commented = "\n".join(line for index, old in enumerate(lines) for line in (*above.get(index, ()), old))
-    if _read_value(commented, schema) == _read_value(text, schema):
+    if _read_value(commented, schema) == (root.value if root else None, report.findings):
         return commented
     # In a multi-line text, the comment would be part of the value: write all comments at the start of the file.
     return "\n".join([*(line.strip() for comments in above.values() for line in comments), text])

@@ -9,6 +9,7 @@ from vicode.model.project import Project
 from vicode.store.codec import encode_design, encode_project
 from vicode.store.documents import read_record
 from vicode.store.format import DESIGN
+from vicode.store.kept_comments import keep_comments
 from vicode.store.patcher import CannotPatchError, Patcher
 from vicode.store.project_format import PROJECT
 from vicode.store.sanitize import sanitize_design
@@ -16,6 +17,7 @@ from vicode.store.schema_types import FormatValue, RecordSchema
 from vicode.store.tree_diff import TargetBuilder
 from vicode.store.typed_node import TypedNode
 from vicode.store.unread import UnreadContentError, find_unread, require_unread
+from vicode.store.yaml_tree import find_undefined_aliases
 from vicode.store.yaml_writer import YamlStyle, detect_style, format_document
 
 # First, only the differing values are replaced; if that fails, whole states and declarations, then whole sections.
@@ -66,12 +68,19 @@ def _save(schema: RecordSchema, data: FormatValue, old_text: str) -> str | None:
     plain = old_text.replace("\r\n", "\n") if is_windows else old_text
     for deepest in _MAX_PATCH_DEPTHS:
         new = _patch_text(schema, data, plain, old if plain is old_text else None, deepest)
-        for text in () if new is None else _ending_variants(new, is_ended=plain.endswith("\n")):
+        for variant in () if new is None else _ending_variants(new, is_ended=plain.endswith("\n")):
+            text = keep_comments(plain, variant, is_project_file=schema is PROJECT)
             saved = text.replace("\n", "\r\n") if is_windows else text
-            if _reads_as(schema, saved, data, unread):
+            if _reads_as(schema, saved, data, unread) and not _lost_anchors(plain, text):
                 return saved
     require_unread(unread, old, old_text)
-    return _format_new_text(schema, data, old_text)
+    formatted = _format_new_text(schema, data, old_text)
+    return None if formatted is None else keep_comments(plain, formatted, is_project_file=schema is PROJECT)
+
+
+def _lost_anchors(old: str, new: str) -> set[str | None]:
+    """The anchors that a new text lacks: other programs cannot read a file with aliases of them."""
+    return find_undefined_aliases(new) - find_undefined_aliases(old) if "*" in old and "&" in old else set()
 
 
 def _ending_variants(new: str, *, is_ended: bool) -> tuple[str, ...]:

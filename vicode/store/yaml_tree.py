@@ -3,6 +3,7 @@
 The tree is built from parser events without recursion. Aliases, tags, deep nesting and large files are rejected.
 """
 
+import contextlib
 import re
 from dataclasses import dataclass
 
@@ -105,6 +106,18 @@ def parse_yaml(text: str, report: ReadReport) -> YamlTree:
     except _ParseAborted:
         return YamlTree(root=None, is_complete=False)
     return YamlTree(root=builder.root, is_complete=True)
+
+
+def find_undefined_aliases(text: str) -> set[str | None]:
+    """The names of aliases without an anchor above them; of a text with syntax errors, those before the first one."""
+    anchors, undefined = set[str | None](), set[str | None]()
+    with contextlib.suppress(yaml.YAMLError):
+        for event in yaml.parse(text.removeprefix("\ufeff"), Loader=_LOADER):
+            if isinstance(event, yaml.AliasEvent):
+                undefined |= {event.anchor} - anchors
+            elif isinstance(event, yaml.NodeEvent):
+                anchors.add(event.anchor)
+    return undefined
 
 
 def _has_valid_characters(text: str, skipped: int, report: ReadReport) -> bool:

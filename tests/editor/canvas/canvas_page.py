@@ -7,7 +7,7 @@ POST /clear deletes them, and POST /call/METHOD calls a method of the element.
 import json
 import sys
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from nicegui import app, ui
 from nicegui.events import GenericEventArguments
@@ -15,7 +15,7 @@ from nicegui.events import GenericEventArguments
 from vicode.decoding import decode
 from vicode.editor.canvas import Canvas
 from vicode.editor.session.gestures.canvas_gestures import NodePosition
-from vicode.editor.view import ItemRef
+from vicode.editor.view import SCENE_LISTS, ItemRef, SceneChanges
 
 ARGUMENT_TYPES: dict[str, Any] = {
     "select": tuple[ItemRef, ...],
@@ -40,7 +40,10 @@ def main(port: int, scene_file: Path, theme: str) -> None:
     @app.post("/call/{method}")
     def call(method: str, arguments: list[Any]) -> None:
         with canvases[-1]:
-            getattr(canvases[-1], method)(*decode_arguments(method, arguments))
+            if method == "apply":
+                apply(canvases[-1], arguments[0])
+            else:
+                getattr(canvases[-1], method)(*decode_arguments(method, arguments))
 
     @ui.page("/")
     def page() -> None:
@@ -49,8 +52,8 @@ def main(port: int, scene_file: Path, theme: str) -> None:
 
         def record(event: GenericEventArguments) -> None:
             gestures.append(event.args)
-            if changes := changes_after(event.args, canvas._scene or {}):
-                canvas.apply({"rev": event.args["rev"] + 1, **changes})
+            if changes := changes_after(event.args, canvas._scene):
+                apply(canvas, {"rev": event.args["rev"] + 1, **changes})
 
         canvas = Canvas(
             lambda _report: None,
@@ -82,8 +85,20 @@ def decode_arguments(method: str, arguments: list[Any]) -> list[Any]:
     return [decode(arguments[0], ARGUMENT_TYPES[method], method)]
 
 
-def changes_after(gesture: dict[str, Any], scene: dict[str, Any]) -> dict[str, Any]:
+def apply(canvas: Canvas, changes: dict[str, Any]) -> None:
+    """Show changes, which may leave out lists, with the scene that they lead to."""
+    scene: Any = {**(canvas._scene or {}), **{key: changes[key] for key in ("rev", "common") if key in changes}}
+    for name in SCENE_LISTS:
+        removed = changes.get("remove", {}).get(name, ())
+        items = {item["id"]: item for item in scene.get(name, ()) if item["id"] not in removed}
+        items.update({item["id"]: item for item in changes.get("upsert", {}).get(name, ())})
+        scene[name] = list(items.values())
+    canvas.apply(scene, cast("SceneChanges", changes))
+
+
+def changes_after(gesture: dict[str, Any], shown: Any) -> dict[str, Any]:
     """Return the scene changes that an editor would make after a gesture."""
+    scene = {name: {item["id"]: item for item in shown.get(name, ())} for name in SCENE_LISTS}
     if gesture["kind"] == "move":
         moved: dict[str, list[Any]] = {}
         for item in gesture["items"]:

@@ -14,8 +14,6 @@ from vicode.editor.canvas.protocol import (
     OnGesture,
     OnPointer,
     RemoteUser,
-    Scene,
-    SceneChanges,
     SelectGesture,
     decode_gesture,
     item_json,
@@ -23,10 +21,8 @@ from vicode.editor.canvas.protocol import (
 from vicode.editor.js_modules import CANVAS_JS
 from vicode.editor.session.gestures.canvas_gestures import NodePosition
 from vicode.editor.session.gestures.delivery import Inbox
-from vicode.editor.view import ItemRef
+from vicode.editor.view import ItemRef, Scene, SceneChanges
 from vicode.model.design import Point
-
-_KINDS = ("states", "transitions", "components", "links", "frames", "notes")
 
 
 class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
@@ -53,7 +49,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         self._on_gesture, self._on_pointer = on_gesture, on_pointer
         self._presence: list[RemoteUser] = []
         self._presence_painted = self._presence_pending = True
-        self._scene: dict[str, Any] | None = None
+        self._scene: Scene | None = None
         self._selected: list[ItemRef] = []
         self._acked_seq = 0
         self._links_shown = True
@@ -82,24 +78,16 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
 
     def load(self, view: Scene) -> None:
         """Replace the scene. The view is kept if the component is the same as before; otherwise the scene is fitted."""
-        self._scene = {**view, **{kind: {item["id"]: item for item in view.get(kind, ())} for kind in _KINDS}}
+        self._scene = view
         if not self._is_mounted:
             self._embed_scene()
-        self._call("load", self._full_scene())
+        self._call("load", view)
         self._send_selection()
 
-    def apply(self, changes: SceneChanges) -> None:
-        if self._scene is None:
-            raise RuntimeError("apply() requires a scene: call load() first")
-        self._scene["rev"], self._embedded_rev = changes["rev"], None
-        for kind, ids in changes.get("remove", {}).items():
-            for identity in ids:
-                self._scene[kind].pop(identity, None)
-        for kind, items in changes.get("upsert", {}).items():
-            self._scene[kind].update({item["id"]: item for item in items})
-        if "common" in changes:
-            self._scene["common"] = changes["common"]
-        self._call("apply", dict(changes))
+    def apply(self, view: Scene, changes: SceneChanges) -> None:
+        """Show the changes that lead to a scene."""
+        self._scene, self._embedded_rev = view, None
+        self._call("apply", changes)
 
     def select(self, items: Iterable[ItemRef]) -> None:
         """Set the selection; no gesture is reported for it."""
@@ -222,7 +210,8 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         The scene is a separate script element: NiceGUI escapes its own elements character by character, which is slow.
         """
         self._remove_embedded_scene()
-        scene, client = self._full_scene(), self.client
+        scene, client = self._scene, self.client
+        assert scene is not None
         if client._response_built:
             # Added to an open page: the scene arrives with the element.
             self._props["scene"], self._embedded_rev = json.dumps(scene), scene["rev"]
@@ -242,10 +231,6 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
             with self._props.suspend_updates():
                 self._props["scene"] = ""
         self._embedded_script, self._embedded_rev = "", None
-
-    def _full_scene(self) -> dict[str, Any]:
-        assert self._scene is not None
-        return {**self._scene, **{kind: list(self._scene[kind].values()) for kind in _KINDS}}
 
     def _send_selection(self) -> None:
         self._call("select", [item_json(item) for item in self._selected], self._acked_seq)
@@ -291,7 +276,7 @@ class Canvas(ui.element, component=CANVAS_JS / "vicode_canvas.js"):
         is_new = self._embedded_rev is not None and event.args.get("rev") == self._embedded_rev
         self._remove_embedded_scene()
         if self._scene is not None and not is_new:
-            self._call("load", self._full_scene())
+            self._call("load", self._scene)
         if not (is_new and self._links_shown):
             self._call("showLinks", self._links_shown)
         self._acked_seq = 0

@@ -2,17 +2,12 @@
 
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, TypedDict, get_args
+from typing import ClassVar, TypedDict, get_args
 
 from vicode.decoding import MalformedEventError, decode, decode_event
 from vicode.editor.session.gestures.canvas_gestures import EDIT_GESTURES
 from vicode.editor.session.gestures.edits import RequestedEdit
 from vicode.editor.view import ItemRef
-
-# {"rev", "component", "states", "transitions", "components", "links", "common", …}, built by `vicode.editor.view`.
-Scene = Mapping[str, Any]
-# {"rev", "upsert": {kind: [items]}, "remove": {kind: [ids]}, "common" only if it changed}
-SceneChanges = Mapping[str, Any]
 
 
 class RemoteUser(TypedDict):

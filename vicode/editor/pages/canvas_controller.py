@@ -29,7 +29,7 @@ from vicode.editor.session import EditResult, apply_edit, rebase_gesture, rebase
 from vicode.editor.session.gestures import clipboard
 from vicode.editor.session.gestures.canvas_gestures import NoteGesture
 from vicode.editor.session.gestures.edits import RequestedEdit, canvas_point
-from vicode.editor.view import ItemRef, Scene, tooltip_sections
+from vicode.editor.view import SCENE_LISTS, ItemRef, Scene, tooltip_sections
 from vicode.editor.view.page_urls import design_url
 from vicode.model.design import Point
 from vicode.model.edits import add_use
@@ -79,7 +79,7 @@ class CanvasController:
         if [state.name for state in self.design.states] != [state.name for state in self.context.design.states]:
             for old, new in find_renamed_states(self.design, self.context.design).items():
                 self.canvas.state_renamed(old, new)
-        self.canvas.apply(self.context.document.shared.scene_diff(self.scene, scene))
+        self.canvas.apply(scene, self.context.document.shared.scene_diff(self.scene, scene))
         self.scene = scene
         self.inside_views.refresh()
         rebased = [rebase_selection(item, self.design, self.context.design) for item in self.context.selected]
@@ -91,7 +91,7 @@ class CanvasController:
 
     def center_on(self, item: ItemRef) -> None:
         """Scroll an item to the middle of the canvas, if it is drawn."""
-        if any(node["id"] == item.id for node in self.scene.get(item.kind, ()) or () if isinstance(node, dict)):
+        if self._draws(item):
             self.canvas.center(item.kind, item.id)
 
     def scroll_to_initial(self, item: ItemRef) -> None:
@@ -104,9 +104,10 @@ class CanvasController:
         """Whether an item is on the canvas."""
         if item.kind in ("design", "common"):
             return True
-        return any(node["id"] == item.id for node in self.scene.get(item.kind, ())) or (
-            item.kind == "transitions" and self.context.document.has_decision(item.id)
-        )
+        return self._draws(item) or (item.kind == "transitions" and self.context.document.has_decision(item.id))
+
+    def _draws(self, item: ItemRef) -> bool:
+        return any(each["id"] == item.id for name in SCENE_LISTS if name == item.kind for each in self.scene[name])
 
     def _on_gesture(self, report: GestureReport) -> None:
         gesture, rev = report.gesture, report.rev

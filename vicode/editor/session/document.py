@@ -6,7 +6,6 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 from vicode.diagram.kept_positions import keep_positions
 from vicode.editor.session import texts
@@ -16,7 +15,7 @@ from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
 from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
 from vicode.editor.session.subscribers import Subscribers
-from vicode.editor.view import Scene, diff_scenes, make_scene
+from vicode.editor.view import Scene, SceneChanges, diff_scenes, make_scene
 from vicode.editor.view.unfinished import unfinished_states
 from vicode.findings import Finding
 from vicode.model.decision_keys import parse_transition_key
@@ -91,9 +90,7 @@ class SharedDocument:
     _drawn: tuple[tuple[object, ...], Scene] | None = field(init=False, default=None)
     _forms: FormWriter = field(init=False, default_factory=FormWriter)
     _recent_designs: dict[int, Design] = field(init=False, default_factory=dict)
-    _differences: deque[tuple[Scene, Scene, dict[str, Any]]] = field(
-        init=False, default_factory=lambda: deque(maxlen=8)
-    )
+    _differences: deque[tuple[Scene, Scene, SceneChanges]] = field(init=False, default_factory=lambda: deque(maxlen=8))
 
     def __post_init__(self) -> None:
         self.history = UndoHistory.begin(self.saved, self.clock())
@@ -134,7 +131,7 @@ class SharedDocument:
         """What the forms share."""
         return self._forms.lists(project, self.history.current.design)
 
-    def scene_diff(self, before: Scene, now: Scene) -> dict[str, Any]:
+    def scene_diff(self, before: Scene, now: Scene) -> SceneChanges:
         """The difference of two scenes, cached for all windows that show the first."""
         for old, new, changes in self._differences:
             if old is before and new is now:

@@ -2,22 +2,32 @@
 
 from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable
-from typing import Any
 
 from vicode.diagram.frames import drawn_frames, frame_padding
 from vicode.diagram.layered_layout import complete_layout, note_position
 from vicode.diagram.node_geometry import note_lines, note_size
 from vicode.diagram.transition_labels import guard_kind, short_transition_label, transition_label
+from vicode.editor.view.scene_types import (
+    Scene,
+    SceneCommon,
+    SceneComponent,
+    SceneDesignState,
+    SceneFrame,
+    SceneLink,
+    SceneMarks,
+    SceneNote,
+    ScenePlace,
+    SceneTransition,
+)
 from vicode.editor.view.selection import ItemRef, item_at_path
 from vicode.findings import Finding, Severity, worst_severity
 from vicode.model.decision_keys import transition_key
-from vicode.model.design import COMMON, Call, Design, DiagramNote, Guard, State, Transition
+from vicode.model.design import COMMON, Call, Design, DiagramNote, Guard, Point, State, Transition, Use
 from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.guard_text import write_guard
 from vicode.model.project import Project
 from vicode.model.traversal import LocatedDecision, iter_transitions
 
-Scene = dict[str, Any]
 _Findings = dict[ItemRef, list[Finding]]
 
 
@@ -30,9 +40,7 @@ def make_scene(
     changed_outside: Collection[str] = (),
     unfinished: Collection[str] = (),
 ) -> Scene:
-    """The scene as {"rev", "component", "doc", "common"}, and lists of states, transitions, components, links, frames
-    and notes.
-    """
+    """The scene of a design; `changed_outside` and `unfinished` are states that are marked so."""
     by_item: _Findings = defaultdict(list)
     for finding in findings:
         if finding.subject is not None and finding.subject.component == design.component:
@@ -53,17 +61,7 @@ def make_scene(
             for state in design.states
         ],
         "transitions": list(_transitions(design, transitions, by_item)),
-        "components": [
-            {
-                "id": use.alias,
-                "name": use.component,
-                "design": project.design(use.component) is not None,
-                "parameters": _parameters(project, use.component),
-                **_marks(by_item, ItemRef(kind="components", id=use.alias)),
-                **_at(layout.uses[use.alias]),
-            }
-            for use in design.uses
-        ],
+        "components": [_component(project, use, by_item, layout.uses[use.alias]) for use in design.uses],
         "links": list(_links(design)),
         "frames": list(_frames(design, by_item)),
         "notes": [_note(note, index) for index, note in enumerate(design.notes)],
@@ -71,26 +69,41 @@ def make_scene(
     }
 
 
-def _frames(design: Design, by_item: _Findings) -> Iterable[dict[str, Any]]:
+def _component(project: Project, use: Use, by_item: _Findings, at: Point) -> SceneComponent:
+    interface = project.interface(use.component)
+    return {
+        "id": use.alias,
+        "name": use.component,
+        "design": project.design(use.component) is not None,
+        "parameters": len(interface.parameters) if interface else None,
+        **_marks(by_item, ItemRef(kind="components", id=use.alias)),
+        **_at(at),
+    }
+
+
+def _frames(design: Design, by_item: _Findings) -> Iterable[SceneFrame]:
     """The frames; the canvas computes their rectangles, as states are dragged."""
     for frame, states, level in drawn_frames(design):
-        padding, marks = frame_padding(level), _marks(by_item, ItemRef(kind="frames", id=frame.name))
-        sizes = {"level": level, "side": padding.side, "top": padding.top}
-        yield {"id": frame.name, "name": frame.name, "color": frame.color, "states": list(states), **sizes, **marks}
+        padding = frame_padding(level)
+        yield {
+            "id": frame.name,
+            "name": frame.name,
+            "color": frame.color,
+            "states": list(states),
+            "level": level,
+            "side": padding.side,
+            "top": padding.top,
+            **_marks(by_item, ItemRef(kind="frames", id=frame.name)),
+        }
 
 
-def _note(note: DiagramNote, index: int) -> dict[str, Any]:
+def _note(note: DiagramNote, index: int) -> SceneNote:
     size, lines = note_size(note.text), note_lines(note.text)
     at = _at(note_position(note, index))
     return {"id": note.name, "name": note.text, "lines": lines, "w": size.width, "h": size.height, **at}
 
 
-def _parameters(project: Project, component: str) -> int | None:
-    interface = project.interface(component)
-    return len(interface.parameters) if interface else None
-
-
-def _at(point: tuple[float, float]) -> dict[str, float]:
+def _at(point: Point) -> ScenePlace:
     return {"x": point[0], "y": point[1]}
 
 
@@ -99,7 +112,7 @@ def finding_messages(findings: Iterable[Finding]) -> list[str]:
     return [f"{finding.severity}: {finding.message}" for finding in findings]
 
 
-def _marks(by_item: _Findings, item: ItemRef) -> dict[str, Any]:
+def _marks(by_item: _Findings, item: ItemRef) -> SceneMarks:
     findings = by_item.get(item)
     if findings is None:
         return {"severity": None, "count": 0, "messages": []}
@@ -108,7 +121,7 @@ def _marks(by_item: _Findings, item: ItemRef) -> dict[str, Any]:
     return {"severity": str(severity) if severity else None, "count": count, "messages": finding_messages(findings)}
 
 
-def _state(design: Design, state: State, by_item: _Findings) -> dict[str, Any]:
+def _state(design: Design, state: State, by_item: _Findings) -> SceneDesignState:
     called = {action.alias for action in state.all_actions if isinstance(action, Call)}
     return {
         "id": state.name,
@@ -127,7 +140,7 @@ def _state(design: Design, state: State, by_item: _Findings) -> dict[str, Any]:
     }
 
 
-def _transitions(design: Design, transitions: list[LocatedDecision], by_item: _Findings) -> Iterable[dict[str, Any]]:
+def _transitions(design: Design, transitions: list[LocatedDecision], by_item: _Findings) -> Iterable[SceneTransition]:
     counts = Counter(located.source for located in transitions)
     orders: Counter[str] = Counter()
     off, unit = disabled_states(design), design.time_unit
@@ -157,7 +170,7 @@ def _guard_text(guard: Guard, unit: str) -> str | None:
     return None if guard.code is not None and not guard.when and not guard.after else write_guard(guard, unit)
 
 
-def _links(design: Design) -> Iterable[dict[str, str]]:
+def _links(design: Design) -> Iterable[SceneLink]:
     aliases = {use.alias for use in design.uses}
     for state in design.states:
         calls = [action.alias for action in state.all_actions if isinstance(action, Call)]
@@ -167,7 +180,7 @@ def _links(design: Design) -> Iterable[dict[str, str]]:
                     yield {"id": f"{kind}/{state.name}/{alias}", "kind": kind, "state": state.name, "component": alias}
 
 
-def _common(design: Design, by_item: _Findings, at: tuple[float, float]) -> dict[str, Any] | None:
+def _common(design: Design, by_item: _Findings, at: Point) -> SceneCommon | None:
     common = design.common
     if not common.transitions and not common.actions:
         return None

@@ -1,14 +1,12 @@
 """The difference of two scenes."""
 
-from typing import Any
-
-_LISTS = ("states", "transitions", "components", "links", "frames", "notes")
+from vicode.editor.view.scene_types import SCENE_LISTS, Scene, SceneChanges
 
 
-def diff_scenes(old: dict[str, Any], new: dict[str, Any]) -> dict[str, Any]:
-    """The changes from one scene to the next: {"rev", "upsert": {list: […]}, "remove": {list: [ids]}, "common"?}."""
-    changes: dict[str, Any] = {"rev": new["rev"], "upsert": {}, "remove": {}}
-    for name in _LISTS:
+def diff_scenes(old: Scene, new: Scene) -> SceneChanges:
+    """The changes from one scene to the next."""
+    changes: SceneChanges = {"rev": new["rev"], "upsert": {}, "remove": {}}
+    for name in SCENE_LISTS:
         before = {item["id"]: item for item in old[name]}
         after = {item["id"]: item for item in new[name]}
         changes["upsert"][name] = [item for key, item in after.items() if before.get(key) != item]
