@@ -4,7 +4,8 @@
 
 First the tests run once with probes, which record the tests that reach each mutated statement (some minutes). Then each
 mutant meets the tests that reach it, those of its own package first. A survivor is equivalent, or is needless code, or
-lacks a test. `--at vicode/store/patcher.py:120 --tests tests/store` tries all mutants of a line on chosen tests.
+lacks a test. Only a failed test kills: mutants that reach the time limit, and those without a run of tests, are counted
+apart. `--at vicode/store/patcher.py:120 --tests tests/store` tries all mutants of a line or file on chosen tests.
 """
 
 import argparse
@@ -18,11 +19,11 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections import defaultdict
-from collections.abc import Iterator
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import accumulate
+from enum import StrEnum
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -57,8 +58,30 @@ settings.register_profile(
 )  # fmt: skip
 
 Part = ast.expr | ast.stmt | ast.keyword
-Reach = tuple[dict[str, set[str]], dict[str, float]]
-"""The tests that reach each statement (FILE:LINE) and each file, and the seconds of each test."""
+
+
+class Outcome(StrEnum):
+    """What the tests say of a mutant."""
+
+    KILLED = "killed"
+    SURVIVED = "survived"
+    LIMIT = "reached the time limit"
+    NOT_RUN = "not run"
+
+
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """The tests that reach each statement (FILE:LINE) and each file.
+
+    Attributes:
+        hits: The tests by statement and by file.
+        seconds: The time of each test without its set-up.
+        setups: The longest set-up of each file of tests: the first of its tests to run prepares what they share.
+    """
+
+    hits: dict[str, set[str]]
+    seconds: dict[str, float]
+    setups: dict[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,7 +177,7 @@ def _change_values(node: ast.AST) -> Iterator[tuple[Part, str]]:
             yield node, "return None"
     for condition in node.ifs if isinstance(node, ast.comprehension) else [getattr(node, "test", None)]:
         if condition is not None:
-            yield from ((condition, value) for value in ("True", "False"))
+            yield from ((condition, value) for value in ("True", "False") if ast.unparse(condition) != value)
 
 
 def _drop_parts(node: ast.AST) -> Iterator[tuple[Part, str]]:
@@ -176,7 +199,8 @@ def draw(options: argparse.Namespace) -> list[Mutant]:
             line_starts = [0, *(match.end() for match in re.finditer(rb"\n", source))]
             found += find_mutants(file, line_starts, ast.parse(source))
     if options.at:
-        return [mutant for mutant in found if f"{mutant.file}:{mutant.line}" in options.at]
+        chosen = {each.removeprefix("./") for each in options.at}
+        return [each for each in found if chosen & {each.file, f"{each.file}:{each.line}"} and each.compiles()]
     random.Random(options.seed).shuffle(found)
     return [mutant for mutant in found[: options.count * 2] if mutant.compiles()][: options.count]
 
@@ -198,7 +222,7 @@ def record_reach(target: Path, mutants: list[Mutant]) -> Reach:
     command += ["--dist", "loadfile", "--ignore=tests/architecture"]
     environment = {**os.environ, "PYTHONPATH": str(target)}
     run = subprocess.run(command, cwd=target, env=environment, stdout=subprocess.PIPE, text=True, check=False)
-    seconds = {test: float(time) for time, test in re.findall(r"^([\d.]+)s call +(.*)$", run.stdout, re.MULTILINE)}
+    seconds, setups = read_durations(run.stdout)
     for failed in re.findall(r"^(?:FAILED|ERROR) (.*?)(?: - .*)?$", run.stdout, re.MULTILINE):
         seconds.pop(failed, None)
     hits = defaultdict[str, set[str]](set)
@@ -208,7 +232,19 @@ def record_reach(target: Path, mutants: list[Mutant]) -> Reach:
         # What a fixture prepares may serve all tests of a file.
         file = test.partition("::")[0]
         hits[site] |= {test} if phase == "(call)" else {each for each in seconds if each.startswith(f"{file}::")}
-    return hits, seconds
+    return Reach(hits, seconds, setups)
+
+
+def read_durations(output: str) -> tuple[dict[str, float], dict[str, float]]:
+    """The time of each test without its set-up, and the longest set-up of each file, as pytest reports them."""
+    seconds, setups = defaultdict[str, float](float), defaultdict[str, float](float)
+    for time, phase, test in re.findall(r"^([\d.]+)s (setup|call|teardown) +(.*)$", output, re.MULTILINE):
+        if phase == "setup":
+            file = test.partition("::")[0]
+            setups[file] = max(setups[file], float(time))
+        else:
+            seconds[test] += float(time)
+    return seconds, setups
 
 
 def insert_probes(target: Path, mutants: list[Mutant]) -> None:
@@ -236,39 +272,69 @@ def _probe(site: str) -> ast.stmt:
 
 def choose_tests(mutant: Mutant, reach: Reach, budget_s: float) -> list[list[str]]:
     """The tests that reach a mutant, of its package and then others, quick ones first, as many as the budget allows."""
-    hits, seconds = reach
     package = f"/{mutant.file.split('/')[1].removesuffix('.py')}/"
-    reaching = hits.get(f"{mutant.file}:{mutant.statement}") or hits.get(mutant.file, set())
-    known = sorted(reaching & seconds.keys(), key=lambda test: seconds[test])
-    groups = [[test for test in known if (package in test) is own] for own in (True, False)]
-    sums = [accumulate(seconds[test] for test in group) for group in groups]
-    return [
-        [test for test, until in zip(*pair, strict=True) if until <= budget_s]
-        for pair in zip(groups, sums, strict=True)
-    ]
+    reaching = reach.hits.get(f"{mutant.file}:{mutant.statement}") or reach.hits.get(mutant.file, set())
+    known = sorted(reaching & reach.seconds.keys(), key=lambda test: (_cost(test, reach, set()), test))
+    return [list(_take([test for test in known if (package in test) is own], reach, budget_s)) for own in (True, False)]
 
 
-def is_killed(target: Path, mutant: Mutant, tests: list[str], limit_s: int) -> bool:
-    """Whether a test fails, or the tests take more CPU time than the limit."""
-    (target / mutant.file).write_bytes(mutant.apply())
+def _cost(test: str, reach: Reach, prepared: set[str]) -> float:
+    """The seconds of a test, with the set-up of its file unless that is prepared."""
+    file = test.partition("::")[0]
+    return reach.seconds[test] + (0 if file in prepared else reach.setups.get(file, 0))
+
+
+def _take(tests: Iterable[str], reach: Reach, budget_s: float) -> Iterator[str]:
+    prepared, left_s = set[str](), budget_s
+    for test in tests:
+        cost = _cost(test, reach, prepared)
+        if cost <= left_s:
+            left_s -= cost
+            prepared.add(test.partition("::")[0])
+            yield test
+
+
+def try_mutant(target: Path, mutant: Mutant, groups: list[list[str]], limit_s: int) -> Outcome:
+    """Run groups of tests until one kills the mutant; another end counts only if none does."""
+    outcome = Outcome.SURVIVED
+    for tests in filter(None, groups):
+        (target / mutant.file).write_bytes(mutant.apply())
+        found = run_tests(target, tests, limit_s)
+        shutil.copy2(ROOT / mutant.file, target / mutant.file)
+        if found is Outcome.KILLED:
+            return found
+        outcome = outcome if found is Outcome.SURVIVED else found
+    return outcome
+
+
+def run_tests(target: Path, tests: list[str], limit_s: int) -> Outcome:
+    """Run tests in a copy of the checkout, for `limit_s` seconds of CPU time and 5 times as long by the clock."""
     child = os.fork()
     if not child:
         _run_tests(target, tests, limit_s)
     _pid, status = os.waitpid(child, 0)
     with suppress(ProcessLookupError):
         os.killpg(child, signal.SIGKILL)
-    shutil.copy2(ROOT / mutant.file, target / mutant.file)
-    return status != 0
+    if os.WIFSIGNALED(status):
+        limits = {signal.SIGXCPU, signal.SIGALRM, signal.SIGKILL}
+        return Outcome.LIMIT if os.WTERMSIG(status) in limits else Outcome.KILLED
+    match os.waitstatus_to_exitcode(status):
+        case pytest.ExitCode.OK:
+            return Outcome.SURVIVED
+        case pytest.ExitCode.TESTS_FAILED | pytest.ExitCode.INTERRUPTED:  # The latter: an error of a module of tests.
+            return Outcome.KILLED
+    return Outcome.NOT_RUN
 
 
 def _run_tests(target: Path, tests: list[str], limit_s: int) -> NoReturn:
-    code = 1
+    code: int = pytest.ExitCode.INTERNAL_ERROR
     try:
         os.setsid()
         os.chdir(target)
         os.environ.update(PYTHONPATH=str(target), VICODE_HYPOTHESIS="mutants")
         sys.path[:] = [str(target), *(path for path in sys.path if path not in {"", str(ROOT)})]
         resource.setrlimit(resource.RLIMIT_CPU, (limit_s, limit_s + 5))
+        signal.alarm(5 * limit_s)
         output = os.open(target / "output", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
         os.dup2(output, 1)
         os.dup2(output, 2)
@@ -284,24 +350,30 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=50)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--package", action="append", help="such as store or editor/session; default: all")
-    parser.add_argument("--at", action="append", metavar="FILE:LINE", help="all mutants of a line, instead of a sample")
+    parser.add_argument(
+        "--at", action="append", metavar="FILE[:LINE]", help="all mutants of a line or file, instead of a sample"
+    )
     parser.add_argument("--tests", nargs="+", help="try these tests, without looking for those that reach")
     parser.add_argument("--budget", type=float, default=30, help="seconds of tests of its package, and of others")
+    parser.add_argument("--limit", type=int, default=110, help="seconds of CPU time of either")
     options = parser.parse_args()
-    mutants, survived, reach = draw(options), 0, None
+    mutants, reach, counts = draw(options), None, Counter[Outcome]()
     if not options.tests:
         with tempfile.TemporaryDirectory() as folder:
             copy_checkout(Path(folder))
             reach = record_reach(Path(folder), mutants)
     with tempfile.TemporaryDirectory() as folder:
-        copy_checkout(Path(folder))
+        target = Path(folder)
+        copy_checkout(target)
+        if options.tests and (found := run_tests(target, options.tests, options.limit)) is not Outcome.SURVIVED:
+            sys.exit(f"Without a mutant, the tests are {found}:\n{(target / 'output').read_text()}")
         for mutant in mutants:
             groups = choose_tests(mutant, reach, options.budget) if reach else [options.tests]
-            limit_s = int(20 + 3 * options.budget)
-            if not any(is_killed(Path(folder), mutant, tests, limit_s) for tests in groups if tests):
-                survived += 1
-                print(f"Survived {sum(map(len, groups))} tests:", mutant.describe(), flush=True)
-    print(f"{len(mutants) - survived} of {len(mutants)} mutants were killed.")
+            found = try_mutant(target, mutant, groups, options.limit)
+            counts[found] += 1
+            if found is not Outcome.KILLED:
+                print(f"{found.capitalize()} ({sum(map(len, groups))} tests): {mutant.describe()}", flush=True)
+    print(f"{len(mutants)} mutants: {', '.join(f'{counts[each]} {each}' for each in Outcome)}.")
 
 
 if __name__ == "__main__":

@@ -163,7 +163,7 @@ class TraceNormalizer:
 def reduce_for(language: str, iterations: Iterable[TraceIteration]) -> list[TraceIteration]:
     """Remove what a language does not tell (EXPECTED_DIFFERENCES), so that its trace can be compared."""
     parts = {limit.part for limit in EXPECTED_DIFFERENCES if limit.language == language}
-    return [_reduced(iteration, parts) for iteration in iterations] if parts else list(iterations)
+    return [_reduced(iteration, parts) for iteration in iterations]
 
 
 def _reduced(iteration: TraceIteration, parts: set[str]) -> TraceIteration:

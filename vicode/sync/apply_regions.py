@@ -13,8 +13,8 @@ from vicode.sync.choices import NO_CHOICES, Choices, SettledConflict
 from vicode.sync.file_edits import FileEdits
 from vicode.sync.region_merge import RegionEdit
 
-_EMPTY = {"python": "pass", "cpp": ";", "xabsl": ""}
-"""Code without an effect: the design has no empty code."""
+_EMPTY = {"python": "pass", "cpp": ";"}
+"""Code without an effect, in the languages with regions: the design has no empty code."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

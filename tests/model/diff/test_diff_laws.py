@@ -1,7 +1,9 @@
 """The words say every difference, each once: empty only for equal values, and never the same on both sides."""
 
+import copy
 import random
 from collections import Counter
+from dataclasses import fields, is_dataclass
 from typing import Any
 
 import yaml
@@ -10,8 +12,12 @@ from hypothesis import strategies as st
 
 from tests.strategies.commented_texts import commented_texts
 from tests.strategies.designs import designs, projects
+from tests.strategies.field_changes import full_value, iter_changes
 from tests.strategies.value_edits import ValueEdit, draw_edit
+from vicode.model import design as design_model
+from vicode.model.design import Design
 from vicode.model.diff import Change, ChangeKind, changed_lines, describe_change, diff_designs, diff_projects
+from vicode.model.project import Project
 from vicode.services.design_diff.file_differences import FileDifference, compare_pair
 from vicode.services.design_diff.file_pairs import FileVersion, VersionPair
 
@@ -66,6 +72,44 @@ def test_each_edit_of_a_project_is_said_once(case: tuple[Any, ValueEdit | None])
     assert_sound(changes)
     if edit is not None:
         assert_said_once(edit, changes)
+
+
+def dataclasses_in(value: Any) -> set[type]:
+    inner = [getattr(value, field.name) for field in fields(value)] if is_dataclass(value) else value
+    below = (dataclasses_in(each) for each in inner) if is_dataclass(value) or isinstance(value, tuple) else ()
+    return set().union(*below, {type(value)} if is_dataclass(value) else ())
+
+
+def test_a_change_of_any_field_of_a_design_is_a_difference() -> None:
+    design = full_value(Design)
+    declared = {each for each in vars(design_model).values() if isinstance(each, type) and is_dataclass(each)}
+    assert dataclasses_in(design) == declared
+    assert diff_designs(design, full_value(Design)) == ()
+    changes = list(iter_changes(design))
+    assert {step for place, _changed in changes for step in place if isinstance(step, str)} == {
+        field.name for kind in declared for field in fields(kind)
+    }
+    for place, other in changes:
+        assert diff_designs(design, other) != (), place
+        assert diff_designs(other, design) != (), place
+
+
+def test_a_change_of_any_field_of_a_project_is_a_difference() -> None:
+    project = full_value(Project)
+    assert diff_projects(project, full_value(Project)) == ()
+    # Designs are compared each by itself, files that cannot be read as texts.
+    for place, other in iter_changes(project, frozenset({"designs", "unreadable"})):
+        # A profile sets it in the components of a run, no project does.
+        if (place[0], place[2:3]) != ("components", ("remote",)):
+            assert diff_projects(project, other) != (), place
+            assert diff_projects(other, project) != (), place
+
+
+@given(designs, st.randoms(use_true_random=False))
+def test_a_change_of_one_field_is_a_difference(design: Design, chance: random.Random) -> None:
+    assert diff_designs(design, copy.deepcopy(design)) == ()
+    place, other = chance.choice(list(iter_changes(design)))
+    assert diff_designs(design, other) != (), place
 
 
 @given(designs, designs)

@@ -107,6 +107,5 @@ def _interleave(first: list[_Node], second: list[_Node], *, after_added: bool) -
             while after_added and at < len(order) and order[at][0] == "ours":
                 at += 1
             order.insert(at, node)
-            known.add(node)
         before = node
     return order

@@ -69,7 +69,7 @@ def _is_same_state(old: State, new: State) -> bool:
         return True
     if replace(new, name=old.name, id=old.id, transitions=retarget(new.transitions, new.name, old.name)) == old:
         return True
-    compared = {field.name for field in fields(State)} - {"name", "id", "color", "final", "transitions"}
+    compared = {field.name for field in fields(State)} - {"color", "final", "transitions"}
     shared: int = sum(bool(getattr(old, name)) and getattr(old, name) == getattr(new, name) for name in compared)
     arrows = retarget(new.transitions, new.name, old.name)
     shared += bool(arrows) and arrows == old.transitions

@@ -113,7 +113,8 @@ class ChainRearrangement:
             else:
                 position = file.end_with_comment(old.tests[previous].then.last_token)
                 has_comment = position != file.end(old.tests[previous].then.last_token)
-                is_line = bool(above) or has_comment or not self._is_same_line()
+                follows_block = isinstance(old.tests[previous].then, tree.BlockNode)
+                is_line = bool(above) or has_comment or not (follows_block and self._is_same_line())
                 file.insert(position, f"\n{self._indent()}{above}else {body}" if is_line else f" else {body}")
 
     def _insert_first(self, text: str) -> None:

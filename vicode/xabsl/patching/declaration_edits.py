@@ -101,7 +101,9 @@ def edit_declaration(
             _edit_enumeration(file, old, before, after)
         case tree.BehaviorNode(), tree.BehaviorNode(), tree.BehaviorNode():
             opening = old.name.last_token + 1
-            edit_parameters(file, old.parameters, (before.parameters, after.parameters), _style(file, old, opening))
+            edit_parameters(
+                file, old.parameters, (before.parameters, after.parameters), _style(file, old, opening, old.parameters)
+            )
         case _:
             file.replace(_head_start(file, old), file.end(old.last_token), _without_doc(after))
 
@@ -113,7 +115,9 @@ def _edit_symbol(file: SourceEdits, old: tree.SymbolNode, before: tree.SymbolNod
             return
     else:
         opening = file.tokens.kinds.index("(", old.name.last_token)
-        edit_parameters(file, old.parameters, (before.parameters, after.parameters), _style(file, old, opening))
+        edit_parameters(
+            file, old.parameters, (before.parameters, after.parameters), _style(file, old, opening, old.parameters)
+        )
     was = (before.direction, before.type, before.range, before.unit)
     if was != (after.direction, after.type, after.range, after.unit):
         end = file.tokens.kinds.index("(" if old.parameters is not None else ";", old.name.last_token) - 1

@@ -96,6 +96,7 @@ class _OptionEdits:
         rest = file.text[position : file.start(first)]
         if "\n" not in rest:
             # The item follows in the same line.
+            file.delete(position, position + len(rest) - len(rest.lstrip(" \t")))
             file.insert(position, f"{above}{block}\n\n{self.indent}")
         else:
             is_blank = not rest.split("\n", 2)[1].strip() and rest.count("\n") > 1
