@@ -166,3 +166,19 @@ def test_edges_that_leave_the_view_name_their_ends_and_lead_there(show: Show) ->
     assert canvas.selection() == {"states/Far"}
     assert canvas.at("states", "Far")[0] == pytest.approx(1366 / 2, abs=2)
     expect(labels).to_have_text(["← Here"])
+
+
+@pytest.mark.parametrize("y", [1500, 1900, 2300])
+def test_labels_of_edges_that_leave_the_view_keep_clear_of_the_tools(show: Show, y: float) -> None:
+    states = [{"id": name, "name": name, "x": x, "y": at} for name, x, at in (("Here", 0, 0), ("Low", 4000, y))]
+    edge = {"id": "Here/0", "source": "Here", "target": "Low", "label": "", "order": 1, "of": 1, "kind": "always"}
+    canvas = show(
+        {"rev": 1, "component": "Robot", "states": states, "transitions": [edge], "components": [], "links": []}
+    )
+    canvas.call("center", "states", "Here")
+    canvas.wait_until_idle()
+    canvas.click(canvas.at("states", "Here"))
+    label, tools = (canvas.page.locator(each).bounding_box() for each in (".off-screen button", ".corner"))
+    assert label is not None
+    assert tools is not None
+    assert label["x"] + label["width"] <= tools["x"] or label["y"] + label["height"] <= tools["y"]

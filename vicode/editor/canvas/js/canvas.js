@@ -316,8 +316,8 @@ class Canvas {
     // Always mounted: some screen readers do not announce a status element that is added together with its text.
     this.message = html("div", { class: "message", role: "status" });
     this.empty = html("div", { class: "empty", hidden: true, text: EMPTY });
-    const corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
-    const above = [this.empty, this.message, this.rename.input, this.guard.input, corner, this.offScreenEnds.element, this.neighborhood.element, this.tooltip.element, this.menu.element];
+    this.corner = html("div", { class: "corner" }, [this.minimap.element, this.toolbar.element]);
+    const above = [this.empty, this.message, this.rename.input, this.guard.input, this.corner, this.offScreenEnds.element, this.neighborhood.element, this.tooltip.element, this.menu.element];
     this.stage.append(this.dots, ...this.levelOfDetail.elements, ...this.presence.elements, this.insets.element, ...above);
     this.keyboard = new Keyboard(this);
     this.nudge = new Nudge(this);

@@ -42,6 +42,12 @@ export class OffScreenEnds {
     return [...ends].map(([other, isTarget]) => ({ other, isTarget }));
   }
 
+  /** Where the tools and the minimap are. */
+  #corner() {
+    const { offsetLeft: x, offsetTop: y, offsetWidth: w, offsetHeight: h } = this.canvas.corner;
+    return { x, y, w, h };
+  }
+
   #label(node, { other, isTarget }, taken) {
     const { viewport, selection } = this.canvas;
     const text = `${isTarget ? "→" : "←"} ${truncateMiddle(other.label, "label", ROOM)}`;
@@ -49,9 +55,12 @@ export class OffScreenEnds {
     const area = { left: MARGIN + w / 2, right: viewport.width - MARGIN - w / 2, top: TOP, bottom: viewport.height - MARGIN - HEIGHT / 2 };
     const at = crossing(viewport.toScreen(node), viewport.toScreen(other), area);
     const rect = { x: at.x - w / 2, y: at.y - HEIGHT / 2, w, h: HEIGHT };
-    // Beside the border, labels move down where they would collide.
-    while (taken.some((each) => overlaps(each, rect))) rect.y += HEIGHT + 2;
-    if (rect.y > viewport.height - HEIGHT) return null;
+    // Labels move down where they would collide, and up from the tools and the minimap.
+    const corner = this.#corner();
+    let step = HEIGHT + 2;
+    if (overlaps(corner, rect)) [rect.y, step] = [corner.y - HEIGHT - 2, -step];
+    while (taken.some((each) => overlaps(each, rect))) rect.y += step;
+    if (rect.y < TOP - HEIGHT / 2 || rect.y > viewport.height - HEIGHT || overlaps(corner, rect)) return null;
     taken.push(rect);
     const button = html("button", { type: "button", tabindex: "-1", text, title: goTo(other.data.name ?? other.label), style: `left: ${rect.x}px; top: ${rect.y}px` });
     button.addEventListener("click", () => {
