@@ -138,9 +138,13 @@ RUNTIME_FAULTS = (
         PYTHON,
     ),
     Fault(
-        "vicode/bica/root.py", "time is not continued", "        self._skip_time(clock_ns - self.now_ns)\n", "", PYTHON
+        "vicode/bica/base_root.py",
+        "time is not continued",
+        "        self._skip_time(clock_ns - self.now_ns)\n",
+        "",
+        PYTHON,
     ),
-    Fault("vicode/bica/root.py", "time runs backwards", "if now_ns < self.now_ns:", "if now_ns < 0:", PYTHON),
+    Fault("vicode/bica/base_root.py", "time runs backwards", "if now_ns < self.now_ns:", "if now_ns < 0:", PYTHON),
     Fault(
         "vicode/bica/xabsl.py",
         "done at once after a restart",

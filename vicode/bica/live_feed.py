@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 _MAX_CHANGES = 256
 _MAX_REQUESTS = 64
+"""So many requests of viewers wait at most; others are refused."""
 _MAX_HANDLED = 4
-"""Requests that are handled between two iterations."""
-"""So many requests wait for the next iteration at most, which handles them all."""
+"""So many requests are handled between two iterations at most; the rest wait for the next ones."""
 _PAUSED_POLL_S = 0.05
 _SHARED_MODULES = ("declarations.py", "interfaces.py")
 

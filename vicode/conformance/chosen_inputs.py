@@ -3,9 +3,9 @@
 A point of the search is an iteration of a run with the state of the robots after it. From a point, some iterations with
 drawn inputs are tried; if they reach a goal that nothing reached before, their end becomes another point. So a later
 attempt continues where an earlier one came in. The inputs are drawn at the numbers that the design mentions, at values
-that make both sides of a comparison equal, at the ends of timers and periods, and from unusual ones. The paths to
-the last points are the runs; iterations that are left continue them with drawn inputs, and with unusual ones for an
-iteration: each input gets each unusual value in turn.
+that make both sides of a comparison equal, at the ends of timers and periods, and from unusual ones. The runs are the
+paths to points that together reach all goals, or most of them. Iterations that are left continue them with drawn
+inputs, and with unusual ones for an iteration: each input gets each unusual value in turn.
 
 The search depends on the design, the number of iterations and the seed only.
 """

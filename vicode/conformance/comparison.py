@@ -1,4 +1,9 @@
-"""Compares all languages that can express a design."""
+"""Compares all languages that can express a design.
+
+A language may be unable to express a design, or to run some inputs, and it may fail. These are three answers, each with
+a reason, and none of them hides a difference in another language. Each trace is compared with that of the reference
+interpreter, after the parts that a language cannot show were removed from both.
+"""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace

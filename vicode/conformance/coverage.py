@@ -288,7 +288,14 @@ class CoverageRecorder:
     def _end_iteration(
         self, robot: Interpreter, record: Mapping[str, Any], worked_ns: Mapping[str, int], active: set[str]
     ) -> None:
-        """Collect what the steps of an iteration show, given when each component worked before and which did."""
+        """Collect what the steps of an iteration show.
+
+        Args:
+            robot: The robot.
+            record: The iteration.
+            worked_ns: When each component had worked last, before the iteration.
+            active: The components that had been stepped before.
+        """
         for step in record["tree"]:
             name = step["component"]
             machine, memory = self.goals.machines[name], robot.memory.components[name]

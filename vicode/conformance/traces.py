@@ -1,4 +1,9 @@
-"""Traces of all languages in one form, and their first difference."""
+"""Traces of all languages in one form, and their first difference.
+
+Values are written as texts by their declared types, so that 1 and 1.0 of an int are equal, and nan equals nan. Where a
+language differs by its nature, an entry of `EXPECTED_DIFFERENCES` removes that part from both traces; anything else
+that differs is an error of somebody. Only the first difference is reported, as the later ones follow from it.
+"""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -1,4 +1,9 @@
-"""Runs jobs of the Python adapters: one JSON line per job on standard input, one per result on standard output."""
+"""Runs jobs of the Python adapters: one JSON line per job on standard input, one per result on standard output.
+
+Generated code runs in a process of its own, as it may print, change the process or end it. One process runs all jobs,
+as starting Python takes longer than most of them. The modules of each run are imported anew: they may hold values, and
+projects may have modules of the same name.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,9 @@
-"""Curves of the edges between one pair of nodes: parallel lanes, detours around boxes, self-loops on free sides."""
+"""Curves of the edges between one pair of nodes: parallel lanes, detours around boxes, self-loops on free sides.
+
+The edges of a pair are one bundle: lanes beside each other, with room for their labels. The bundle is tried straight,
+and then with growing bends to both sides, until it crosses no box; otherwise the bend with the fewest crossings is
+taken. Each curve is one cubic Bézier.
+"""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence

@@ -1,4 +1,10 @@
-"""Routes of all edges and positions of their labels, by the algorithm of the canvas."""
+"""Routes of all edges and positions of their labels, by the algorithm of the canvas.
+
+Curves come first, pair of nodes by pair; then labels, short edges first, since these have the fewest places. A label
+takes the cheapest of some dozens of positions: far from the middle of its edge costs a little, covering a line more, a
+text or a box most; if all are bad, its text is shortened. Nothing is optimized as a whole: each label is placed once,
+and once more if another one finds no free place and covers it.
+"""
 
 import math
 from collections import defaultdict

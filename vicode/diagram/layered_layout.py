@@ -1,4 +1,10 @@
-"""Positions for elements without one: a simple layered layout, so that every design can be drawn immediately."""
+"""Positions for elements without one: a simple layered layout, so that every design can be drawn immediately.
+
+A state is in the column of its distance from the initial state. Columns higher than a screen are split, and a long row
+of them is folded into bands of alternating direction. Elements with a position stay, and others take the first free
+place in their column, so one new state moves nothing. It is no replacement for Graphviz, but needs no process and
+cannot fail.
+"""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence

@@ -1,4 +1,8 @@
-"""Fits a computed layout to the canvas: on the grid, and clear of elements that stay."""
+"""Fits a computed layout to the canvas: on the grid, and clear of elements that stay.
+
+A layout of some states does not know the others. The part is moved as a whole to the place where it was, and from there
+in growing steps in four directions until it covers nothing: its own arrangement, which was computed, is kept.
+"""
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace

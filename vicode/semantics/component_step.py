@@ -1,4 +1,9 @@
-"""One step of a component: the section "A step of a component"."""
+"""One step of a component: the section "A step of a component".
+
+It is written as the page is: a method for each rule, in the order of the rules, so that both can be read side by side.
+Decisions are reported with their outcome while they are tested; `vicode.conformance` derives from this what inputs
+reach.
+"""
 
 import math
 from collections.abc import Iterable

@@ -1,4 +1,8 @@
-"""Values and arithmetic: the table in the section "Arithmetic"."""
+"""Values and arithmetic: the table in the section "Arithmetic".
+
+The runtimes have the same functions in `vicode.bica.arithmetic` and `bica.hpp`. This is a second implementation on
+purpose, from the table alone: a comparison with a shared function would find no error in it.
+"""
 
 import math
 from collections.abc import Callable, Mapping

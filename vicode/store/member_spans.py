@@ -1,4 +1,8 @@
-"""Finds the lines of each member of a block collection, including its comments."""
+"""Finds the lines of each member of a block collection, including its comments.
+
+YAML gives comments no place in the tree, but people do: a comment directly above a member, or deeper below it, moves
+and goes with it. Other comments, such as one with a blank line below it, belong to no member and stay.
+"""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,11 @@
-"""Merges the texts of three versions of a design or project file; comments and layout survive."""
+"""Merges the texts of three versions of a design or project file; comments and layout survive.
+
+The values decide, the lines only carry comments. The designs are merged first. If a merge by lines reads as that
+design, it is the result, with the comments of both sides; otherwise the design is saved over the lines, or over our
+text. Conflicts are marked where our text differs from the one with their side of a conflict. Choosing their side
+everywhere must give the design with all their sides; if it does not, the conflicts depend on each other and are marked
+as one.
+"""
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass

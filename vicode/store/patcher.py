@@ -1,4 +1,10 @@
-"""Changes a YAML text to a target value by replacing only the parts that differ."""
+"""Changes a YAML text to a target value by replacing only the parts that differ.
+
+The target names for each part the old node that it continues. Members that keep their order are patched in place, the
+others are moved or inserted with whole lines. Edits are ranges of the old text that do not overlap; moved members are
+patched by a patcher of their own. Layouts that the patcher cannot keep raise CannotPatchError, and `save` replaces a
+larger part. It also reads the result, so an error here costs layout, not content.
+"""
 
 import re
 from dataclasses import dataclass, field

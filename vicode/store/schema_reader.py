@@ -1,4 +1,9 @@
-"""Reads YAML nodes against the schema of the format, reports each error at its location, and keeps what is valid."""
+"""Reads YAML nodes against the schema of the format, reports each error at its location, and keeps what is valid.
+
+Values come out in full notation, whatever the file uses; the node of each value and its notation are kept for locations
+and patches. A value that cannot be read is None, and its parent leaves it out: one error hides no other, and the valid
+rest of a file can be shown and edited.
+"""
 
 from vicode.findings import DesignPath, did_you_mean
 from vicode.store.format import VERSION

@@ -1,4 +1,10 @@
-"""Builds the target tree of a patch from a new value and the nodes of the old text."""
+"""Builds the target tree of a patch from a new value and the nodes of the old text.
+
+The schema, the new value and the old nodes are walked together. Equal parts are kept, whatever their notation; a part
+that differs gets a target in the notation of the old one if the value fits, such as the short form of a declaration.
+Members continue old ones by name or similarity, also if they moved into another list or out of it. Content that the
+reader did not understand stays a member in its place. What to write is decided here; `patcher` only decides where.
+"""
 
 import itertools
 from collections.abc import Iterable, Iterator

@@ -1,6 +1,8 @@
 """Splits a generated Python module into items: statements without their bodies, comments, docstrings and regions.
 
-Two modules with equal items differ in layout only. Bodies of regions belong to no item.
+Two modules with equal items differ in layout only. Bodies of regions belong to no item. A syntax tree has no comments,
+and lines of text change with every formatter. An item has the statement as `ast.unparse` writes it, its depth and
+scope, and the comments in or behind it, so a list of items can be compared by any diff.
 """
 
 import ast

@@ -103,7 +103,7 @@ class _Describer:
         return self._finding("G501", message, _UNKNOWN, 1)
 
     def _find_declaration(self) -> tuple[int, str]:
-        """Return the first line that differs and the constant that it assigns; an empty name for any other line."""
+        """Return the first line that is not generated, and the constant that it assigns, "" if it assigns none."""
         lines, generated = (text.splitlines() for text in (self.file.old, self.file.new or ""))
         edited = (number for number, line in enumerate(lines, start=1) if line not in generated)
         number = next(edited, 1)

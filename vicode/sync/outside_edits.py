@@ -1,4 +1,9 @@
-"""Separates the edits of a generated file outside regions from what changed in the design since."""
+"""Separates the edits of a generated file outside regions from what changed in the design since.
+
+An edited file is compared with what the design generates now. If the design has changed since the file was written, its
+changes would look like edits that undo them. So the file is merged by lines with the text generated then and the text
+generated now. Regions are replaced by those of the new text before, as `region_merge` handles them.
+"""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass

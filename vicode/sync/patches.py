@@ -34,7 +34,7 @@ def format_patch(patch: str, path: str, design: str) -> str:
 
 
 def name_patches(folder: Path, patches: Mapping[str, str]) -> dict[str, str]:
-    """The patches of generated files, by the paths of new files next to these; equal ones are kept once."""
+    """The patches by the paths of free files next to the generated ones; a file with the same patch is used again."""
     return {_free_name(folder, path, text): text for path, text in patches.items()}
 
 

@@ -1,4 +1,9 @@
-"""Merges edited regions of a generated file with the code that the design has now."""
+"""Merges edited regions of a generated file with the code that the design has now.
+
+A region may have changed in the file, in the design, or in both, and two texts cannot tell which. The third one is the
+text that was generated when the file was written: the checksum in the mark of the region finds it, in the code of the
+design now or in earlier generated texts. With it, the merge is one by lines; without it, a difference is a conflict.
+"""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass

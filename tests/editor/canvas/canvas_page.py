@@ -64,6 +64,10 @@ def main(port: int, scene_file: Path, theme: str) -> None:
         canvases.append(canvas)
         canvas.load(json.loads(scene_file.read_text(encoding="utf-8")))
 
+    run(port)
+
+
+def run(port: int) -> None:
     # No compression and no generated styles, as in the editor.
     ui.run(
         host="127.0.0.1",

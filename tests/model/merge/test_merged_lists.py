@@ -311,7 +311,7 @@ def test_items_with_names_match_by_name_only(old: Any, new: Any) -> None:
     assert match_items((old,), (other, new), is_keyed=True) == {0: 1}
 
 
-def test_a_renamed_declaration_matches_between_its_neighbours() -> None:
+def test_a_renamed_declaration_matches_between_its_neighbors() -> None:
     a, b, c = (Declaration(name=name, type="int") for name in "abc")
     renamed, other = replace(b, name="z"), Declaration(name="z", type="bool")
     assert match_items((a, b, c), (a, renamed, c), is_keyed=True) == {0: 0, 1: 1, 2: 2}
@@ -337,7 +337,7 @@ def test_a_renamed_declaration_matches_between_its_neighbours() -> None:
         (Assign(values=(("n", "1"),)), RunCode(code=Code()), False),
     ],
 )
-def test_neighbours_match_if_they_are_similar(old: Any, new: Any, is_match: bool) -> None:
+def test_neighbors_match_if_they_are_similar(old: Any, new: Any, is_match: bool) -> None:
     assert match_items((old,), (new,), is_keyed=False) == ({0: 0} if is_match else {})
     first = RunCode(code=Code(texts=(("python", "first"),)))
     assert match_items((first, old), (first, new), is_keyed=False) == ({0: 0, 1: 1} if is_match else {0: 0})

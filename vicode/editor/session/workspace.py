@@ -9,7 +9,6 @@ from pathlib import Path
 from vicode.check import check_design, check_project
 from vicode.editor.session import texts
 from vicode.editor.session.code import code_sync
-from vicode.editor.session.code.code_sync import GeneratedPaths, file_signature
 from vicode.editor.session.document import DiskVersion, DocumentSession, FileTransaction, SharedDocument
 from vicode.editor.session.presence import DISK_USER, UserDirectory
 from vicode.editor.session.robots import RobotLink
@@ -67,7 +66,7 @@ class Workspace:
     files: dict[str, Path] = field(init=False)
     removed_components: dict[str, str] = field(init=False, default_factory=dict)
     trashed_designs: dict[str, TrashedDesign] = field(init=False, default_factory=dict)
-    generated_paths: GeneratedPaths = field(init=False, default_factory=GeneratedPaths)
+    generated_paths: code_sync.GeneratedPaths = field(init=False, default_factory=code_sync.GeneratedPaths)
     _polled_s: float = field(init=False, default=0.0)
     _texts: dict[str, str] = field(init=False)
     _parse_findings: dict[str, tuple[Finding, ...]] = field(init=False)
@@ -100,7 +99,7 @@ class Workspace:
             OSError: The folder no longer exists.
         """
         files = (*find_design_files(self.folder), *(self.folder / name for name in PROJECT_FILES))
-        seen = frozenset(map(file_signature, files))
+        seen = frozenset(map(code_sync.file_signature, files))
         if seen != self._seen:
             self._seen = seen
             self._apply_project(open_project(self.folder), transaction)

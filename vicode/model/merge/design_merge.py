@@ -1,4 +1,10 @@
-"""Three-way merge of designs. Renames are applied first, so that both sides use the same names."""
+"""Three-way merge of designs. Renames are applied first, so that both sides use the same names.
+
+Dataclasses are merged field by field and lists item by item, so no key of the format needs code of its own. An item
+that one side removed while the other added references to it is found afterwards, as references are spread over the
+design: its removal is then contested, and the merge runs again, until no reference is broken. A conflict is a value
+with a path, and resolved with our side; merging again with the path in `theirs_at` resolves it with theirs.
+"""
 
 from collections import Counter
 from collections.abc import Callable, Collection

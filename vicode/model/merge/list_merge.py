@@ -1,4 +1,9 @@
-"""Three-way merge of lists that preserves the moves of each side."""
+"""Three-way merge of lists that preserves the moves of each side.
+
+A merge by lines sees a moved item as removed and added, and doubles it if the other side changed it. Here, each item is
+a node: one of the base, or one that a side added. Both sides are orders of nodes, which are merged into one order; then
+the versions of each node are merged. The order is only a conflict if both sides moved items of the base.
+"""
 
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,8 @@
-"""Splits the difference of two versions of a unit into changes that are explained one by one."""
+"""Splits the difference of two versions of a unit into changes that are explained one by one.
+
+A diff has many readings: a changed guard is also a removed and an added `if`. The small reading is tried first, pairs
+of statements of one kind, since it keeps most of the design; then whole additions and removals, and these part by part.
+"""
 
 import ast
 from collections.abc import Iterator, Sequence

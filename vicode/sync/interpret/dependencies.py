@@ -1,4 +1,10 @@
-"""Edits that must not be taken without others: code that uses a name which stays in the patch, and the reverse."""
+"""Edits that must not be taken without others: code that uses a name which stays in the patch, and the reverse.
+
+Units are explained one by one, so a method may be understood whose helper, attribute or import is not. Taken alone, it
+would move into the design and fail there as soon as somebody generates without the patch. The search refuses such units
+and starts again without them, until nothing depends on what is left. Names are compared as words, which errs to
+refusing.
+"""
 
 import ast
 import re

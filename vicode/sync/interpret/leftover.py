@@ -1,4 +1,9 @@
-"""Writes what was not understood: the generated text with the units of the edited file that no edit explains."""
+"""Writes what was not understood: the generated text with the units of the edited file that no edit explains.
+
+The patch of an edit is not a diff of the edited file, which would contain the understood edits as well, and the layout
+of the person. It is a diff between the newly generated text and the same text with the units that are left, so it
+applies to what `gen` writes. Units are exchanged as blocks of lines; `verification` judges the result.
+"""
 
 import re
 from collections.abc import Collection, Mapping, Sequence

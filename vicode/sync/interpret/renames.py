@@ -1,4 +1,9 @@
-"""Recognizes states that were renamed in generated code."""
+"""Recognizes states that were renamed in generated code.
+
+A renamed state changes its entry, its methods and every transition to it: far more than any single proposal explains.
+So renames are tried first. The words that a rename changes in generated code are then changed in the edited file, too,
+and the other edits are compared under the new names.
+"""
 
 import ast
 import io

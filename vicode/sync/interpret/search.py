@@ -1,4 +1,10 @@
-"""Searches for edits of one design that give the units of an edited file."""
+"""Searches for edits of one design that give the units of an edited file.
+
+The generator cannot be inverted, but it can be tried: proposals are designs, the code of each is generated, and it is
+kept if it lies between the code so far and the edited file: for every unit that it changes, the distances add up. So a
+step never adds or removes a statement that the person did not, steps need not be undone, and a greedy search is enough.
+The steps for one unit are kept only if the unit, and every other one that they changed, is what the person wrote.
+"""
 
 import re
 from collections.abc import Callable, Iterator
@@ -278,10 +284,10 @@ def _is_between(before: Snapshot, after: Snapshot) -> bool:
     read as another one.
     """
     names = after.units.changed_since(before.units)
-    guards = _guarded(before.design) != _guarded(after.design)
+    has_other_guards = _are_unguarded(before.design) != _are_unguarded(after.design)
     return bool(names) and all(
         _is_nearer(before.units, after.units, name, with_enclosing=with_enclosing)
-        for with_enclosing in ((False, True) if guards else (False,))
+        for with_enclosing in ((False, True) if has_other_guards else (False,))
         for name in names
     )
 
@@ -295,8 +301,8 @@ def _is_nearer(before: UnitComparison, after: UnitComparison, name: str, *, with
     return step + rest == total
 
 
-def _guarded(design: Design) -> list[bool]:
-    """Whether the decisions have a guard; differs if a decision or its guard was added or removed."""
+def _are_unguarded(design: Design) -> list[bool]:
+    """Return for each decision whether it has no guard; the lists of two designs differ if guards come or go."""
     return [located.decision.guard.is_empty for located in iter_decisions(design)]
 
 

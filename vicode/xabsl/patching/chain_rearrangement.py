@@ -1,4 +1,10 @@
-"""Adds, moves and removes the tests of a decision tree."""
+"""Adds, moves and removes the tests of a decision tree.
+
+A chain `if … else if … else` is a list of tests, but its items overlap: the `else` before a test belongs to its place,
+not to the test, and the first one has none. So tests are cut out from their `if` to the end of their branch, and `else`
+is written anew. Braces around the rest of a chain, and descriptions before an `else`, tie a test to its place:
+`is_possible` refuses these, and the caller replaces the whole tree.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -31,6 +37,7 @@ class ChainRearrangement:
 
     @property
     def removed(self) -> list[int]:
+        """The original tests that are cut out, as they are removed or move."""
         return [index for index in range(len(self.old.tests)) if index not in self.kept]
 
     def is_possible(self) -> bool:
@@ -50,7 +57,7 @@ class ChainRearrangement:
         return not (adds_first and doc_tokens(self.file, branches[0], own=False))
 
     def _is_first(self, index: int) -> bool:
-        """Whether all tests before this one are removed, too."""
+        """Whether all tests before this one are cut out, too."""
         return all(other in self.removed for other in range(index))
 
     def apply(self) -> None:

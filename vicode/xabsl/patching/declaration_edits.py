@@ -70,7 +70,10 @@ def _edit_parameter(
 def _docs_without_range(
     file: SourceEdits, old: tree.ParameterNode | tree.SymbolNode, before: str, after: str
 ) -> tuple[str, str]:
-    """The descriptions without a range that is not a pair of numbers: an import appends it to the description."""
+    """The descriptions without a range that is not a pair of numbers: an import appends it to the description.
+
+    If the new description lacks the range, it is deleted from the file.
+    """
     words = f"[{old.range}]"
     if not old.range or not before.endswith(words):
         return before, after

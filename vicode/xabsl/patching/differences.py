@@ -1,4 +1,9 @@
-"""Compares two versions of a program: everything but comments inside options, and the order of declarations."""
+"""Compares two versions of a program: everything but comments inside options, and the order of declarations.
+
+This is the final check of an update: the written files are imported and generated again, and must not differ from what
+was generated from the designs. It compares syntax trees and knows nothing of edits, so an error in `patching` shows
+here.
+"""
 
 from collections.abc import Iterator
 from dataclasses import replace

@@ -72,7 +72,11 @@ def _is_marker(text: str, start: int, end: int) -> bool:
 
 
 def _replace_words(file: SourceEdits, words: Sequence[Span], text: str) -> None:
-    """Replace words; those on following lines are removed."""
+    """Write the text in the place of the first word and delete the others.
+
+    The space before a deleted word is deleted with it, unless the word is the first in its line: then the line break
+    and the marker before it stay.
+    """
     file.replace(*words[0], text)
     for (_, end), (start, stop) in pairwise(words):
         between = file.text[end:start]

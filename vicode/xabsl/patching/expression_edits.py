@@ -1,4 +1,9 @@
-"""Edits expressions: only the parts that differ are replaced."""
+"""Edits expressions: only the parts that differ are replaced.
+
+The original, the old and the new expression are walked as long as their operators agree; parentheses are looked
+through. Operands of `&&` and `||` are lists, so that one of them can be added or removed. An old expression that became
+a part of the new one stays, and text is written around it. Anything else is replaced, with its comments behind it.
+"""
 
 from collections.abc import Sequence
 from dataclasses import fields, replace

@@ -1,4 +1,9 @@
-"""Matches the items of two versions of a list, and edits the list in the original text."""
+"""Matches the items of two versions of a list, and edits the list in the original text.
+
+The items that keep their order, a longest increasing subsequence of the matches, stay where they are. The others are
+cut out with their comments, and inserted behind the item that precedes them now. So the text of a list changes as
+little as its order, and a moved item keeps its layout and the edits in it.
+"""
 
 import re
 from collections.abc import Callable, Hashable, Sequence

@@ -1,4 +1,10 @@
-"""Writes the changes between two versions of a program into its original files."""
+"""Writes the changes between two versions of a program into its original files.
+
+Three trees are walked in parallel. `before` and `after` are generated, so that they have one form and each difference
+is an edit; `original` is the program of `before` as people wrote it, and gives the tokens to change. Where the parts of
+`original` and `before` do not correspond, the smallest part around them is replaced. Renamed items are renamed in
+`original` and `before` first, so that everything else is compared by name. The caller compiles and compares the result.
+"""
 
 import posixpath
 from collections import Counter

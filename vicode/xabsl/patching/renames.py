@@ -1,4 +1,9 @@
-"""Finds renamed items between two versions of a program, and renames them with all their uses."""
+"""Finds renamed items between two versions of a program, and renames them with all their uses.
+
+No version says that an item was renamed: there are a name that is gone and a name that is new. They are a rename if
+their content is equal, or similar for options and states; of several candidates, the one behind the same preceding item
+is taken. Read as a removal and an addition, a rename would lose the comments and the layout of the item.
+"""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace

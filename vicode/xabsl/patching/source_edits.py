@@ -1,4 +1,9 @@
-"""Edits of one source file, with its indentation, line breaks and comments."""
+"""Edits of one source file, with its indentation, line breaks and comments.
+
+Edits are ranges of the original text, so tokens keep their offsets while edits are collected, in any order. A range can
+be read with the edits in it, which moves an edited item. Comments are no tokens: this module decides which of them
+belong to a token, those directly above its line and those behind it in its line.
+"""
 
 import re
 from bisect import bisect_left
@@ -32,7 +37,10 @@ class _Edit:
 
 @dataclass(slots=True)
 class SourceEdits:
-    """Collects edits of a parsed file. Positions are offsets in the original text; edits do not overlap."""
+    """Collects edits of a parsed file. Positions are offsets in the original text.
+
+    Edits may be added in any order; reading a range with edits that overlap raises PatchError.
+    """
 
     parsed: ParsedFile
     edits: list[_Edit] = field(default_factory=list)
