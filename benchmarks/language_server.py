@@ -18,7 +18,8 @@ from typing import Any
 
 from tests.xabsl.lsp_client import LspClient
 from tests.xabsl.test_neovim import write_behavior
-from vicode.xabsl.source_loader import load_source, read_text
+from vicode.xabsl.source_loader import load_source
+from vicode.xabsl.source_text import read_source
 from vicode.xabsl.tokens import KEYWORDS
 
 ROUNDS = 9
@@ -49,7 +50,7 @@ def main() -> None:
 
 def measure_latency(client: LspClient, options: list[Path]) -> None:
     path = max(options, key=lambda each: each.stat().st_size)
-    text = read_text(path)
+    text = read_source(path).text
     start = text.index("goto ") + len("goto ")
     document = {"uri": path.as_uri()}
     opened = time.perf_counter()
@@ -81,7 +82,7 @@ def measure_accuracy(client: LspClient, options: list[Path], typed: int) -> None
     """Shorten each name in a document to some characters and look for it among the proposals."""
     found = first = total = 0
     for path in options:
-        text, document = read_text(path), {"uri": path.as_uri()}
+        text, document = read_source(path).text, {"uri": path.as_uri()}
         client.notify(
             "textDocument/didOpen", {"textDocument": {**document, "languageId": "xabsl", "version": 1, "text": text}}
         )
