@@ -47,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Rename in all files or none; return 1 if the rename is refused."""
-    from vicode.services.rename.files import apply_rename, plan_rename
+    from vicode.services.rename.files import plan_rename, write_changes
 
     found = _find(args)
     if found is None:
@@ -65,7 +65,7 @@ def run(args: argparse.Namespace) -> int:
     if args.dry_run:
         print(_format_diff(plan), end="")
     else:
-        apply_rename(plan)
+        write_changes(plan.changes, plan.removed)
         _print_written(plan)
     for note in plan.notes:
         print(f"vicode: {note}", file=sys.stderr)

@@ -50,6 +50,27 @@ def test_renaming_back_restores_the_files(workspace: Workspace, folder: Path) ->
     assert {use.component for use in player.design.uses} >= {"FaceBall"}
 
 
+def test_a_rename_that_fails_leaves_all_files_as_they_were(
+    workspace: Workspace, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = texts_of(folder)
+    plan = rename_component.plan_component_rename(workspace, "Player", "Striker")
+    removed = folder / "player.yaml"
+    unlink = Path.unlink
+
+    def refuse(path: Path, *, missing_ok: bool = False) -> None:
+        if path == removed:
+            raise OSError("read-only")
+        unlink(path, missing_ok=missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", refuse)
+    with pytest.raises(OSError, match="read-only"):
+        renames.apply_component_rename(workspace, plan)
+    assert texts_of(folder) == before
+    assert workspace.project.design("Player") is not None
+    assert workspace.project.design("Striker") is None
+
+
 def test_an_interrupted_rename_leaves_a_project_without_errors(workspace: Workspace, folder: Path) -> None:
     plan = rename_component.plan_component_rename(workspace, "FaceBall", "LookAtBall")
     for change in plan.changes:

@@ -9,11 +9,11 @@ import pytest
 from tests.editor.session.conftest import texts_of
 from vicode.check import check_project
 from vicode.editor.session import DocumentSession, Workspace
-from vicode.editor.session.project import renames
 from vicode.editor.session.project.renames import apply_symbol_rename
 from vicode.model.design import Code, RunCode
 from vicode.model.edits import remove_states
 from vicode.model.rename import SymbolRef, is_declared, sibling_names
+from vicode.services.rename import files
 from vicode.services.rename.symbol import plan_symbol_rename
 from vicode.store import open_project
 
@@ -182,14 +182,14 @@ def test_a_failed_write_restores_the_other_files(
     before = texts_of(folder)
     plan = plan_symbol_rename(workspace, SPEED, "ahead")
     assert [change.file.name for change in plan.changes] == ["body.yaml", "follow_ball.yaml"]
-    write = renames.replace_text
+    write = files.replace_text
 
     def refusing(file: Path, old: str | None, new: str) -> None:
         if file.name == "follow_ball.yaml":
             raise OSError("the disk is full")
         write(file, old, new)
 
-    monkeypatch.setattr(renames, "replace_text", refusing)
+    monkeypatch.setattr(files, "replace_text", refusing)
     with pytest.raises(OSError, match="full"):
         apply_symbol_rename(workspace, plan)
     assert texts_of(folder) == before

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from vicode.model.rename import SymbolRef
-from vicode.services.rename.files import apply_rename, plan_rename
+from vicode.services.rename.files import plan_rename, write_changes
 from vicode.services.rename.project_files import FilesOnDisk
 from vicode.store import open_project
 
@@ -22,7 +22,7 @@ def test_a_plan_writes_nothing_and_all_files_when_applied(tmp_path: Path) -> Non
     files = open_files(tmp_path)
     plan = plan_rename(files, COMPONENT, "Runner")
     assert (tmp_path / "walker.yaml").read_text(encoding="utf-8") == WALKER
-    apply_rename(plan)
+    write_changes(plan.changes, plan.removed)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["player.yaml", "runner.yaml"]
     assert (tmp_path / "runner.yaml").read_text(encoding="utf-8") == WALKER.replace("Walker", "Runner")
     assert (tmp_path / "player.yaml").read_text(encoding="utf-8") == PLAYER.replace("Walker", "Runner")

@@ -55,19 +55,19 @@ def plan_rename(project_files: ProjectFiles, symbol: SymbolRef, new: str) -> Fil
     return FileRenamePlan(changes=changes, error=found.error, notes=notes)
 
 
-def apply_rename(plan: FileRenamePlan) -> None:
-    """Write all files of a plan or none.
+def write_changes(changes: Sequence[FileChange], removed: Path | None = None) -> None:
+    """Write all files, and remove the one that a renamed component leaves, or do nothing.
 
     Raises:
         OSError: A file cannot be written, or another program has changed it.
     """
     written: list[FileChange] = []
     try:
-        for change in plan.changes:
+        for change in changes:
             replace_text(change.file, change.old, change.new)
             written.append(change)
-        if plan.removed is not None:
-            plan.removed.unlink()
+        if removed is not None:
+            removed.unlink()
     except OSError:
         _restore(written)
         raise

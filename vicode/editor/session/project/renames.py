@@ -10,24 +10,21 @@ from vicode.editor.session.presence import DISK_USER
 from vicode.editor.session.workspace import Workspace
 from vicode.model.rename import SymbolRef
 from vicode.services import messages
-from vicode.services.rename.component import ComponentRenamePlan, FileChange, plan_component_rename
+from vicode.services.rename.component import ComponentRenamePlan, plan_component_rename
+from vicode.services.rename.files import write_changes
 from vicode.services.rename.symbol import SymbolRenamePlan, describe_symbol, plan_symbol_rename
-from vicode.store import replace_text
 
 
 def apply_component_rename(workspace: Workspace, plan: ComponentRenamePlan) -> str:
     """Execute a plan; returns an error message if the files have changed since it was made.
 
     Raises:
-        OSError: A file cannot be written; files written before keep their new text, and the old design is kept.
+        OSError: A file cannot be written; all files are as before.
     """
     current = plan_component_rename(workspace, plan.old, plan.new)
     if current != plan:
         return current.error or messages.PLAN_OUTDATED
-    for change in plan.changes:
-        replace_text(change.file, change.old, change.new)
-    if plan.removed is not None:
-        plan.removed.unlink()
+    write_changes(plan.changes, plan.removed)
     workspace.drop_document(plan.old, renamed_to=plan.new)
     files = frozenset(change.file for change in plan.changes)
     workspace.sync_from_disk(
@@ -40,7 +37,7 @@ def apply_symbol_rename(workspace: Workspace, plan: SymbolRenamePlan, user_id: s
     """Execute a plan; returns an error message if the files have changed since it was made.
 
     Raises:
-        OSError: A file cannot be written; files written before are restored.
+        OSError: A file cannot be written; all files are as before.
     """
     current = plan_symbol_rename(workspace, plan.symbol, plan.new)
     if current != plan:
@@ -94,15 +91,8 @@ def _files_of(plan: SymbolRenamePlan) -> frozenset[Path]:
 
 def _write_all(workspace: Workspace, plan: SymbolRenamePlan, transaction: FileTransaction) -> None:
     """Write all files of a plan or none, synchronize the open designs, and notify their users."""
-    written: list[FileChange] = []
     try:
-        for change in plan.changes:
-            replace_text(change.file, change.old, change.new)
-            written.append(change)
-    except OSError:
-        for change in written:
-            replace_text(change.file, change.new, change.old or "")
-        raise
+        write_changes(plan.changes)
     finally:
         workspace.sync_from_disk(transaction)
     user = workspace.users.name_of(transaction.user_id) if transaction.user_id else "Someone"
