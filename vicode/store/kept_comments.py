@@ -53,18 +53,18 @@ class _ItemSearch:
         """The new path of an item; None if it was removed."""
         found: DesignPath = ()
         old, new = self._old, self._new
+        is_found = True
         for step in path:
             child = old.children[step]
-            step_found = _find_step(old, new, step)
-            if step_found is None:
-                moved = self._moved.get(child.value) if isinstance(step, int) and child.value is not None else None
-                if moved is None:
-                    return None
-                found, new = moved, self._at(moved)
-            else:
+            step_found = _find_step(old, new, step) if is_found else None
+            moved = self._moved.get(child.value) if isinstance(step, int) and child.value is not None else None
+            is_found = step_found is not None or moved is not None
+            if step_found is not None:
                 found, new = (*found, step_found), new.children[step_found]
+            elif moved is not None:
+                found, new = moved, self._at(moved)
             old = child
-        return found
+        return found if is_found else None
 
     def _at(self, path: DesignPath) -> TypedNode:
         node = self._new
