@@ -328,7 +328,7 @@ def test_simulate_asks_once_before_it_runs_the_code_of_a_folder(
         page.keyboard.press("F10")
         where(page, "0.00 s · iteration 1")
         page.goto("about:blank")
-    assert (storage / "state" / "trusted").read_text() == f"{(project / 'forward').resolve()}\n"
+    assert json.loads((storage / "state" / "trusted").read_text()) == str((project / "forward").resolve())
 
 
 def test_the_command_for_the_terminal_lists_what_was_set(editor: str, page: Page, project: Path) -> None:
