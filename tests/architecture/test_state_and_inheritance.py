@@ -4,11 +4,9 @@ import ast
 from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
-MODULES = {
-    path.relative_to(ROOT).as_posix(): ast.parse(path.read_text(encoding="utf-8"))
-    for path in sorted((ROOT / "vicode").rglob("*.py"))
-}
 
 STATE = {
     "vicode/bica/live.py: _servers": "roots of one process with the same address share a server",
@@ -35,19 +33,26 @@ BASES = {
 _MUTABLE_CALLS = {"dict", "list", "set", "deque", "Counter", "OrderedDict", "defaultdict", "bytearray"}
 
 
-def test_modules_hold_no_state() -> None:
-    found = {f"{path}: {name}" for path, tree in MODULES.items() for name in _find_state(tree)}
+@pytest.fixture(scope="module")
+def trees() -> dict[str, ast.Module]:
+    """The syntax tree of each module of the product, freed after the tests of this file."""
+    paths = sorted((ROOT / "vicode").rglob("*.py"))
+    return {path.relative_to(ROOT).as_posix(): ast.parse(path.read_text(encoding="utf-8")) for path in paths}
+
+
+def test_modules_hold_no_state(trees: dict[str, ast.Module]) -> None:
+    found = {f"{path}: {name}" for path, tree in trees.items() for name in _find_state(tree)}
     assert found == STATE.keys()
 
 
-def test_no_function_rebinds_a_global() -> None:
-    assert not [path for path, tree in MODULES.items() if any(isinstance(node, ast.Global) for node in ast.walk(tree))]
+def test_no_function_rebinds_a_global(trees: dict[str, ast.Module]) -> None:
+    assert not [path for path, tree in trees.items() if any(isinstance(node, ast.Global) for node in ast.walk(tree))]
 
 
-def test_classes_inherit_only_from_classes_made_for_it() -> None:
+def test_classes_inherit_only_from_classes_made_for_it(trees: dict[str, ast.Module]) -> None:
     classes = {
         node.name: {ast.unparse(base).split("[")[0].rsplit(".")[-1] for base in node.bases}
-        for tree in MODULES.values()
+        for tree in trees.values()
         for node in ast.walk(tree)
         if isinstance(node, ast.ClassDef)
     }
