@@ -173,14 +173,17 @@ def page(stays_open: Page, console_errors: list[str]) -> Iterator[Page]:
 
 
 def close_all_but(page: Page) -> None:
-    """Close the other pages of the same person, and forget cookies and permissions.
-
-    Each editor has a port of its own, and so an origin and a storage; only cookies are common to all ports.
-    """
+    """Close the other pages of the same person, and forget what they stored, cookies and permissions."""
     context = page.context
+    origins = set()
     for other in context.pages:
         if other is not page:
+            origins.add("/".join(other.url.split("/")[:3]))
             other.close()
+    devtools = context.new_cdp_session(page)
+    for origin in origins:
+        devtools.send("Storage.clearDataForOrigin", {"origin": origin, "storageTypes": "local_storage,indexeddb"})
+    devtools.detach()
     context.clear_cookies()
     context.clear_permissions()
 

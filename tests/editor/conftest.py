@@ -5,6 +5,7 @@ import os
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -90,7 +91,7 @@ def started_editor(
         (storage / "state" / "trusted").write_text(f"{folder.resolve()}\n")
     said = storage / "said.log"
     said.write_text("")
-    arguments = [*(command or ("edit", str(folder))), "--no-open", "--port", "0", *options]
+    arguments = [*(command or ("edit", str(folder))), "--no-open", "--port", _port(), *options]
     brood = _fork_server()
     assert brood.stdin is not None
     assert brood.stdout is not None
@@ -106,6 +107,27 @@ def started_editor(
             time.sleep(0.01)
     log = said.read_text()
     assert "Traceback" not in log, "the editor told of an exception:\n" + log
+
+
+def _port() -> str:
+    """The same port for all editors of this test process that run one after another.
+
+    The browser then finds the scripts of the editor in its cache. An editor beside another one chooses its port.
+    """
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("127.0.0.1", _first_port()))
+        except OSError:
+            return "0"
+    return str(_first_port())
+
+
+@cache
+def _first_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
 
 
 @cache

@@ -28,6 +28,8 @@ def test_unsaved_work_survives_a_killed_server(
         type_doc(page, "worth keeping")
         expect(page.get_by_text("Unsaved changes")).to_be_visible()
         _wait_for_journal(page, tmp_path / "storage" / "state", "worth keeping")
+    # A window that was not open before remembers nothing that was typed.
+    page.evaluate("sessionStorage.clear()")
     page.goto("about:blank")
     console_errors.clear()
     with started_editor(project, tmp_path / "storage") as url:

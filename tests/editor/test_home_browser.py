@@ -2,12 +2,15 @@
 
 import os
 import re
+import socket
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.conftest import close_all_but, opened_beside
+from tests.editor.conftest import started_editor
 from tests.editor.player_page import state
 
 
@@ -168,3 +171,20 @@ def test_the_list_beside_the_drawing_does_the_same(editor: str, page: Page, proj
     page.get_by_role("dialog").get_by_role("button", name="Duplicate").click()
     expect(page.get_by_role("link", name="Turn2")).to_be_visible()
     assert "component: Turn2" in (project / "forward" / "turn2.yaml").read_text()
+
+
+def test_scripts_come_from_the_cache_after_a_restart(stays_open: Page, project: Path, tmp_path: Path) -> None:
+    transferred = """() => performance.getEntriesByType("resource")
+        .filter((each) => each.name.includes("/_nicegui/") && each.transferSize).map((each) => each.name)"""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = str(probe.getsockname()[1])
+    loads = []
+    for _start in range(2):
+        with started_editor(project, tmp_path / "storage", ("--no-tour", "--port", port)) as url:
+            page = opened_beside(stays_open)
+            open_home(page, url)
+            loads.append(page.evaluate(transferred))
+        close_all_but(stays_open)
+    assert loads[0]
+    assert not loads[1]

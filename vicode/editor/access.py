@@ -109,11 +109,16 @@ class AccessMiddleware:
             return message
 
         is_started = False
+        # NiceGUI's scripts and styles do not depend on the session. Without it, the response has neither Vary nor a
+        # cookie, so that browsers take it from their cache, also after a restart.
+        is_static = scope["type"] == "http" and str(scope["path"]).startswith("/_nicegui/") and "session" in scope
 
         async def send_with_headers(message: Message) -> None:
             nonlocal is_started
             if message["type"] == "http.response.start":
                 is_started = True
+                if is_static:
+                    scope["session"] = type(scope["session"])()
                 message = {**message, "headers": [*message.get("headers", []), *_HEADERS]}
             await send(message)
 

@@ -50,11 +50,12 @@ const textField = (template) => ({
   },
 });
 
+// Quasar emits "blur" a task later, when the next field may already have the next letters: they would arrive before the name.
 export const TextField = textField(
   `<div class="field nicegui-column" :class="{ wide: node.is_wide }" :data-path="path">
     <q-input ref="input" outlined dense stack-label :label="node.label" :maxlength="node.is_committed ? 2000 : undefined" :placeholder="node.hint" :model-value="field.local"
       :type="node.is_long ? 'textarea' : 'text'" :autogrow="node.is_long" :class="[{ mono: node.is_code, 'has-finding': worst }, worst]"
-      v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @blur="store.blur(field)" @keydown.enter="finish" />
+      v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @focusout="store.blur(field)" @keydown.enter="finish" />
     <messages :marks="marks" :error="field.error" />
     <div v-if="node.help" class="empty">{{ node.help }}</div>
   </div>`,
@@ -63,7 +64,7 @@ export const TextField = textField(
 export const ItemName = textField(
   `<div class="field nicegui-column" :data-path="path">
     <q-input ref="input" outlined dense stack-label class="mono" :class="[{ 'has-finding': worst }, worst]" :label="node.label" maxlength="80" :model-value="field.local"
-      v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @blur="store.blur(field)" @keydown.enter="store.commit(field)" />
+      v-bind="corrections" @update:model-value="type" @focus="store.focus(field)" @focusout="store.blur(field)" @keydown.enter="store.commit(field)" />
     <messages :marks="marks" :error="field.error" />
   </div>`,
 );
