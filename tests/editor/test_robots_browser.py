@@ -57,6 +57,20 @@ def test_the_active_state_is_shown_at_once(robot: RobotProgram, folder: Path, tm
         assert not complaints(page)
 
 
+def test_a_slow_browser_answers_clicks_while_a_robot_runs(
+    robot: RobotProgram, folder: Path, tmp_path: Path, page: Page
+) -> None:
+    attaching = ("attach", robot.address, str(folder.parent), "--token", robot.token)
+    with started_editor(folder.parent, tmp_path / "storage", (), command=attaching) as url:
+        open_lamp(page, url)
+        expect(active(page)).to_have_attribute("data-id", "Dark")
+        page.context.new_cdp_session(page).send("Emulation.setCPUThrottlingRate", {"rate": 20})
+        # Long enough for changes to queue up.
+        page.wait_for_timeout(2000)
+        state(page, "Lit").click()
+        expect(page.locator(".why-not-condition").first).to_be_visible()
+
+
 def test_a_robot_is_paused_stepped_and_changed(robot: RobotProgram, editor_of: str, page: Page) -> None:
     open_lamp(page, editor_of)
     page.get_by_role("tab", name="Simulate").click()

@@ -1,5 +1,9 @@
 """The panel below the canvas: controls, inputs, guards of the active state, and results."""
 
+import asyncio
+import time
+from contextlib import suppress
+
 from nicegui import ui
 
 from vicode.editor.panels.simulation.activation_and_output import ActivationTree, ConsoleOutput
@@ -15,6 +19,8 @@ from vicode.editor.panels.tabs import Tabs
 _POLL_INTERVAL_S = 0.08
 _AGE_INTERVAL_S = 1.0
 _FIT_DELAY_S = 0.3
+_DRAW_TIMEOUT_S = 2.0
+_IS_DRAWN = "new Promise((resolve) => setTimeout(resolve))"
 _RESULT_TABS = ("Plot", "Active components", "Output")
 
 
@@ -38,7 +44,7 @@ class SimulationPanel:
         builders = lambda: Timeline(controller), lambda: ActivationTree(controller), lambda: ConsoleOutput(controller)
         self.tabs.build(dict(zip(_RESULT_TABS, builders, strict=True)))
         controller.refresh_panel = self._poll
-        ui.timer(_POLL_INTERVAL_S, self._poll)
+        ui.timer(_POLL_INTERVAL_S, self._poll_unhurried)
         # A robot that sends nothing changes nothing but the age of what it sent.
         ui.timer(_AGE_INTERVAL_S, self.input_source.robot_form.refresh)
         # The panel takes space from the canvas; the active state must stay visible.
@@ -48,6 +54,20 @@ class SimulationPanel:
         self.controller.check_design()
         self._shown = (-1, "")
         self._poll()
+
+    async def _poll_unhurried(self) -> None:
+        """Refresh; then leave the browser as much time for its user as it needed to show the change.
+
+        Without this, a slow browser shows changes that are long over, and answers no click.
+        """
+        before = self._shown
+        self._poll()
+        if self._shown == before:
+            return
+        start_s = time.monotonic()
+        with suppress(TimeoutError):
+            await ui.run_javascript(_IS_DRAWN, timeout=_DRAW_TIMEOUT_S)
+        await asyncio.sleep(time.monotonic() - start_s)
 
     def _poll(self) -> None:
         self.controller.check_project()
