@@ -1,5 +1,6 @@
 """The documentation site of a project: static pages with diagrams, cross-references and search."""
 
+from vicode.docsite.build_cache import StoredResults
 from vicode.docsite.not_found import not_found_page
 from vicode.docsite.site_builder import SiteBuilder, build_site
 from vicode.docsite.site_index import plan_site_index
@@ -16,7 +17,9 @@ from vicode.docsite.site_writer import (
     PlannedFile,
     load_manifest,
     manifest_path,
+    results_path,
     save_manifest,
+    tool_digest,
     write_site,
 )
 from vicode.docsite.urls import SiteUrls, state_anchor
@@ -29,6 +32,7 @@ __all__ = [
     "SiteInput",
     "SiteUrls",
     "SourceText",
+    "StoredResults",
     "build_site",
     "iter_action_paths",
     "iter_documented_paths",
@@ -37,7 +41,9 @@ __all__ = [
     "manifest_path",
     "not_found_page",
     "plan_site_index",
+    "results_path",
     "save_manifest",
     "state_anchor",
+    "tool_digest",
     "write_site",
 ]

@@ -3,8 +3,9 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
-from vicode.docsite.build_cache import BuildCache, compute_digest
+from vicode.docsite.build_cache import BuildCache, StoredForm, compute_digest
 from vicode.docsite.languages import GenerationErrors, find_components_with_errors
 from vicode.docsite.page_inputs import strip_to_interfaces
 from vicode.docsite.site_input import SiteInput
@@ -84,9 +85,10 @@ class CodeFiles:
                 continue
             used = tuple(self._site_input.project.interface(use.component) for use in design.uses)
             key = (language, design, used, self._sources.get(design.component, ""), self._interfaces_digest)
-            written = self._cache.get_or_create("text", key, partial(self._generators[language], design))
+            make = partial(_generated_file, language, self._generators[language], design)
+            written = self._cache.get_or_create("code", key, make, _STORED_CODE)
             if written is not None:
-                yield _generated_file(design.component, language, written)
+                yield written
 
 
 def code_links_by_path(
@@ -136,11 +138,36 @@ def code_page_links(texts: tuple[CodeFile, ...], addresses: SiteUrls) -> tuple[T
     )
 
 
-def _generated_file(component: str, language: str, written: ComponentCode) -> CodeFile:
+def _generated_file(
+    language: str, generate: Callable[[Design], ComponentCode | None], design: Design
+) -> CodeFile | None:
+    written = generate(design)
+    if written is None:
+        return None
     file, lines = written.file, _line_numbers(written.origins)
     return CodeFile(
-        component=component, variant=language, path=file.path, text=file.text, language=language, line_numbers=lines
+        component=design.component,
+        variant=language,
+        path=file.path,
+        text=file.text,
+        language=language,
+        line_numbers=lines,
     )
+
+
+def _encode_code(file: CodeFile | None) -> list[Any] | None:
+    if file is None:
+        return None
+    return [file.component, file.variant, file.path, file.text, [*file.line_numbers.items()]]
+
+
+def _decode_code(value: Any) -> CodeFile | None:
+    component, language, path, text = (str(each) for each in value[:4])
+    lines = {tuple(place): int(line) for place, line in value[4]}
+    return CodeFile(component=component, variant=language, path=path, text=text, language=language, line_numbers=lines)
+
+
+_STORED_CODE = StoredForm(_encode_code, _decode_code)
 
 
 def _line_numbers(origins: Iterable[Origin]) -> dict[DesignPath, int]:

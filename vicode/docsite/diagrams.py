@@ -3,17 +3,19 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
+from typing import Any
 
 from vicode.diagram.decision_tree import TreeLinks, render_decision_tree
 from vicode.diagram.dependency_graph import dependency_diagram
 from vicode.diagram.diagram_model import Diagram, DiagramEdge, DiagramNode, build_diagram
 from vicode.diagram.folder_graph import folder_diagram
-from vicode.diagram.layout import LayoutService
+from vicode.diagram.layered_layout import NodeLayout
+from vicode.diagram.layout import LayoutMethod, LayoutResult, LayoutService
 from vicode.diagram.neighborhood import MORE_USED, MORE_USERS, neighborhood_diagram
 from vicode.diagram.palettes import css_variable_palette
 from vicode.diagram.render import render_diagram
 from vicode.diagram.svg import write_svg
-from vicode.docsite.build_cache import BuildCache
+from vicode.docsite.build_cache import BuildCache, StoredForm
 from vicode.docsite.shown_design import with_shown_names, with_shown_targets
 from vicode.docsite.urls import SiteUrls, path_anchor
 from vicode.findings import DesignPath
@@ -30,10 +32,7 @@ def add_missing_layouts(project: Project, service: LayoutService, memory: BuildC
     """The project with computed layouts for the designs that have no positions."""
     if all(_has_layout(design) for design in project.designs):
         return project
-    designs = (
-        memory.get_or_create("places", design, partial(_add_layout, design, service)) for design in project.designs
-    )
-    return replace(project, designs=tuple(designs))
+    return replace(project, designs=tuple(_with_layout(design, service, memory) for design in project.designs))
 
 
 def draw_design(design: Design, addresses: SiteUrls) -> str:
@@ -158,9 +157,30 @@ def _has_layout(design: Design) -> bool:
     return not design.states or any(state.at for state in design.states)
 
 
-def _add_layout(design: Design, service: LayoutService) -> Design:
+def _with_layout(design: Design, service: LayoutService, memory: BuildCache) -> Design:
     if _has_layout(design):
         return design
-    places = service.compute(design, timeout_s=_LAYOUT_TIMEOUT_S).layout
+    compute = partial(service.compute, design, timeout_s=_LAYOUT_TIMEOUT_S)
+    places = memory.get_or_create("layout", design, compute, _STORED_LAYOUT).layout
     common = places.common if design.common.transitions or design.common.actions else None
     return move_nodes(design, places.states, places.uses, common)
+
+
+def _encode_layout(result: LayoutResult) -> list[Any] | None:
+    """A layout that replaces a late one is computed again."""
+    layout = result.layout
+    is_kept = result.method == LayoutMethod.GRAPHVIZ
+    return [layout.states, layout.uses, layout.common, layout.notes] if is_kept else None
+
+
+def _decode_layout(value: Any) -> LayoutResult:
+    (states, uses, notes), (x, y) = map(_decode_points, (value[0], value[1], value[3])), value[2]
+    layout = NodeLayout(states=states, uses=uses, common=(float(x), float(y)), notes=notes)
+    return LayoutResult(layout=layout, method=LayoutMethod.GRAPHVIZ)
+
+
+def _decode_points(value: Any) -> dict[str, tuple[float, float]]:
+    return {str(name): (float(x), float(y)) for name, (x, y) in value.items()}
+
+
+_STORED_LAYOUT = StoredForm(_encode_layout, _decode_layout)

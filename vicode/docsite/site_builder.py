@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache, partial
 
 from vicode.diagram.layout import LayoutService
-from vicode.docsite.build_cache import BuildCache, compute_digest
+from vicode.docsite.build_cache import BuildCache, StoredResults, compute_digest
 from vicode.docsite.code_pages import (
     CodeFile,
     CodeFiles,
@@ -70,10 +70,10 @@ def build_site(subject: SiteInput) -> tuple[OutputFile, ...]:
 
 
 class SiteBuilder:
-    """Builds a site incrementally. Call `close` when done."""
+    """Builds a site incrementally; `stored` has results of earlier processes. Call `close` when done."""
 
-    def __init__(self) -> None:
-        self._cache = BuildCache()
+    def __init__(self, stored: StoredResults | None = None) -> None:
+        self._cache = BuildCache(stored)
         self._service = LayoutService()
 
     def plan(self, subject: SiteInput, *, is_markdown: bool = False) -> tuple[PlannedFile, ...]:
@@ -98,6 +98,10 @@ class SiteBuilder:
     def _planner(self, subject: SiteInput) -> "_SitePlanner":
         whole = replace(subject, project=add_missing_layouts(subject.project, self._service, self._cache))
         return _make_planner(whole, self._cache)
+
+    def save_results(self) -> None:
+        """Keep the results that are slow to create for the next process."""
+        self._cache.save()
 
     def close(self) -> None:
         self._service.close()

@@ -25,7 +25,7 @@ GENERATED_HEADERS = (
 _PAGES = (".css", ".html", ".js", ".md", ".rst", ".svg", ".yml")
 _HEADER_BYTES = 200
 # Libraries that affect the pages.
-_LIBRARIES = ("jinja2", "markdown-it-py", "markupsafe", "pygments")
+_LIBRARIES = ("jinja2", "markdown-it-py", "markupsafe", "pygments", "pygraphviz")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,6 +93,11 @@ def write_site(
 def manifest_path(out: Path, environment: Mapping[str, str] = os.environ) -> Path:
     """The path of the manifest of a folder."""
     return cache_path(out, "docs", environment)
+
+
+def results_path(out: Path, environment: Mapping[str, str] = os.environ) -> Path:
+    """The path of the kept results of a folder."""
+    return cache_path(out, "docs-results", environment)
 
 
 def load_manifest(file: Path) -> Manifest:

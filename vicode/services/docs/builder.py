@@ -9,10 +9,13 @@ from vicode.docsite import (
     Manifest,
     PlannedFile,
     SiteBuilder,
+    StoredResults,
     load_manifest,
     manifest_path,
     plan_site_index,
+    results_path,
     save_manifest,
+    tool_digest,
     write_site,
 )
 from vicode.findings import count_findings
@@ -58,7 +61,7 @@ class DocsBuilder:
         plans: dict[str, tuple[PlannedFile, ...]] = {}
         for name, reading in named.items():
             step(reading.name, 0, 0)
-            builder = self._builders.setdefault(name, SiteBuilder())
+            builder = self._builder(name)
             assert reading.site_input is not None
             title = reading.site_input.title if name else self.title or reading.site_input.title
             subject = replace(reading.site_input, title=title, source_url=reading.source_url(self.source_url))
@@ -72,6 +75,8 @@ class DocsBuilder:
             built = _merge_results(built, self._write(name, plan, partial(step, title)))
             if built.foreign:
                 return built
+            if name in self._builders:
+                self._builders[name].save_results()
         self.ignores_cache = False
         return built
 
@@ -84,6 +89,12 @@ class DocsBuilder:
 
     def __exit__(self, *_exception: object) -> None:
         self.close()
+
+    def _builder(self, name: str) -> SiteBuilder:
+        if name not in self._builders:
+            stored = StoredResults(results_path(self.out / name), tool_digest(), is_ignored=self.ignores_cache)
+            self._builders[name] = SiteBuilder(stored)
+        return self._builders[name]
 
     def _write(self, name: str, plan: Sequence[PlannedFile], step: Callable[[int, int], None]) -> DocsBuildResult:
 
