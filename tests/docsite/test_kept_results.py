@@ -1,6 +1,7 @@
 """Layouts and generated code are kept for the next process: what did not change is not computed again."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,6 @@ from vicode.model.design import Design
 DESIGN = """\
 vicode: 1
 component: %s
-inputs: {seen: bool}
 outputs: {speed: float}
 initial: Wait
 states:
@@ -38,7 +38,7 @@ class Docs:
         self.computed: list[str] = []
         self.folder.mkdir()
         for name in ("One", "Two", "Three"):
-            (self.folder / f"{name.lower()}.yaml").write_text(DESIGN.replace("inputs: {seen: bool}\n", "") % name)
+            (self.folder / f"{name.lower()}.yaml").write_text(DESIGN % name)
         (self.folder / "project.yaml").write_text("vicode: 1\nproject: Docs\nconstants: {seen: true}\n")
         compute = LayoutService.compute
 
@@ -92,22 +92,32 @@ def test_a_fresh_build_computes_everything(docs: Docs) -> None:
     assert sorted(docs.computed) == first
 
 
+def each_result(value: object) -> Callable[[str], str]:
+    """Replaces each kept result."""
+
+    def replaced(text: str) -> str:
+        data = json.loads(text)
+        return json.dumps({**data, "results": {digest: value for digest in data["results"]}})
+
+    return replaced
+
+
 @pytest.mark.parametrize(
     "damage",
     [
-        lambda text: "",
-        lambda text: "[" * 100_000,
+        lambda _text: "",
+        lambda _text: "[" * 100_000,
         lambda text: text.replace('"tool":"', '"tool":"x'),
-        lambda text: json.dumps({**json.loads(text), "results": dict.fromkeys(json.loads(text)["results"])}),
-        lambda text: json.dumps({**json.loads(text), "results": dict.fromkeys(json.loads(text)["results"], [[]])}),
-        lambda text: json.dumps({**json.loads(text), "results": dict.fromkeys(json.loads(text)["results"], "12345")}),
         lambda text: json.dumps({**json.loads(text), "results": 1}),
+        each_result(None),
+        each_result([[]]),
+        each_result("12345"),
     ],
 )
-def test_a_damaged_file_counts_as_empty(docs: Docs, tmp_path: Path, damage: object) -> None:
+def test_a_damaged_file_counts_as_empty(docs: Docs, tmp_path: Path, damage: Callable[[str], str]) -> None:
     docs.run()
     file = results_path(docs.out)
-    file.write_text(damage(file.read_text()))  # type: ignore[operator]
+    file.write_text(damage(file.read_text()))
     docs.edit()
     assert docs.run() == docs.run(out=tmp_path / "elsewhere")
 
