@@ -97,7 +97,7 @@ def each_result(value: object) -> Callable[[str], str]:
 
     def replaced(text: str) -> str:
         data = json.loads(text)
-        return json.dumps({**data, "results": {digest: value for digest in data["results"]}})
+        return json.dumps({**data, "results": dict.fromkeys(data["results"], value)})
 
     return replaced
 
