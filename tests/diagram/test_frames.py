@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from pypdf import PdfReader
 
+from tests.diagram.layouts import compute_layout
 from vicode.diagram.diagram_model import build_diagram
 from vicode.diagram.edge_routing import route_edges
 from vicode.diagram.export_formats import EXPORT_FORMATS, ExportOptions
 from vicode.diagram.frames import drawn_frames, nest_frames
-from vicode.diagram.layout import compute_layout
 from vicode.diagram.node_geometry import OccupancyGrid, note_size, state_size
 from vicode.diagram.palettes import LIGHT
 from vicode.diagram.spatial_index import Rect

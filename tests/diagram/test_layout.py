@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 
 from tests.diagram.diagram_designs import HOSTILE_NAMES, find_overlaps, list_boxes, ring_design, shipped_designs
+from tests.diagram.layouts import compute_layout
 from vicode.diagram.layered_layout import complete_layout
-from vicode.diagram.layout import WORKER_COMMAND, LayoutMethod, LayoutResult, LayoutService, compute_layout
+from vicode.diagram.layout import WORKER_COMMAND, LayoutMethod, LayoutResult, LayoutService
 from vicode.diagram.layout_fit import fit_layout, layered_positions, screens_needed
 from vicode.model.design import CommonSection, Design, State, Transition
 

@@ -56,7 +56,15 @@ class LayoutService:
         self._lock = threading.Lock()
 
     def compute(self, design: Design, *, only: Collection[str] | None = None, timeout_s: float = 5.0) -> LayoutResult:
-        """Like the function `compute_layout`; waiting for the worker counts towards the timeout."""
+        """Compute a layout with Graphviz, or in layers if that fails or exceeds `timeout_s`.
+
+        This blocks: call it with `run.io_bound` or in a thread, never in the event loop.
+
+        Args:
+            design: The design; it may have errors.
+            only: Names of states to move, near their old positions; all else stays. None: move everything.
+            timeout_s: Total seconds, including the wait for other requests and the start of the process.
+        """
         graph = build_layout_graph(design, only)
         try:
             centers = self._request_positions(graph, timeout_s) if graph.nodes else {}
@@ -123,20 +131,6 @@ class LayoutService:
             with contextlib.suppress(OSError):
                 assert pipe is not None
                 pipe.close()
-
-
-def compute_layout(design: Design, *, only: Collection[str] | None = None, timeout_s: float = 5.0) -> LayoutResult:
-    """Compute a layout with Graphviz, or in layers if that fails or exceeds `timeout_s`.
-
-    This blocks: call it with `run.io_bound` or in a thread, never in the event loop.
-
-    Args:
-        design: the design; it may have errors.
-        only: names of states to move, near their old positions; all else stays. None: move everything.
-        timeout_s: total seconds, including the start of the process.
-    """
-    with LayoutService() as service:
-        return service.compute(design, only=only, timeout_s=timeout_s)
 
 
 class _GraphvizFailedError(Exception):

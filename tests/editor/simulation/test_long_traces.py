@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from tests.editor.simulation.lamp_project import prepare_lamp, recorded_iterations, simulate, write_lamps
+from tests.editor.simulation.plots import draw_plot
 from vicode.bica.observer import TRACE_HEADER
-from vicode.editor.view.plot import WIDTH, render_plot, state_runs
+from vicode.editor.view.plot import WIDTH, state_runs
 from vicode.runs import Simulation
 from vicode.runs.trace_recording import find_traces, read_beginning, read_recording
 from vicode.runs.traces import read_iterations
@@ -85,4 +86,4 @@ def test_a_trace_of_another_design_is_refused(lamps: Path) -> None:
 def test_the_states_of_a_long_run_are_drawn_at_most_once_per_pixel() -> None:
     states = [f"S{(number // 3) % 5}" for number in range(100_000)]
     assert len(state_runs(states)) > 10 * WIDTH
-    assert render_plot([], states, 7).count("<rect") < 1.1 * WIDTH
+    assert draw_plot([], states, 7).count("<rect") < 1.1 * WIDTH

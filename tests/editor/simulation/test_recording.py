@@ -5,8 +5,9 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+from tests.editor.simulation.plots import draw_plot
 from vicode.editor.view.activation import activation_rows
-from vicode.editor.view.plot import PlotSeries, band_labels, render_plot, state_runs
+from vicode.editor.view.plot import PlotSeries, band_labels, state_runs
 from vicode.runs import Recording
 from vicode.simulation import IterationResult
 
@@ -67,7 +68,7 @@ def test_later_iterations_can_be_truncated() -> None:
 
 def test_a_plot_is_valid_xml_for_any_name() -> None:
     states = ["Dark", "<b>&\"'", "Dark"]
-    drawing = render_plot([PlotSeries(name="</svg>", values=[1.0, math.nan, 3.0])], states, 2)
+    drawing = draw_plot([PlotSeries(name="</svg>", values=[1.0, math.nan, 3.0])], states, 2)
     root = ET.fromstring(drawing)
     titles = [element.text for element in root.iter("title")]
     assert titles == ["Dark", "<b>&\"'", "Dark"]
@@ -76,7 +77,7 @@ def test_a_plot_is_valid_xml_for_any_name() -> None:
 def test_a_long_plot_is_downsampled_and_keeps_its_peaks() -> None:
     values = [0.0] * 20_000
     values[12_345] = 1.0
-    drawing = render_plot([PlotSeries(name="x", values=values)], ["Dark"] * 20_000, 20_000)
+    drawing = draw_plot([PlotSeries(name="x", values=values)], ["Dark"] * 20_000, 20_000)
     assert len(drawing) < 20_000
     assert "18.0H" in drawing
 
@@ -84,7 +85,7 @@ def test_a_long_plot_is_downsampled_and_keeps_its_peaks() -> None:
 def test_states_are_drawn_as_spans() -> None:
     assert state_runs(["A", "A", "B", "A"]) == [("A", 0, 2), ("B", 2, 3), ("A", 3, 4)]
     assert band_labels(["A"] * 99 + ["B"]) == [("A", 0.0, 99.0)]
-    assert render_plot([], [], 0).startswith("<svg")
+    assert draw_plot([], [], 0).startswith("<svg")
 
 
 def test_the_activation_tree_is_indented() -> None:

@@ -22,14 +22,6 @@ class PlotSeries:
     unit: str = ""
 
 
-def render_plot(curves: Sequence[PlotSeries], states: Sequence[str], cursor: int) -> str:
-    """Render curves and states; `cursor` is the number of the current iteration, 0 before the first.
-
-    The drawing has a fixed width and is stretched by the browser, so it contains no text elements.
-    """
-    return add_cursor(render_series(curves, states), curves, states, cursor)
-
-
 def render_series(curves: Sequence[PlotSeries], states: Sequence[str]) -> str:
     """The part of a plot that does not depend on the cursor."""
     count = max(len(states), 1)
@@ -39,7 +31,10 @@ def render_series(curves: Sequence[PlotSeries], states: Sequence[str]) -> str:
 
 
 def add_cursor(series: str, curves: Sequence[PlotSeries], states: Sequence[str], cursor: int) -> str:
-    """The plot with its cursor."""
+    """The plot with its cursor, the number of the current iteration, 0 before the first.
+
+    The drawing has a fixed width and is stretched by the browser, so it contains no text elements.
+    """
     count = max(len(states), 1)
     height = len(curves) * (STRIP + GAP) + BAND
     x = WIDTH * max(cursor - 0.5, 0) / count
