@@ -34,6 +34,14 @@ def test_two_files(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert vicode("diff", "lamps/lamp.yaml", "lamps/lamp.yaml") == 0
 
 
+def test_texts_do_not_reach_the_terminal_as_commands(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(lamps, "other", LAMP.replace("initial:", 'doc: "\\e]0;title\\a\\e[2Jbright"\ninitial:'))
+    assert vicode("diff", "lamps/lamp.yaml", "lamps/other.yaml") == 1
+    shown = capsys.readouterr().out
+    assert "bright" in shown
+    assert not {each for each in shown if not each.isprintable()} - {"\n"}
+
+
 def test_two_folders(lamps: Path, capsys: pytest.CaptureFixture[str]) -> None:
     other = lamps.parent / "other"
     other.mkdir()

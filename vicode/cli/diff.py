@@ -2,10 +2,13 @@
 
 import argparse
 import json
+import re
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.console import print_findings
+from vicode.findings import escape_text
 
 if TYPE_CHECKING:
     from vicode.services.design_diff.file_differences import FileDifference
@@ -41,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         print(json.dumps({"files": [difference.to_json() for difference in differences]}, ensure_ascii=False, indent=2))
     else:
-        print("".join(line + "\n" for difference in differences for line in difference.lines()), end="")
+        _print_lines(line for difference in differences for line in difference.lines())
     _write_pictures(differences, args)
     findings = [finding for difference in differences for finding in difference.errors]
     print_findings(findings, to_stderr=True)
@@ -74,19 +77,23 @@ def _run_external(items: list[str]) -> int:
     ]
     difference = compare_pair(VersionPair(old=versions[0], new=versions[1]))
     if difference.errors:
-        print(_plain_diff(path, versions[0], versions[1]), end="")
+        _print_lines(_plain_diff(path, versions[0], versions[1]))
         return 0
-    print("".join(f"{line}\n" for line in difference.lines()), end="")
+    _print_lines(difference.lines())
     return 0
 
 
-def _plain_diff(path: str, old: "FileVersion | None", new: "FileVersion | None") -> str:
+def _print_lines(lines: Iterable[str]) -> None:
+    """Print texts of designs, which may come from others, without commands to the terminal."""
+    print("".join(re.sub(r"[^\n\t]+", lambda part: escape_text(part[0]), f"{line}\n") for line in lines), end="")
+
+
+def _plain_diff(path: str, old: "FileVersion | None", new: "FileVersion | None") -> Iterator[str]:
     """The lines that differ, for a file that is no design."""
     from difflib import unified_diff
 
     texts = [(b"" if version is None else version.content).decode(errors="replace") for version in (old, new)]
-    lines = unified_diff(texts[0].splitlines(), texts[1].splitlines(), f"a/{path}", f"b/{path}", lineterm="")
-    return "".join(f"{line}\n" for line in lines)
+    return unified_diff(texts[0].splitlines(), texts[1].splitlines(), f"a/{path}", f"b/{path}", lineterm="")
 
 
 def _is_relevant(pair: "VersionPair") -> bool:
