@@ -159,7 +159,11 @@ def test_what_is_known_lies_outside_of_the_site(tmp_path: Path, monkeypatch: pyt
     assert main(command) == 0
     before = {file.name: file.read_bytes() for file in (tmp_path / "site").iterdir()}
     assert all(name.endswith((".html", ".css", ".js")) for name in before)
-    assert sorted(file.parent.name for file in (tmp_path / "cache").rglob("*.json")) == ["docs", "docs-builds"]
+    assert sorted(file.parent.name for file in (tmp_path / "cache").rglob("*.json")) == [
+        "docs",
+        "docs-builds",
+        "docs-results",
+    ]
     assert main([*command, "--fresh"]) == 0
     after = {file.name: file.read_bytes() for file in (tmp_path / "site").iterdir()}
     assert [name for name in before if after[name] != before[name]] == []
