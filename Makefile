@@ -22,7 +22,7 @@ help:  ## list these commands
 edit: $(VENV)/.ready  ## open the editor on designs/
 	@$(BIN)/vicode edit designs
 
-test: $(VENV)/.ready-test chromium gpp neovim  ## pass every test, a real browser included (a quarter of an hour on two cores)
+test: $(VENV)/.ready-test chromium gpp neovim  ## pass every test, a real browser included (18 minutes on two cores)
 	@$(PYTEST) $(PARALLEL)
 
 fast: $(VENV)/.ready-test gpp neovim  ## pass the tests that need no browser
