@@ -1,0 +1,442 @@
+"""Guards as interval decision diagrams.
+
+A comparison with a constant cuts the values of what it compares; a choice such as `min(a, b) < 3` becomes a choice
+between comparisons. What is computed from several values is a quantity of its own, whose possible values are related
+to those of its operands by interval arithmetic, cell by cell. Hand-written code can be anything. So the diagram of a
+guard contains every case in which the guard holds, and possibly more: "never" is proved, "possibly" is not.
+"""
+
+import math
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from vicode.analysis.bounds import find_bounds
+from vicode.analysis.interval_diagrams import (
+    AFTER_ALL,
+    BEFORE_ALL,
+    BEFORE_NAN,
+    FALSE,
+    TRUE,
+    Interval,
+    IntervalDiagrams,
+    Node,
+    Position,
+)
+from vicode.analysis.quantities import NANOSECONDS, Quantity, QuantityTable, Shape, before_whole, is_leaf, shape_of
+from vicode.model.design import Guard
+from vicode.model.expressions import (
+    BOOL,
+    FLOAT,
+    INT,
+    Comparison,
+    ElapsedTime,
+    Expr,
+    FunctionCall,
+    Logic,
+    Minus,
+    Not,
+    Number,
+    Ternary,
+    parse_expression,
+    walk,
+)
+
+STATE_TIME = 0
+"""The level of the time in the state."""
+_FIRST_COMPUTED = 1_000_000
+_MAX_NODES = 200_000
+_MAX_CELLS = 512
+_NO_SPAN = (0, 0)
+_MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
+_STATE_TIME = ElapsedTime(kind="state", span=_NO_SPAN)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Region:
+    """A set of numbers: intervals in order, and nan or not."""
+
+    intervals: tuple[Interval, ...]
+    has_nan: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Computed:
+    """A quantity that is computed: the levels of what it reads, and its trees (two if it is their order)."""
+
+    reads: tuple[int, ...]
+    trees: tuple[Expr, ...]
+
+
+class Conditions:
+    """The guards of one design as diagrams over common variables.
+
+    Args:
+        table: The quantities of the design.
+    """
+
+    def __init__(self, table: QuantityTable) -> None:
+        self.table = table
+        self.diagrams = IntervalDiagrams(_MAX_NODES)
+        self.quantities: dict[int, Quantity] = {STATE_TIME: table.quantity(_STATE_TIME, "state_time")}
+        self._levels: dict[Shape, int] = {shape_of(_STATE_TIME): STATE_TIME}
+        self._computed: dict[int, _Computed] = {}
+        self._texts: dict[str, Node] = {}
+        self._relations: dict[tuple[frozenset[int], bool], Node] = {}
+
+    def of_guard(self, guard: Guard) -> Node:
+        """The diagram of a guard.
+
+        Raises:
+            TooLargeError: The diagram has too many nodes.
+            ValueError: An expression has errors.
+        """
+        node = TRUE
+        if guard.after:
+            node = self._of_timer(guard.after)
+        if guard.when:
+            node = self.diagrams.both(node, self.of_text(guard.when))
+        return node if guard.code is None else self.diagrams.both(node, self._of_code())
+
+    def of_text(self, text: str) -> Node:
+        """The diagram of an expression; see `of_guard`."""
+        if text not in self._texts:
+            self._texts[text] = self._of(self._parse(text, BOOL))
+        return self._texts[text]
+
+    def is_opaque(self, level: int) -> bool:
+        """Whether nothing is known about how a quantity depends on the others."""
+        return level >= _FIRST_COMPUTED and not self._computed[level].reads
+
+    def possible(self, nodes: Collection[Node], *, with_nan: bool, ignored: Collection[int] = ()) -> Node:
+        """The values that what some diagrams test can have together.
+
+        Args:
+            nodes: The diagrams.
+            with_nan: Whether floats without a declared range can be nan.
+            ignored: The levels whose declared range is ignored.
+        """
+        cuts = self.diagrams.find_cuts(nodes)
+        levels = set(cuts)
+        for level in cuts:
+            if level in self._computed:
+                levels.update(self._computed[level].reads)
+        result = TRUE
+        for level in sorted(levels, reverse=True):
+            domain = self._domain(level, with_nan=with_nan, is_ignored=level in ignored)
+            result = self.diagrams.both(self.diagrams.test(level, (domain,)), result)
+            if level in self._computed:
+                result = self.diagrams.both(self._relate(level, cuts, ignored), result)
+        return result
+
+    def levels_with_range(self, node: Node) -> list[int]:
+        """The quantities with a declared range on which a diagram may depend."""
+        tested = set(self.diagrams.find_cuts((node,)))
+        read = {each for level in tested if level in self._computed for each in self._computed[level].reads}
+        return sorted(level for level in tested | read if self.quantities[level].has_range)
+
+    def describe_range(self, level: int) -> str:
+        """A declared range as text, such as "ball.x from 0 to 10"."""
+        quantity = self.quantities[level]
+        (low, _), (high, side) = quantity.domain
+        return f"{quantity.name} from {low:g} to {high - (quantity.type == INT and side == 0):g}"
+
+    def _domain(self, level: int, *, with_nan: bool, is_ignored: bool) -> Interval:
+        quantity = self.quantities[level]
+        low, high = self.table.domain_of_type(quantity.type) if is_ignored else quantity.domain
+        return (low, high if with_nan else min(high, BEFORE_NAN))
+
+    def _parse(self, text: str, expected: str) -> Expr:
+        parsed = parse_expression(text, self.table.scope, expected)
+        if parsed.tree is None or parsed.diagnostics:
+            raise ValueError(text)
+        return parsed.tree
+
+    # Guards
+
+    def _of_timer(self, after: str) -> Node:
+        tree = self._parse(after, FLOAT)
+        value = self.table.value_of(tree)
+        if not isinstance(value, int | float):
+            return self._compare(_STATE_TIME, ">=", tree)
+        ns = value * self.table.ns_per_unit
+        if math.isnan(ns):
+            return FALSE
+        return self._test(STATE_TIME, Region(intervals=(((round(ns) if math.isfinite(ns) else ns, 0), BEFORE_NAN),)))
+
+    def _of_code(self) -> Node:
+        """Hand-written code may give another result each time."""
+        level = _FIRST_COMPUTED + len(self._computed)
+        self.quantities[level] = Quantity(name="code", type=BOOL, domain=((0, 0), (2, 0)))
+        self._computed[level] = _Computed(reads=(), trees=())
+        return self._test_bool(level)
+
+    def _of(self, node: Expr) -> Node:
+        """The diagram of a bool."""
+        value = self.table.value_of(node)
+        if value is not None:
+            return TRUE if value else FALSE
+        match node:
+            case Not(operand=operand):
+                return self.diagrams.negate(self._of(operand))
+            case Logic(operator=operator, operands=operands):
+                return self._join(operator, map(self._of, operands))
+            case Ternary(test=test, then=then, otherwise=otherwise):
+                return self.diagrams.if_then_else(self._of(test), self._of(then), self._of(otherwise))
+            case Comparison(operators=operators, operands=operands):
+                triples = zip(operands, operators, operands[1:], strict=False)
+                return self._join("and", (self._compare(a, operator, b) for a, operator, b in triples))
+            case FunctionCall(function="is_nan", arguments=(operand,)) if is_leaf(operand) and operand.type == FLOAT:
+                return self._test(self._level(operand), Region(intervals=(), has_nan=True))
+            case _:
+                return self._test_bool(self._level(node))
+
+    def _join(self, operator: str, nodes: Iterable[Node]) -> Node:
+        combine, joined = (self.diagrams.both, TRUE) if operator == "and" else (self.diagrams.either, FALSE)
+        for node in nodes:
+            joined = combine(joined, node)
+        return joined
+
+    # Comparisons
+
+    def _compare(self, left: Expr, operator: str, right: Expr) -> Node:
+        left, right = _lower(left), _lower(right)
+        if isinstance(left, Ternary) and self.table.value_of(left) is None:
+            return self._choose(left, lambda branch: self._compare(branch, operator, right))
+        if isinstance(right, Ternary) and self.table.value_of(right) is None:
+            return self._choose(right, lambda branch: self._compare(left, operator, branch))
+        a, b = self.table.value_of(left), self.table.value_of(right)
+        if left.type not in (INT, FLOAT):
+            return self._compare_choices(left, operator, right)
+        if isinstance(b, int | float) and _is_exact(left, b):
+            return self._compare_number(left, operator, b)
+        if isinstance(a, int | float) and _is_exact(right, a):
+            return self._compare_number(right, _MIRRORED[operator], a)
+        return self._compare_order(left, operator, right)
+
+    def _choose(self, choice: Ternary, of_branch: Callable[[Expr], Node]) -> Node:
+        return self.diagrams.if_then_else(self._of(choice.test), of_branch(choice.then), of_branch(choice.otherwise))
+
+    def _compare_choices(self, left: Expr, operator: str, right: Expr) -> Node:
+        """Bools, or elements of an enumeration; only == and != are defined."""
+        if left.type == BOOL:
+            a, b = self._of(left), self._of(right)
+            equal = self.diagrams.if_then_else(a, b, self.diagrams.negate(b))
+        else:
+            elements = self.table.elements(left.type)
+            pairs = ((self._is_element(left, each), self._is_element(right, each)) for each in elements)
+            equal = self._join("or", (self.diagrams.both(a, b) for a, b in pairs))
+        return equal if operator == "==" else self.diagrams.negate(equal)
+
+    def _is_element(self, node: Expr, element: str) -> Node:
+        value = self.table.value_of(node)
+        if value is not None:
+            return TRUE if value == element else FALSE
+        index = self.table.elements(node.type).index(element)
+        return self._test(self._level(node), Region(intervals=(((index, 0), (index + 1, 0)),)))
+
+    def _compare_number(self, node: Expr, operator: str, number: float) -> Node:
+        """Compare with a constant; a negation or an absolute value is moved to the constant, which is exact."""
+        return self._test_in(node, _region(operator, float(number) if node.type == FLOAT else number))
+
+    def _test_in(self, node: Expr, region: Region) -> Node:
+        match node:
+            case Minus(operand=operand) if self.table.value_of(node) is None:
+                return self._test_in(operand, _mirror(region))
+            case FunctionCall(function="abs", arguments=(operand,)):
+                positive = Region(intervals=_cut_off(region.intervals, (0, 0)), has_nan=region.has_nan)
+                negative = Region(intervals=_mirror(positive).intervals)
+                return self.diagrams.either(self._test_in(operand, positive), self._test_in(operand, negative))
+            case FunctionCall(function="float", arguments=(operand,)):
+                return self._test_in(operand, region)
+            case ElapsedTime(kind="state"):
+                return self._test(STATE_TIME, self._as_ns(region))
+            case _:
+                return self._test(self._level(node), region)
+
+    def _as_ns(self, region: Region) -> Region:
+        """The nanoseconds of which the time in seconds is in a region, as `state_time` divides them."""
+
+        def find_first(position: Position) -> Position:
+            seconds, side = position
+            if math.isinf(seconds):
+                return position
+            first = math.floor(seconds * self.table.ns_per_unit) - 2
+            while (first / self.table.ns_per_unit, 0) < (seconds, side):
+                first += 1
+            return (first, 0)
+
+        return replace(region, intervals=tuple((find_first(low), find_first(high)) for low, high in region.intervals))
+
+    def _compare_order(self, left: Expr, operator: str, right: Expr) -> Node:
+        """Compare two values: their order is a quantity of its own, -1, 0, 1, or nan."""
+        shapes = (shape_of(left), shape_of(right))
+        if shapes[0] == shapes[1]:
+            return self._compare_with_itself(left, operator)
+        if repr(shapes[0]) > repr(shapes[1]):
+            left, right, operator, shapes = right, left, _MIRRORED[operator], shapes[::-1]
+        level = self._levels.get(("order", *shapes))
+        if level is None:
+            reads = self._reads(left, right)
+            level = self._levels["order", *shapes] = _FIRST_COMPUTED + len(self._computed)
+            self._computed[level] = _Computed(reads=reads, trees=(left, right))
+            is_int = left.type == right.type == INT
+            domain = (BEFORE_ALL, BEFORE_NAN if is_int else AFTER_ALL)
+            self.quantities[level] = Quantity(name="", type=FLOAT, domain=domain)
+        return self._test(level, _region(operator, 0))
+
+    def _compare_with_itself(self, node: Expr, operator: str) -> Node:
+        """Only nan is not equal to itself."""
+        is_nan = FALSE if node.type == INT else self._test(self._level(node), Region(intervals=(), has_nan=True))
+        if operator in ("<", ">"):
+            return FALSE
+        return is_nan if operator == "!=" else self.diagrams.negate(is_nan)
+
+    # Variables
+
+    def _level(self, node: Expr) -> int:
+        """The level of the variable of a quantity."""
+        shape = shape_of(node)
+        if shape not in self._levels:
+            if is_leaf(node):
+                level = len(self.quantities) - len(self._computed)
+            else:
+                is_number = node.type in (INT, FLOAT)
+                reads = self._reads(node) if is_number else ()
+                level = _FIRST_COMPUTED + len(self._computed)
+                self._computed[level] = _Computed(reads=reads, trees=(node,) if is_number else ())
+            self._levels[shape] = level
+            self.quantities[level] = self.table.quantity(node)
+        return self._levels[shape]
+
+    def _reads(self, *nodes: Expr) -> tuple[int, ...]:
+        found = {self._level(each) for node in nodes for each in walk(node) if self._is_free_number(each)}
+        return tuple(sorted(found))
+
+    def _is_free_number(self, node: Expr) -> bool:
+        return is_leaf(node) and node.type in (INT, FLOAT) and self.table.value_of(node) is None
+
+    def _test_bool(self, level: int) -> Node:
+        return self._test(level, Region(intervals=(((1, 0), (2, 0)),)))
+
+    def _test(self, level: int, region: Region) -> Node:
+        type_ = self.quantities[level].type
+        intervals = list(region.intervals)
+        if type_ in (INT, NANOSECONDS):
+            intervals = [(before_whole(low), before_whole(high)) for low, high in intervals]
+        elif region.has_nan and type_ == FLOAT:
+            if intervals and intervals[-1][1] == BEFORE_NAN:
+                intervals[-1] = (intervals[-1][0], AFTER_ALL)
+            else:
+                intervals.append((BEFORE_NAN, AFTER_ALL))
+        return self.diagrams.test(level, intervals)
+
+    # Computed values
+
+    def _relate(self, level: int, cuts: Mapping[int, set[Position]], ignored: Collection[int]) -> Node:
+        """The values that a computed value has together with those that it is computed from."""
+        reads = self._computed[level].reads
+        cells = {each: self._cells(each, cuts.get(each, ()), is_ignored=each in ignored) for each in reads}
+        while math.prod(map(len, cells.values())) > _MAX_CELLS:
+            largest = max(cells, key=lambda each: len(cells[each]))
+            cells[largest] = [(cells[largest][0][0], cells[largest][-1][1])]
+        return self._relate_cells(level, reads, cells, {})
+
+    def _cells(self, level: int, cuts: Iterable[Position], *, is_ignored: bool) -> list[Interval]:
+        low, high = self._domain(level, with_nan=True, is_ignored=is_ignored)
+        bounds = [low, *sorted(cut for cut in cuts if low < cut < high), high]
+        return list(pairwise(bounds))
+
+    def _relate_cells(
+        self, level: int, reads: Sequence[int], cells: Mapping[int, list[Interval]], chosen: dict[int, Interval]
+    ) -> Node:
+        if not reads:
+            return self.diagrams.test(level, self._bounds(level, chosen))
+        first, rest = reads[0], reads[1:]
+        children = [self._relate_cells(level, rest, cells, {**chosen, first: cell}) for cell in cells[first]]
+        cuts = tuple(low for low, _high in cells[first][1:])
+        return self.diagrams.choose(first, cuts, tuple(children))
+
+    def _bounds(self, level: int, chosen: Mapping[int, Interval]) -> list[Interval]:
+        computed = self._computed[level]
+        if not computed.trees:
+            return [(BEFORE_ALL, AFTER_ALL)]
+        by_shape = {shape_of(tree): cell for each, cell in chosen.items() if (tree := self.quantities[each].tree)}
+        found = [find_bounds(tree, by_shape, self.table) for tree in computed.trees]
+        intervals = [interval for interval, _nan in found]
+        if len(found) == 2:
+            intervals = _order(*intervals)
+        elif self.quantities[level].type == INT:
+            intervals = [(before_whole(low), before_whole(high)) for low, high in intervals]
+        return [*intervals, (BEFORE_NAN, AFTER_ALL)] if any(nan for _interval, nan in found) else intervals
+
+
+def _order(a: Interval, b: Interval) -> list[Interval]:
+    """The possible orders of two numbers of which the intervals are known: -1, 0, 1."""
+    (low_a, high_a), (low_b, high_b) = a, b
+    possible: list[Interval] = []
+    if low_a[0] < high_b[0]:
+        possible.append((BEFORE_ALL, (0, 0)))
+    if max(low_a, low_b) < min(high_a, high_b):
+        possible.append(((0, 0), (0, 1)))
+    if low_b[0] < high_a[0]:
+        possible.append(((0, 1), BEFORE_NAN))
+    return possible
+
+
+def _lower(node: Expr) -> Expr:
+    """A minimum, maximum, limit or sign as the choices that docs/semantics.md defines."""
+    match node:
+        case FunctionCall(function="min" | "max" as name, arguments=(a, b), type=type_):
+            test = Comparison(operators=("<" if name == "min" else ">",), operands=(b, a), span=_NO_SPAN)
+            return Ternary(test=test, then=b, otherwise=a, type=type_, span=node.span)
+        case FunctionCall(function="clamp", arguments=(x, low, high), type=type_):
+            is_low = Comparison(operators=("<",), operands=(x, low), span=_NO_SPAN)
+            is_high = Comparison(operators=("<",), operands=(high, x), span=_NO_SPAN)
+            inner = Ternary(test=is_high, then=high, otherwise=x, type=type_, span=node.span)
+            return Ternary(test=is_low, then=low, otherwise=inner, type=type_, span=node.span)
+        case FunctionCall(function="sign", arguments=(x,)):
+            zero, one = (Number(value=value, type=INT, span=_NO_SPAN) for value in (0, 1))
+            minus = Minus(operand=one, type=INT, span=_NO_SPAN)
+            is_negative = Comparison(operators=("<",), operands=(x, zero), span=_NO_SPAN)
+            is_positive = Comparison(operators=(">",), operands=(x, zero), span=_NO_SPAN)
+            inner = Ternary(test=is_negative, then=minus, otherwise=zero, type=INT, span=node.span)
+            return Ternary(test=is_positive, then=one, otherwise=inner, type=INT, span=node.span)
+        case _:
+            return node
+
+
+def _is_exact(node: Expr, number: float) -> bool:
+    """Whether a comparison with a constant compares the exact values: large ints are converted to doubles."""
+    return node.type == FLOAT or math.isinf(number) or math.isnan(number) or abs(number) < 2**53
+
+
+def _region(operator: str, number: float) -> Region:
+    """The numbers for which a comparison with a constant holds."""
+    before, after = (number, 0), (number, 1)
+    if math.isnan(number):
+        return Region(intervals=((BEFORE_ALL, BEFORE_NAN),) if operator == "!=" else (), has_nan=operator == "!=")
+    match operator:
+        case "<":
+            return Region(intervals=((BEFORE_ALL, before),))
+        case "<=":
+            return Region(intervals=((BEFORE_ALL, after),))
+        case ">":
+            return Region(intervals=((after, BEFORE_NAN),))
+        case ">=":
+            return Region(intervals=((before, BEFORE_NAN),))
+        case "==":
+            return Region(intervals=((before, after),))
+        case _:
+            return Region(intervals=((BEFORE_ALL, before), (after, BEFORE_NAN)), has_nan=True)
+
+
+def _mirror(region: Region) -> Region:
+    def mirrored(position: Position) -> Position:
+        return (-position[0], 1 - position[1])
+
+    return replace(region, intervals=tuple((mirrored(high), mirrored(low)) for low, high in reversed(region.intervals)))
+
+
+def _cut_off(intervals: Iterable[Interval], start: Position) -> tuple[Interval, ...]:
+    return tuple((max(low, start), high) for low, high in intervals if high > start)

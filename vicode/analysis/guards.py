@@ -1,0 +1,233 @@
+"""Which decisions of a state can be taken, and why the others cannot.
+
+The decisions of a state are a list: one is taken if its guard and those of its groups hold and no earlier one is taken.
+So a decision is dead if its own condition is impossible, and shadowed if it is impossible without those before it. Each
+verdict names what it rests on: the declared ranges without which it could not be proved, and the values of constants.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from vicode.analysis.conditions import Conditions
+from vicode.analysis.interval_diagrams import FALSE, TRUE, Node, TooLargeError
+from vicode.analysis.quantities import build_quantities
+from vicode.findings import DesignPath
+from vicode.model.design import Decision, DecisionGroup, Design
+from vicode.model.disabled import disabled_states, strip_disabled_decision
+from vicode.model.project import Project
+
+
+class Verdict(StrEnum):
+    """What is proved about a decision, or about the `else` of a group."""
+
+    NEVER_HOLDS = "never holds"
+    NEVER_TESTED = "never tested"
+    SHADOWED = "shadowed"
+    ALWAYS_HOLDS = "always holds"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Basis:
+    """What a proof rests on: declared ranges and values of constants, as text; `no_nan` if a value must not be nan."""
+
+    facts: tuple[str, ...] = ()
+    no_nan: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProvedDecision:
+    """A decision with a verdict. `earlier` are the decisions that together shadow it."""
+
+    path: DesignPath
+    verdict: Verdict
+    basis: Basis
+    earlier: tuple[DesignPath, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TestedDecision:
+    """A decision with the conditions under which it is tested and taken.
+
+    Attributes:
+        path: Its path in the design.
+        decision: The transition, stay or group.
+        within: The guards of its groups hold, or do not hold for decisions in `else`.
+        own: `within`, and its guard holds.
+        reached: No earlier decision is taken.
+    """
+
+    path: DesignPath
+    decision: Decision
+    within: Node
+    own: Node
+    reached: Node
+
+
+class GuardAnalysis:
+    """The decisions of a design, state by state.
+
+    A state of which the diagrams are too large is left out.
+
+    Args:
+        design: A design without errors.
+        conditions: Its guards as diagrams.
+    """
+
+    def __init__(self, design: Design, conditions: Conditions) -> None:
+        self.design = design
+        self.conditions = conditions
+        self._diagrams = conditions.diagrams
+        self._disabled = disabled_states(design)
+        self.common = self._list_decisions(design.common.transitions, ("common", "transitions"), TRUE)
+        self.states: dict[str, tuple[TestedDecision, ...]] = {}
+        if self.common is not None:
+            reached = self._reached_after(self.common)
+            for state in design.states:
+                listed = self._list_decisions(state.transitions, ("states", state.name, "transitions"), reached)
+                if listed is not None and not state.disabled:
+                    self.states[state.name] = listed
+
+    def taken(self, each: TestedDecision) -> Node:
+        """The values for which a transition or stay ends the decision."""
+        return self._diagrams.both(each.own, each.reached)
+
+    def remaining(self, state: str) -> Node:
+        """The values for which no decision of a state is taken."""
+        return self._reached_after((*(self.common or ()), *self.states[state]))
+
+    def is_possible(self, node: Node) -> bool:
+        """Whether a case is not proved to be impossible."""
+        return self.prove(node) is None
+
+    def prove(self, node: Node, *, may_assume_no_nan: bool = True) -> Basis | None:
+        """Prove that a case is impossible; None if it may be possible."""
+        if node == FALSE:
+            return Basis()
+        try:
+            for with_nan in (True, False) if may_assume_no_nan else (True,):
+                if self._is_excluded(node, set(), with_nan=with_nan):
+                    return self._minimal_basis(node, with_nan=with_nan)
+        except (TooLargeError, RecursionError):
+            pass
+        return None
+
+    def find_verdicts(self) -> Iterator[ProvedDecision]:
+        """Yield what is proved about the decisions, in the order of the design."""
+        yield from self._judge_all(self.common or (), ())
+        for listed in self.states.values():
+            yield from self._judge_all(listed, self.common or ())
+
+    # The list of decisions
+
+    def _list_decisions(
+        self, items: Sequence[Decision], path: DesignPath, reached: Node
+    ) -> tuple[TestedDecision, ...] | None:
+        listed: list[TestedDecision] = []
+        try:
+            self._append(listed, items, path, (TRUE, reached))
+        except (TooLargeError, RecursionError, ValueError):
+            return None
+        return tuple(listed)
+
+    def _append(
+        self, listed: list[TestedDecision], items: Sequence[Decision], path: DesignPath, conditions: tuple[Node, Node]
+    ) -> Node:
+        """Append decisions that are tested if both conditions hold; return the condition that none was taken."""
+        within, reached = conditions
+        for index, item in enumerate(items):
+            if strip_disabled_decision(item, self._disabled) is None:
+                continue
+            guard = self.conditions.of_guard(item.guard)
+            own, here = self._diagrams.both(within, guard), (*path, index)
+            listed.append(TestedDecision(path=here, decision=item, within=within, own=own, reached=reached))
+            if isinstance(item, DecisionGroup):
+                reached = self._append(listed, item.then, (*here, "then"), (own, reached))
+                otherwise = self._diagrams.without(within, guard)
+                reached = self._append(listed, item.otherwise, (*here, "else"), (otherwise, reached))
+            else:
+                reached = self._diagrams.without(reached, own)
+        return reached
+
+    def _reached_after(self, listed: Sequence[TestedDecision]) -> Node:
+        """No decision of a list is taken, nor of those before it."""
+        leaves = [each for each in listed if not isinstance(each.decision, DecisionGroup)]
+        return self._diagrams.without(leaves[-1].reached, leaves[-1].own) if leaves else TRUE
+
+    # Proofs
+
+    def _is_excluded(self, node: Node, ignored: set[int], *, with_nan: bool) -> bool:
+        possible = self.conditions.possible((node,), with_nan=with_nan, ignored=ignored)
+        return self._diagrams.both(node, possible) == FALSE
+
+    def _minimal_basis(self, node: Node, *, with_nan: bool) -> Basis:
+        ignored: set[int] = set()
+        ranges = self.conditions.levels_with_range(node)
+        for level in ranges:
+            if self._is_excluded(node, ignored | {level}, with_nan=with_nan):
+                ignored.add(level)
+        facts = tuple(self.conditions.describe_range(level) for level in ranges if level not in ignored)
+        return Basis(facts=facts, no_nan=not with_nan)
+
+    def _judge_all(
+        self, listed: Sequence[TestedDecision], before: Sequence[TestedDecision]
+    ) -> Iterator[ProvedDecision]:
+        closed: list[DesignPath] = []
+        for index, each in enumerate(listed):
+            if any(each.path[: len(path)] == path for path in closed):
+                continue
+            for verdict in self._judge(each, (*before, *listed[:index])):
+                yield verdict
+                is_group = isinstance(each.decision, DecisionGroup) and verdict.path == each.path
+                if is_group and verdict.verdict in (Verdict.NEVER_HOLDS, Verdict.SHADOWED):
+                    # Its `else` can be tested.
+                    closed.append((*verdict.path, "then"))
+                elif verdict.verdict is not Verdict.ALWAYS_HOLDS:
+                    closed.append(verdict.path)
+
+    def _judge(self, each: TestedDecision, earlier: Sequence[TestedDecision]) -> Iterator[ProvedDecision]:
+        # A guard may test for nan.
+        basis = self.prove(each.own, may_assume_no_nan=False)
+        if basis is not None:
+            yield ProvedDecision(path=each.path, verdict=Verdict.NEVER_HOLDS, basis=basis)
+            return
+        tests_nan = not self.is_possible(each.own)
+        for verdict, condition in ((Verdict.NEVER_TESTED, each.within), (Verdict.SHADOWED, each.own)):
+            rest = self._diagrams.both(condition, each.reached)
+            basis = self.prove(rest, may_assume_no_nan=not tests_nan)
+            if basis is not None:
+                culprits = self._find_culprits(condition, earlier, no_nan=basis.no_nan)
+                yield ProvedDecision(path=each.path, verdict=verdict, basis=basis, earlier=culprits)
+                return
+        basis = None if each.decision.guard.is_empty else self.prove(self._diagrams.without(each.within, each.own))
+        if basis is None and not (isinstance(each.decision, DecisionGroup) and each.decision.guard.is_empty):
+            return
+        yield ProvedDecision(path=each.path, verdict=Verdict.ALWAYS_HOLDS, basis=basis or Basis())
+        if isinstance(each.decision, DecisionGroup) and each.decision.otherwise:
+            yield ProvedDecision(
+                path=(*each.path, "else"), verdict=Verdict.NEVER_TESTED, basis=basis or Basis(), earlier=(each.path,)
+            )
+
+    def _find_culprits(
+        self, condition: Node, earlier: Sequence[TestedDecision], *, no_nan: bool
+    ) -> tuple[DesignPath, ...]:
+        """A smallest set of earlier decisions, one of which is taken whenever the condition holds."""
+        meeting = [
+            each
+            for each in earlier
+            if not isinstance(each.decision, DecisionGroup) and self._diagrams.both(each.own, condition) != FALSE
+        ]
+        needed = list(meeting)
+        for each in reversed(meeting):
+            fewer = [other for other in needed if other is not each]
+            rest = condition
+            for other in fewer:
+                rest = self._diagrams.without(rest, other.own)
+            if self.prove(rest, may_assume_no_nan=no_nan) is not None:
+                needed = fewer
+        return tuple(each.path for each in needed)
+
+
+def analyze_guards(project: Project, design: Design) -> GuardAnalysis:
+    """Analyze the decisions of a design of a project."""
+    return GuardAnalysis(design, Conditions(build_quantities(project, design)))

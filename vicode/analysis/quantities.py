@@ -1,0 +1,217 @@
+"""What guards compare: inputs, variables, times and computed values, with the values that they can have."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from vicode.analysis.interval_diagrams import AFTER_ALL, BEFORE_ALL, BEFORE_NAN, Interval, Position
+from vicode.model.design import Declaration, Design
+from vicode.model.expressions import (
+    BOOL,
+    FLOAT,
+    INT,
+    Binary,
+    Boolean,
+    Comparison,
+    Done,
+    ElapsedTime,
+    EnumElement,
+    Expr,
+    FunctionCall,
+    Logic,
+    Number,
+    OutputRef,
+    Scope,
+    StatusFlag,
+    Variable,
+    build_scope,
+    children,
+    evaluate,
+    is_type_only,
+    parse_expression,
+)
+from vicode.model.project import Project
+
+Value = bool | float | str
+
+_STORED_INTS: Interval = ((-(2**53), 0), (2**53 + 1, 0))
+_TEAM_SIZES: Interval = ((1, 0), (2**32, 0))
+NANOSECONDS = "ns"
+"""The type of the time in a state, which is a whole number of nanoseconds."""
+
+Shape = tuple[object, ...]
+"""A tree without positions in the text: equal shapes compute equal values."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Quantity:
+    """Something that has one value while the guards of a state are tested.
+
+    Attributes:
+        name: Its text in an expression.
+        type: bool, int, float, an enumeration, or `NANOSECONDS`.
+        domain: The values of its type, and those in its declared range.
+        tree: The tree that reads or computes it; None for hand-written code.
+        has_range: Whether the domain is a declared range.
+    """
+
+    name: str
+    type: str
+    domain: Interval
+    tree: Expr | None = None
+    has_range: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class QuantityTable:
+    """The declarations of a design, as far as they say which values are possible.
+
+    Attributes:
+        scope: The names of the design.
+        constants: The values of constants that cannot be tuned.
+        ns_per_unit: Nanoseconds of the unit of times.
+        is_xabsl: Whether the design divides as the XABSL engine does.
+    """
+
+    scope: Scope
+    constants: Mapping[str, Value]
+    ns_per_unit: float
+    is_xabsl: bool
+    _quantities: dict[Shape, Quantity] = field(default_factory=dict)
+
+    def value_of(self, node: Expr) -> Value | None:
+        """The value of an expression of constants; None if it depends on anything else."""
+        return evaluate(node, self.constants, xabsl_arithmetic=self.is_xabsl)
+
+    def elements(self, type_: str) -> tuple[str, ...]:
+        return self.scope.enumerations.get(type_, ())
+
+    def quantity(self, node: Expr, text: str = "") -> Quantity:
+        """The quantity of a tree, with the range of the declaration that it reads."""
+        shape = shape_of(node)
+        if shape not in self._quantities:
+            self._quantities[shape] = self._describe(node, text or name_of(node))
+        return self._quantities[shape]
+
+    def declaration(self, node: Expr) -> Declaration | None:
+        """The declaration of what a tree reads."""
+        match node:
+            case Variable(name=name):
+                symbol = self.scope.symbols.get(name)
+                return symbol.declaration if symbol else None
+            case OutputRef(alias=alias, output=output):
+                interface = self.scope.uses.get(alias)
+                return interface.output(output) if interface else None
+            case _:
+                return None
+
+    def _describe(self, node: Expr, name: str) -> Quantity:
+        if isinstance(node, ElapsedTime):
+            is_state = node.kind == "state"
+            domain: Interval = ((0, 0), BEFORE_NAN)
+            return Quantity(name=name, type=NANOSECONDS if is_state else FLOAT, domain=domain, tree=node)
+        if isinstance(node, StatusFlag) and node.type == INT:
+            return Quantity(name=name, type=INT, domain=_TEAM_SIZES, tree=node)
+        declared = self.declaration(node)
+        if declared is not None and declared.range is not None and node.type in (INT, FLOAT):
+            low, high = declared.range
+            domain = ((low, 0), (high, 1))
+            if node.type == INT:
+                domain = (before_whole(domain[0]), before_whole(domain[1]))
+            return Quantity(name=name, type=node.type, domain=domain, tree=node, has_range=True)
+        return Quantity(name=name, type=node.type, domain=self.domain_of_type(node.type), tree=node)
+
+    def domain_of_type(self, type_: str) -> Interval:
+        if type_ == INT:
+            return _STORED_INTS
+        if type_ == FLOAT:
+            return (BEFORE_ALL, AFTER_ALL)
+        return ((0, 0), (2 if type_ == BOOL else max(1, len(self.elements(type_))), 0))
+
+
+def before_whole(position: Position) -> Position:
+    """The position before the first whole number that is after a position."""
+    number, side = position
+    if math.isinf(number):
+        return position
+    return (math.ceil(number), 0) if side == 0 else (math.floor(number) + 1, 0)
+
+
+def is_leaf(node: Expr) -> bool:
+    """Whether a tree reads one value, whose cells can be related to those of computed values."""
+    match node:
+        case OutputRef(arguments=arguments):
+            return arguments is None
+        case Variable() | ElapsedTime() | StatusFlag() | Done():
+            return True
+        case _:
+            return False
+
+
+def shape_of(node: Expr) -> Shape:
+    """Return the shape of a tree."""
+    return (type(node).__name__, _attribute(node), *map(shape_of, children(node)))
+
+
+def _attribute(node: Expr) -> object:
+    match node:
+        case Number(value=value) | Boolean(value=value):
+            return (type(value).__name__, value)
+        case EnumElement(type=type_, element=element):
+            return (type_, element)
+        case OutputRef(alias=alias, output=output, arguments=pairs):
+            return (alias, output, *(name for name, _value in pairs or ()))
+        case Variable(name=of) | StatusFlag(name=of) | ElapsedTime(kind=of) | Done(alias=of):
+            return of
+        case Binary(operator=of) | Logic(operator=of) | FunctionCall(function=of):
+            return of
+        case Comparison(operators=operators):
+            return operators
+        case _:
+            return None
+
+
+def name_of(node: Expr) -> str:
+    """The text of what a tree reads; "" for computed values."""
+    match node:
+        case Variable(name=name) | StatusFlag(name=name):
+            return name
+        case ElapsedTime(kind=kind):
+            return f"{kind}_time"
+        case Done(alias=alias):
+            return f"done({alias})"
+        case OutputRef(alias=alias, output=output):
+            return f"{alias}.{output}"
+        case _:
+            return ""
+
+
+def build_quantities(project: Project, design: Design) -> QuantityTable:
+    """Build the table of a design of a project."""
+    scope = build_scope(project, design)
+    constants: dict[str, Value] = {}
+    for constant in project.constants:
+        value = initial_value(constant, scope, constants)
+        if value is not None and not constant.tunable:
+            constants[constant.name] = value
+    return QuantityTable(
+        scope=scope,
+        constants=constants,
+        ns_per_unit=1e6 if design.time_unit == "ms" else 1e9,
+        is_xabsl=design.arithmetic == "xabsl",
+    )
+
+
+def initial_value(declaration: Declaration, scope: Scope, constants: Mapping[str, Value]) -> Value | None:
+    """The value of a declaration at the start; None if its expression has errors."""
+    type_ = scope.type_of(declaration)
+    if not declaration.initial or is_type_only(declaration, scope):
+        elements = scope.enumerations.get(type_, ())
+        return {BOOL: False, INT: 0, FLOAT: 0.0}.get(type_, elements[0] if elements else None)
+    parsed = parse_expression(declaration.initial, scope, type_)
+    if parsed.tree is None or parsed.diagnostics:
+        return None
+    value = evaluate(parsed.tree, constants)
+    if type_ == FLOAT and isinstance(value, int):
+        return float(value)
+    return None if isinstance(value, float) and math.isnan(value) else value
