@@ -137,6 +137,13 @@ def test_a_range_on_which_a_proof_rests_is_named() -> None:
     assert judge("n + 1 > b + 20") == [(0, Verdict.NEVER_HOLDS, (), Basis(facts=("b from 0 to 10", "n from 0 to 3")))]
 
 
+def test_a_constant_on_which_a_proof_rests_is_named() -> None:
+    assert judge("x > NEAR and x < 2") == [(0, Verdict.NEVER_HOLDS, (), Basis(facts=("NEAR is 2.5",)))]
+    assert judge("x > NEAR and seen and x < NEAR and not seen") == [(0, Verdict.NEVER_HOLDS, (), Basis())]
+    shadowed = judge("x > NEAR", "x > FAR")
+    assert shadowed == [(1, Verdict.SHADOWED, (0,), Basis(facts=("NEAR is 2.5", "FAR is 5.0")))]
+
+
 def test_earlier_decisions_that_shadow_one_are_named() -> None:
     assert judge("a > 5", "seen", "a > 7")[0][:3] == (2, Verdict.SHADOWED, (0,))
     assert judge("n < 1", "seen", "n > 1", "n == 1", "not seen")[0][:3] == (4, Verdict.NEVER_TESTED, (0, 2, 3))

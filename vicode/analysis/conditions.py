@@ -38,6 +38,7 @@ from vicode.model.expressions import (
     Not,
     Number,
     Ternary,
+    Variable,
     parse_expression,
     walk,
 )
@@ -81,32 +82,31 @@ class Conditions:
         self.quantities: dict[int, Quantity] = {STATE_TIME: table.quantity(_STATE_TIME, "state_time")}
         self._levels: dict[Shape, int] = {shape_of(_STATE_TIME): STATE_TIME}
         self._computed: dict[int, _Computed] = {}
-        self._texts: dict[str, Node] = {}
-        self._relations: dict[tuple[frozenset[int], bool], Node] = {}
+        self._texts: dict[tuple[str, str], Node] = {}
+        self.unknown = self._add_unknown()
 
     def of_guard(self, guard: Guard) -> Node:
         """The diagram of a guard.
 
         Raises:
             TooLargeError: The diagram has too many nodes.
-            ValueError: An expression has errors.
         """
-        node = TRUE
-        if guard.after:
-            node = self._of_timer(guard.after)
+        node = self._of_text(guard.after, FLOAT) if guard.after else TRUE
         if guard.when:
-            node = self.diagrams.both(node, self.of_text(guard.when))
-        return node if guard.code is None else self.diagrams.both(node, self._of_code())
+            node = self.diagrams.both(node, self._of_text(guard.when, BOOL))
+        # Hand-written code may give another result each time.
+        return node if guard.code is None else self.diagrams.both(node, self._add_unknown())
 
-    def of_text(self, text: str) -> Node:
-        """The diagram of an expression; see `of_guard`."""
-        if text not in self._texts:
-            self._texts[text] = self._of(self._parse(text, BOOL))
-        return self._texts[text]
-
-    def is_opaque(self, level: int) -> bool:
-        """Whether nothing is known about how a quantity depends on the others."""
-        return level >= _FIRST_COMPUTED and not self._computed[level].reads
+    def _of_text(self, text: str, type_: str) -> Node:
+        """The diagram of an expression, or of the timer that it sets; an expression with errors can be anything."""
+        if (text, type_) not in self._texts:
+            parsed = parse_expression(text, self.table.scope, type_)
+            if parsed.tree is None or parsed.diagnostics:
+                node = self._add_unknown()
+            else:
+                node = self._of(parsed.tree) if type_ == BOOL else self._of_timer(parsed.tree)
+            self._texts[text, type_] = node
+        return self._texts[text, type_]
 
     def possible(self, nodes: Collection[Node], *, with_nan: bool, ignored: Collection[int] = ()) -> Node:
         """The values that what some diagrams test can have together.
@@ -141,21 +141,22 @@ class Conditions:
         (low, _), (high, side) = quantity.domain
         return f"{quantity.name} from {low:g} to {high - (quantity.type == INT and side == 0):g}"
 
+    def describe_constants(self, guards: Iterable[Guard]) -> tuple[str, ...]:
+        """The values of the constants in guards as text, such as "LIMIT is 3"."""
+        texts = (text for guard in guards for text in (guard.when, guard.after) if text)
+        trees = (parse_expression(text, self.table.scope, None).tree for text in texts)
+        nodes = (node for tree in trees if tree is not None for node in walk(tree))
+        names = dict.fromkeys(node.name for node in nodes if isinstance(node, Variable))
+        return tuple(f"{name} is {self.table.constants[name]}" for name in names if name in self.table.constants)
+
     def _domain(self, level: int, *, with_nan: bool, is_ignored: bool) -> Interval:
         quantity = self.quantities[level]
         low, high = self.table.domain_of_type(quantity.type) if is_ignored else quantity.domain
         return (low, high if with_nan else min(high, BEFORE_NAN))
 
-    def _parse(self, text: str, expected: str) -> Expr:
-        parsed = parse_expression(text, self.table.scope, expected)
-        if parsed.tree is None or parsed.diagnostics:
-            raise ValueError(text)
-        return parsed.tree
-
     # Guards
 
-    def _of_timer(self, after: str) -> Node:
-        tree = self._parse(after, FLOAT)
+    def _of_timer(self, tree: Expr) -> Node:
         value = self.table.value_of(tree)
         if not isinstance(value, int | float):
             return self._compare(_STATE_TIME, ">=", tree)
@@ -164,10 +165,10 @@ class Conditions:
             return FALSE
         return self._test(STATE_TIME, Region(intervals=(((round(ns) if math.isfinite(ns) else ns, 0), BEFORE_NAN),)))
 
-    def _of_code(self) -> Node:
-        """Hand-written code may give another result each time."""
+    def _add_unknown(self) -> Node:
+        """A condition about which nothing is known."""
         level = _FIRST_COMPUTED + len(self._computed)
-        self.quantities[level] = Quantity(name="code", type=BOOL, domain=((0, 0), (2, 0)))
+        self.quantities[level] = Quantity(name="", type=BOOL, domain=((0, 0), (2, 0)))
         self._computed[level] = _Computed(reads=(), trees=())
         return self._test_bool(level)
 
@@ -222,6 +223,8 @@ class Conditions:
         if left.type == BOOL:
             a, b = self._of(left), self._of(right)
             equal = self.diagrams.if_then_else(a, b, self.diagrams.negate(b))
+        elif not self.table.elements(left.type):
+            return self._add_unknown()
         else:
             elements = self.table.elements(left.type)
             pairs = ((self._is_element(left, each), self._is_element(right, each)) for each in elements)

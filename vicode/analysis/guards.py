@@ -5,15 +5,16 @@ So a decision is dead if its own condition is impossible, and shadowed if it is 
 verdict names what it rests on: the declared ranges without which it could not be proved, and the values of constants.
 """
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import cached_property
 
 from vicode.analysis.conditions import Conditions
 from vicode.analysis.interval_diagrams import FALSE, TRUE, Node, TooLargeError
 from vicode.analysis.quantities import build_quantities
 from vicode.findings import DesignPath
-from vicode.model.design import Decision, DecisionGroup, Design
+from vicode.model.design import Decision, DecisionGroup, Design, Stay, Transition
 from vicode.model.disabled import disabled_states, strip_disabled_decision
 from vicode.model.project import Project
 
@@ -67,10 +68,10 @@ class TestedDecision:
 class GuardAnalysis:
     """The decisions of a design, state by state.
 
-    A state of which the diagrams are too large is left out.
+    A guard with errors can be anything, and so can all guards of a state of which the diagrams are too large.
 
     Args:
-        design: A design without errors.
+        design: The design.
         conditions: Its guards as diagrams.
     """
 
@@ -80,13 +81,12 @@ class GuardAnalysis:
         self._diagrams = conditions.diagrams
         self._disabled = disabled_states(design)
         self.common = self._list_decisions(design.common.transitions, ("common", "transitions"), TRUE)
-        self.states: dict[str, tuple[TestedDecision, ...]] = {}
-        if self.common is not None:
-            reached = self._reached_after(self.common)
-            for state in design.states:
-                listed = self._list_decisions(state.transitions, ("states", state.name, "transitions"), reached)
-                if listed is not None and not state.disabled:
-                    self.states[state.name] = listed
+        reached = self._reached_after(self.common)
+        self.states: Mapping[str, tuple[TestedDecision, ...]] = {
+            state.name: self._list_decisions(state.transitions, ("states", state.name, "transitions"), reached)
+            for state in design.states
+            if not state.disabled
+        }
 
     def taken(self, each: TestedDecision) -> Node:
         """The values for which a transition or stay ends the decision."""
@@ -94,7 +94,7 @@ class GuardAnalysis:
 
     def remaining(self, state: str) -> Node:
         """The values for which no decision of a state is taken."""
-        return self._reached_after((*(self.common or ()), *self.states[state]))
+        return self._reached_after((*self.common, *self.states[state]))
 
     def is_possible(self, node: Node) -> bool:
         """Whether a case is not proved to be impossible."""
@@ -105,30 +105,54 @@ class GuardAnalysis:
         if node == FALSE:
             return Basis()
         try:
-            for with_nan in (True, False) if may_assume_no_nan else (True,):
-                if self._is_excluded(node, set(), with_nan=with_nan):
-                    return self._minimal_basis(node, with_nan=with_nan)
+            if not self._is_excluded(node, set(), with_nan=False):
+                return None
+            with_nan = self._is_excluded(node, set(), with_nan=True)
+            return self._minimal_basis(node, with_nan=with_nan) if with_nan or may_assume_no_nan else None
         except (TooLargeError, RecursionError):
-            pass
-        return None
+            return None
 
     def find_verdicts(self) -> Iterator[ProvedDecision]:
         """Yield what is proved about the decisions, in the order of the design."""
-        yield from self._judge_all(self.common or (), ())
-        for listed in self.states.values():
-            yield from self._judge_all(listed, self.common or ())
+        yield from self._judge_all(self.common, ())
+        for state in self.states:
+            yield from self.judge_state(state)
+
+    def judge_state(self, state: str) -> Iterator[ProvedDecision]:
+        """Yield what is proved about the decisions of a state, in their order."""
+        return self._judge_all(self.states[state], self.common)
+
+    @cached_property
+    def _proved_without_constants(self) -> frozenset[tuple[DesignPath, Verdict]]:
+        table = replace(self.conditions.table, constants={})
+        verdicts = GuardAnalysis(self.design, Conditions(table)).find_verdicts()
+        return frozenset((each.path, each.verdict) for each in verdicts)
 
     # The list of decisions
 
-    def _list_decisions(
-        self, items: Sequence[Decision], path: DesignPath, reached: Node
-    ) -> tuple[TestedDecision, ...] | None:
+    def _list_decisions(self, items: Sequence[Decision], path: DesignPath, reached: Node) -> tuple[TestedDecision, ...]:
         listed: list[TestedDecision] = []
         try:
             self._append(listed, items, path, (TRUE, reached))
-        except (TooLargeError, RecursionError, ValueError):
-            return None
+        except (TooLargeError, RecursionError):
+            unknown = self.conditions.unknown
+            return tuple(
+                TestedDecision(path=where, decision=item, within=TRUE, own=unknown, reached=TRUE)
+                for where, item in self._iterate_enabled(items, path)
+            )
         return tuple(listed)
+
+    def _iterate_enabled(
+        self, items: Sequence[Decision], path: DesignPath
+    ) -> Iterator[tuple[DesignPath, Transition | Stay]]:
+        for index, item in enumerate(items):
+            if strip_disabled_decision(item, self._disabled) is None:
+                continue
+            if isinstance(item, DecisionGroup):
+                yield from self._iterate_enabled(item.then, (*path, index, "then"))
+                yield from self._iterate_enabled(item.otherwise, (*path, index, "else"))
+            else:
+                yield (*path, index), item
 
     def _append(
         self, listed: list[TestedDecision], items: Sequence[Decision], path: DesignPath, conditions: tuple[Node, Node]
@@ -176,8 +200,9 @@ class GuardAnalysis:
         for index, each in enumerate(listed):
             if any(each.path[: len(path)] == path for path in closed):
                 continue
-            for verdict in self._judge(each, (*before, *listed[:index])):
-                yield verdict
+            earlier = (*before, *listed[:index])
+            for verdict in self._judge(each, earlier):
+                yield self._with_constants(verdict, (*earlier, each))
                 is_group = isinstance(each.decision, DecisionGroup) and verdict.path == each.path
                 if is_group and verdict.verdict in (Verdict.NEVER_HOLDS, Verdict.SHADOWED):
                     # Its `else` can be tested.
@@ -186,18 +211,10 @@ class GuardAnalysis:
                     closed.append(verdict.path)
 
     def _judge(self, each: TestedDecision, earlier: Sequence[TestedDecision]) -> Iterator[ProvedDecision]:
-        # A guard may test for nan.
-        basis = self.prove(each.own, may_assume_no_nan=False)
-        if basis is not None:
-            yield ProvedDecision(path=each.path, verdict=Verdict.NEVER_HOLDS, basis=basis)
-            return
-        tests_nan = not self.is_possible(each.own)
-        for verdict, condition in ((Verdict.NEVER_TESTED, each.within), (Verdict.SHADOWED, each.own)):
-            rest = self._diagrams.both(condition, each.reached)
-            basis = self.prove(rest, may_assume_no_nan=not tests_nan)
-            if basis is not None:
-                culprits = self._find_culprits(condition, earlier, no_nan=basis.no_nan)
-                yield ProvedDecision(path=each.path, verdict=verdict, basis=basis, earlier=culprits)
+        if not self.is_possible(self.taken(each)):
+            proved = self._judge_dead(each, earlier)
+            if proved is not None:
+                yield proved
                 return
         basis = None if each.decision.guard.is_empty else self.prove(self._diagrams.without(each.within, each.own))
         if basis is None and not (isinstance(each.decision, DecisionGroup) and each.decision.guard.is_empty):
@@ -207,6 +224,31 @@ class GuardAnalysis:
             yield ProvedDecision(
                 path=(*each.path, "else"), verdict=Verdict.NEVER_TESTED, basis=basis or Basis(), earlier=(each.path,)
             )
+
+    def _judge_dead(self, each: TestedDecision, earlier: Sequence[TestedDecision]) -> ProvedDecision | None:
+        """Why a decision is never taken; None if it may be taken for nan, for which its guard may test."""
+        basis = self.prove(each.own, may_assume_no_nan=False)
+        if basis is not None:
+            return ProvedDecision(path=each.path, verdict=Verdict.NEVER_HOLDS, basis=basis)
+        tests_nan = not self.is_possible(each.own)
+        for verdict, condition in ((Verdict.NEVER_TESTED, each.within), (Verdict.SHADOWED, each.own)):
+            rest = self._diagrams.both(condition, each.reached)
+            basis = self.prove(rest, may_assume_no_nan=not tests_nan)
+            if basis is not None:
+                culprits = self._find_culprits(condition, earlier, no_nan=basis.no_nan)
+                return ProvedDecision(path=each.path, verdict=verdict, basis=basis, earlier=culprits)
+        return None
+
+    def _with_constants(self, proved: ProvedDecision, listed: Sequence[TestedDecision]) -> ProvedDecision:
+        """Add the constants and unset variables in the guards on which a proof rests."""
+        paths = (proved.path, *proved.earlier)
+        concerned = (
+            each.decision.guard for each in listed if any(path[: len(each.path)] == each.path for path in paths)
+        )
+        facts = self.conditions.describe_constants(concerned)
+        if not facts or (proved.path, proved.verdict) in self._proved_without_constants:
+            return proved
+        return replace(proved, basis=replace(proved.basis, facts=(*proved.basis.facts, *facts)))
 
     def _find_culprits(
         self, condition: Node, earlier: Sequence[TestedDecision], *, no_nan: bool

@@ -158,5 +158,5 @@ RULES = (
     find_missing_languages,
     find_unknown_languages,
     find_empty_predicates,
-    find_hidden_methods,
 )
+WARNINGS = (find_hidden_methods,)

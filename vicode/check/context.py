@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from vicode.analysis.machines import MachineAnalysis
 from vicode.check.graphs import ComponentGraphs, StepSite, build_graphs, iter_steps
 from vicode.check.identifiers_in_text import find_identifiers
 from vicode.check.typed_expressions import TypedExpression, parse_expressions
@@ -30,6 +31,7 @@ class RuleContext:
     disabled_states: frozenset[str]
     code_identifiers: frozenset[str]
     """All identifiers in hand-written code."""
+    machine: MachineAnalysis
 
     def make_subject(self, path: DesignPath, span: Span | None = None, *, is_key: bool = False) -> FindingSubject:
         return FindingSubject(component=self.design.component, path=path, span=span, is_key=is_key)
@@ -73,6 +75,7 @@ def build_context_with_graphs(project: Project, design: Design, graphs: Componen
         expressions=tuple(parse_expressions(design, scope, decisions, actions)),
         steps=tuple(iter_steps(design)),
         disabled_states=disabled_states(design),
+        machine=MachineAnalysis(project, design),
         code_identifiers=find_identifiers("\n".join(text for placed in codes for _language, text in placed.code.texts)),
     )
 

@@ -1,33 +1,86 @@
-"""Rules for decisions: shadowed transitions and transitions without effect."""
+"""Rules for decisions: transitions that are never taken, guards that always hold, transitions without effect."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 
+from vicode.analysis.guards import Basis, ProvedDecision, Verdict
 from vicode.check.context import RuleContext
-from vicode.check.typed_expressions import analyze_expression
+from vicode.check.identifiers_in_text import find_identifiers
 from vicode.findings import DesignPath, Finding, Note
-from vicode.model.design import Decision, DecisionGroup, Guard, Transition
-from vicode.model.disabled import strip_disabled_decision
-from vicode.model.expressions import BOOL, FLOAT, Value, evaluate
-from vicode.model.traversal import is_exhaustive
+from vicode.model.design import Guard, Transition
+from vicode.model.traversal import find_decision
+
+_ALWAYS = "this decision always holds"
+_MOVE = "move it before the earlier ones, or delete it"
 
 
-def find_shadowed_transitions(context: RuleContext) -> Iterator[Finding]:
-    """D423: decisions that are never tested because an earlier one always holds."""
-    design = context.design
-    yield from _find_shadowed(context, design.common.transitions, ("common", "transitions"))
-    ending = _first_exhaustive(context, design.common.transitions)
-    for state in (state for state in design.states if not state.disabled):
-        path = ("states", state.name, "transitions")
-        if ending is None:
-            yield from _find_shadowed(context, state.transitions, path)
-        elif state.transitions:
-            message = f"the transitions of '{state.name}' are never tested"
-            note = Note(
-                message="this common transition always holds",
-                subject=context.make_subject(("common", "transitions", ending)),
-            )
-            yield context.make_finding("D423", path, message, "add a guard to the common transition", notes=[note])
+def find_dead_decisions(context: RuleContext) -> Iterator[Finding]:
+    """D423, D433, D434: decisions that are never tested or taken, and guards that always hold."""
+    guards = context.machine.guards
+    hidden = {name for name, listed in guards.states.items() if listed and not guards.is_possible(listed[0].reached)}
+    for name in hidden:
+        yield _report_hidden_state(context, name)
+    for proved in guards.find_verdicts():
+        if proved.path[0] != "states" or proved.path[1] not in hidden:
+            yield from _report(context, proved)
+
+
+def _report_hidden_state(context: RuleContext, name: str) -> Finding:
+    """Common transitions precede those of the state."""
+    path: DesignPath = ("states", name, "transitions")
+    proved = next(context.machine.guards.judge_state(name))
+    message = f"the transitions of '{name}' are never tested{_because(proved.basis)}"
+    notes = _notes(context, proved.earlier, "this common transition always holds")
+    return context.make_finding("D423", path, message, "add a guard to the common transition", notes=notes)
+
+
+def _report(context: RuleContext, proved: ProvedDecision) -> Iterator[Finding]:
+    path, because = proved.path, _because(proved.basis)
+    match proved.verdict:
+        case Verdict.NEVER_HOLDS:
+            fix = "change the guard, or delete the decision"
+            yield context.make_finding("D433", path, f"this guard never holds{because}", fix)
+        case Verdict.ALWAYS_HOLDS:
+            located = find_decision(context.design, path)
+            if located is not None and _reads_values(located.decision.guard):
+                yield context.make_finding(
+                    "D434", path, f"this guard always holds{because}", "change the guard, or remove it"
+                )
+        case Verdict.NEVER_TESTED if path[-1] == "else":
+            yield _report_branch(context, proved)
+        case Verdict.NEVER_TESTED:
+            is_one = len(proved.earlier) == 1
+            notes = _notes(context, proved.earlier, _ALWAYS if is_one else "one of these decisions always holds")
+            fix = "add a guard to the earlier decision, or move it after this one" if is_one else _MOVE
+            yield context.make_finding("D423", path, f"this decision is never tested{because}", fix, notes=notes)
+        case Verdict.SHADOWED:
+            which = "an earlier one" if len(proved.earlier) == 1 else "one of the earlier ones"
+            message = f"this decision is never taken: whenever its guard holds, {which} does{because}"
+            notes = _notes(context, proved.earlier, "this decision is taken instead")
+            yield context.make_finding("D423", path, message, _MOVE, notes=notes)
+
+
+def _report_branch(context: RuleContext, proved: ProvedDecision) -> Finding:
+    located = find_decision(context.design, proved.path[:-1])
+    is_empty = located is None or located.decision.guard.is_empty
+    reason = "the group has no guard" if is_empty else f"the guard always holds{_because(proved.basis)}"
+    fix = f"{'add a guard to' if is_empty else 'change the guard of'} the group, or delete its 'else'"
+    return context.make_finding("D423", proved.path, f"'else' is never tested: {reason}", fix)
+
+
+def _reads_values(guard: Guard) -> bool:
+    """Whether a guard that always holds is more than a literal such as True."""
+    names = find_identifiers(f"{guard.when} {guard.after}")
+    return bool(set(names) - {"True", "False", "true", "false", "and", "or", "not"})
+
+
+def _notes(context: RuleContext, earlier: tuple[DesignPath, ...], message: str) -> list[Note]:
+    return [Note(message=message, subject=context.make_subject(path)) for path in earlier]
+
+
+def _because(basis: Basis) -> str:
+    """What a proof rests on, as the end of a message."""
+    facts = [*basis.facts, *(["no value is nan"] if basis.no_nan else [])]
+    return f" ({', '.join(facts)})" if facts else ""
 
 
 def find_self_transitions(context: RuleContext) -> Iterator[Finding]:
@@ -41,62 +94,4 @@ def find_self_transitions(context: RuleContext) -> Iterator[Finding]:
             )
 
 
-def _first_exhaustive(context: RuleContext, items: tuple[Decision, ...]) -> int | None:
-    enabled = (strip_disabled_decision(item, context.disabled_states) for item in items)
-    return next(
-        (
-            index
-            for index, item in enumerate(enabled)
-            if item is not None and is_exhaustive(_strip_true_guards(context, item))
-        ),
-        None,
-    )
-
-
-def _strip_true_guards(context: RuleContext, item: Decision) -> Decision:
-    """Remove the guards that always hold, such as `after: 0`."""
-    if isinstance(item, DecisionGroup):
-        then, otherwise = (
-            tuple(_strip_true_guards(context, each) for each in items) for items in (item.then, item.otherwise)
-        )
-        item = replace(item, then=then, otherwise=otherwise)
-    return replace(item, guard=Guard()) if _always_holds(context, item.guard) else item
-
-
-def _always_holds(context: RuleContext, guard: Guard) -> bool:
-    """Whether a guard holds whatever the values are. Constants count as unknown: viewers of a robot can change them."""
-    is_when_true = not guard.when or _evaluate(context, guard.when, BOOL) is True
-    is_after_zero = not guard.after or _evaluate(context, guard.after, FLOAT) == 0
-    return guard.code is None and is_when_true and is_after_zero
-
-
-def _evaluate(context: RuleContext, text: str, type_: str) -> Value | None:
-    parsed = analyze_expression(text, context.scope, type_)
-    return None if parsed.tree is None or parsed.diagnostics else evaluate(parsed.tree, {})
-
-
-def _find_shadowed(context: RuleContext, items: tuple[Decision, ...], path: DesignPath) -> Iterator[Finding]:
-    ending = _first_exhaustive(context, items)
-    for index, item in enumerate(items):
-        if strip_disabled_decision(item, context.disabled_states) is None:
-            continue
-        if ending is not None and index > ending:
-            note = Note(message="this decision always holds", subject=context.make_subject((*path, ending)))
-            fix = "add a guard to the earlier decision, or move it after this one"
-            yield context.make_finding("D423", (*path, index), "this decision is never tested", fix, notes=[note])
-        elif isinstance(item, DecisionGroup):
-            yield from _find_shadowed_in_group(context, item, (*path, index))
-
-
-def _find_shadowed_in_group(context: RuleContext, group: DecisionGroup, path: DesignPath) -> Iterator[Finding]:
-    yield from _find_shadowed(context, group.then, (*path, "then"))
-    if _always_holds(context, group.guard) and group.otherwise:
-        is_empty = group.guard.is_empty
-        message = f"'else' is never tested: {'the group has no guard' if is_empty else 'the guard always holds'}"
-        fix = f"{'add a guard to' if is_empty else 'change the guard of'} the group, or delete its 'else'"
-        yield context.make_finding("D423", (*path, "else"), message, fix)
-    else:
-        yield from _find_shadowed(context, group.otherwise, (*path, "else"))
-
-
-RULES = (find_shadowed_transitions, find_self_transitions)
+WARNINGS = (find_dead_decisions, find_self_transitions)

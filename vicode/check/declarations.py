@@ -93,9 +93,5 @@ def find_unused_declarations(context: RuleContext) -> Iterator[Finding]:
         yield context.make_finding("D424", (section, name), message, "use it or delete it", is_key=True)
 
 
-RULES = (
-    find_bad_declarations,
-    find_bad_frequency,
-    find_out_of_range_values,
-    find_unused_declarations,
-)
+RULES = (find_bad_declarations, find_bad_frequency)
+WARNINGS = (find_out_of_range_values, find_unused_declarations)

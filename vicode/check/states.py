@@ -65,10 +65,13 @@ def find_unreachable_states(context: RuleContext) -> Iterator[Finding]:
     design = context.design
     if not design.state(design.initial) or design.initial in context.disabled_states:
         return
-    reachable = _reachable_states(context, _targets(context))
+    targets = _targets(context)
+    drawn = _reachable_states(context, targets)
     for state in design.states:
-        if state.name not in reachable and not state.disabled:
+        if state.name not in context.machine.reachable and not state.disabled:
             message = f"'{state.name}' is unreachable from the initial state '{design.initial}'"
+            if state.name in drawn:
+                message = f"{message}: no transition on the way to it can be taken"
             fix = "add a transition to it, or delete it"
             yield context.make_finding("D421", ("states", state.name), message, fix, is_key=True)
 
@@ -78,14 +81,17 @@ def find_dead_ends(context: RuleContext) -> Iterator[Finding]:
     design = context.design
     if len(design.states) - len(context.disabled_states) < 2:
         return
+    machine = context.machine
+    candidates = machine.reachable if design.state(design.initial) else _state_names(context)
     targets = _targets(context)
-    candidates = _reachable_states(context, targets) if design.state(design.initial) else _state_names(context)
     for state in design.states:
-        exits = (targets[state.name] | targets[COMMON]) - {state.name}
-        if not exits and not (state.final or state.disabled) and state.name in candidates:
-            message = f"'{state.name}' is a dead end: it has no transition to another state and is not final"
-            fix = "add a transition, or set final: true"
-            yield context.make_finding("D422", ("states", state.name), message, fix, is_key=True)
+        if machine.live.get(state.name) or state.final or state.disabled or state.name not in candidates:
+            continue
+        has_exits = bool((targets[state.name] | targets[COMMON]) - {state.name})
+        reason = "none of its transitions can be taken" if has_exits else "it has no transition to another state"
+        message = f"'{state.name}' is a dead end: {reason} and {'it ' if has_exits else ''}is not final"
+        fix = "add a transition, or set final: true"
+        yield context.make_finding("D422", ("states", state.name), message, fix, is_key=True)
 
 
 def _state_names(context: RuleContext) -> set[str]:
@@ -126,7 +132,5 @@ RULES = (
     find_no_initial_state,
     find_disabled_initial_state,
     find_unknown_states,
-    find_bad_frames,
-    find_unreachable_states,
-    find_dead_ends,
 )
+WARNINGS = (find_bad_frames, find_unreachable_states, find_dead_ends)

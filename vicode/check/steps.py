@@ -178,4 +178,4 @@ def _stepped_by_code(context: RuleContext) -> set[str]:
     return {component for component, call in calls if any(map(call.search, texts))}
 
 
-RULES = (find_stepped_twice, find_unstepped_reads)
+WARNINGS = (find_stepped_twice, find_unstepped_reads)

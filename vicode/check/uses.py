@@ -95,5 +95,5 @@ RULES = (
     find_misplaced_calls,
     find_unknown_parameters,
     find_cycles,
-    find_unused_uses,
 )
+WARNINGS = (find_unused_uses,)

@@ -97,7 +97,7 @@ _RECORDS = (
     ("D418", "disabled-initial-state", Severity.ERROR, "disabled initial state"),
     ("D421", "unreachable-state", Severity.WARNING, "unreachable state"),
     ("D422", "dead-end", Severity.WARNING, "state without exit that is not final"),
-    ("D423", "shadowed-transition", Severity.WARNING, "transition that is never tested"),
+    ("D423", "shadowed-transition", Severity.WARNING, "transition that is never taken because of earlier ones"),
     ("D424", "unused-declaration", Severity.WARNING, "unused declaration"),
     ("D425", "stepped-twice", Severity.WARNING, "component stepped twice in an iteration"),
     ("D426", "not-stepped", Severity.WARNING, "output read where nothing steps its component"),
@@ -106,6 +106,8 @@ _RECORDS = (
     ("D430", "no-effect", Severity.NOTE, "transition from a state to itself"),
     ("D431", "bad-frame", Severity.WARNING, "frame without states or around an unknown state"),
     ("D432", "hidden-method", Severity.WARNING, "method in class code that hides a generated one"),
+    ("D433", "impossible-guard", Severity.WARNING, "guard that never holds"),
+    ("D434", "needless-guard", Severity.NOTE, "guard that always holds"),
     # XABSL as a target language
     ("L701", "not-in-xabsl", Severity.ERROR, "feature that XABSL does not support"),
     ("L702", "other-result-in-xabsl", Severity.ERROR, "expression with a different result in XABSL"),

@@ -1,0 +1,120 @@
+"""What guards mean for the state machine: which states can be active, and for how long.
+
+A transition is live if it is not proved that it can never be taken. The graph of live transitions contains every change
+of state that is possible, and possibly more: a state that it does not reach is never active.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from vicode.analysis.conditions import STATE_TIME
+from vicode.analysis.guards import GuardAnalysis, analyze_guards
+from vicode.analysis.interval_diagrams import BEFORE_NAN, FALSE, TRUE, Interval, Node, TooLargeError
+from vicode.findings import DesignPath
+from vicode.model.design import Design, State, Transition
+from vicode.model.project import Project
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LiveTransition:
+    """A transition that may be taken.
+
+    Attributes:
+        path: Its path in the design.
+        target: Another state.
+        taken: The values for which it is taken.
+    """
+
+    path: DesignPath
+    target: str
+    taken: Node
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TimeInState:
+    """How long a state is active, by the times at which its guards are tested.
+
+    Attributes:
+        at_least_ns: No transition is taken before this time, whatever the inputs are.
+        at_most_ns: From this time on, some transition is taken, whatever the inputs are; None if none has to be.
+    """
+
+    at_least_ns: int
+    at_most_ns: int | None
+
+
+class MachineAnalysis:
+    """The live transitions of a design; everything is computed when it is asked for.
+
+    Args:
+        project: The project.
+        design: One of its designs, which may have errors.
+    """
+
+    def __init__(self, project: Project, design: Design) -> None:
+        self._project = project
+        self.design = design
+
+    @cached_property
+    def guards(self) -> GuardAnalysis:
+        """The decisions of the design."""
+        return analyze_guards(self._project, self.design)
+
+    @cached_property
+    def live(self) -> Mapping[str, tuple[LiveTransition, ...]]:
+        """The live transitions of each enabled state, common ones included."""
+        return {state.name: tuple(self._find_live(state)) for state in self.design.states if not state.disabled}
+
+    @cached_property
+    def reachable(self) -> frozenset[str]:
+        """The states that may become active."""
+        pending, reachable = [self.design.initial], set[str]()
+        while pending:
+            name = pending.pop()
+            if name not in reachable and name in self.live:
+                reachable.add(name)
+                pending += (each.target for each in self.live[name])
+        return frozenset(reachable)
+
+    def time_in(self, state: str) -> TimeInState | None:
+        """How long a state is active; None if its diagrams are too large."""
+        try:
+            return self._find_time(state)
+        except (TooLargeError, RecursionError):
+            return None
+
+    def _find_time(self, state: str) -> TimeInState:
+        diagrams = self.guards.conditions.diagrams
+        may_leave, may_stay = FALSE, TRUE
+        for each in self.live[state]:
+            may_leave = diagrams.either(may_leave, each.taken)
+            # The team decides whether a robot enters a cooperative state.
+            if not self._is_cooperative(each.target):
+                may_stay = diagrams.without(may_stay, each.taken)
+        leaves, stays = (self._find_times(node) for node in (may_leave, may_stay))
+        last = stays[-1][1] if stays else (0, 0)
+        return TimeInState(
+            at_least_ns=max(0, int(leaves[0][0][0])) if leaves else 0,
+            at_most_ns=None if last >= BEFORE_NAN else int(last[0]),
+        )
+
+    def _find_times(self, node: Node) -> list[Interval]:
+        """The times in the state for which some values are in a diagram."""
+        possible = self.guards.conditions.possible((node,), with_nan=False)
+        return self.guards.conditions.diagrams.intervals_of(
+            self.guards.conditions.diagrams.both(node, possible), STATE_TIME
+        )
+
+    def _find_live(self, state: State) -> list[LiveTransition]:
+        return [
+            LiveTransition(path=each.path, target=each.decision.to, taken=taken)
+            for each in (*self.guards.common, *self.guards.states[state.name])
+            if isinstance(each.decision, Transition)
+            and each.decision.to != state.name
+            and self.guards.is_possible(taken := self.guards.taken(each))
+        ]
+
+    def _is_cooperative(self, name: str) -> bool:
+        state = self.design.state(name)
+        return state is not None and (state.capacity is not None or state.synchronized is not None)
