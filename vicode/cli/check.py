@@ -31,7 +31,7 @@ def _patches(project: LoadedProject) -> Iterator[Finding]:
 
 def run(args: argparse.Namespace) -> int:
     """Print findings; return 1 for errors and, with --strict, for warnings."""
-    projects = load_projects(args.paths)
+    projects = load_projects(args.paths, with_warnings=True)
     findings = tuple(finding for project in projects for finding in (*project.findings, *_patches(project)))
     if args.json:
         print(render_json(findings), end="")

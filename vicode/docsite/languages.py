@@ -4,7 +4,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from vicode.check import check_project
+from vicode.check import find_errors
 from vicode.docsite.findings import finding_row
 from vicode.docsite.site_input import ComponentFinding, SiteInput
 from vicode.docsite.urls import SiteUrls
@@ -24,7 +24,7 @@ def find_generation_errors(subject: SiteInput) -> GenerationErrors:
     if not chosen.issuperset(GENERATORS):
         # The findings of the project omit rules for languages that are not enabled.
         everywhere = replace(subject.project, languages=tuple(GENERATORS))
-        found += [each for each in check_project(everywhere) if each.languages and not chosen & set(each.languages)]
+        found += [each for each in find_errors(everywhere) if each.languages and not chosen & set(each.languages)]
     generation_errors: dict[str, dict[str, list[Finding]]] = {language: defaultdict(list) for language in GENERATORS}
     for finding in found:
         if finding.severity is Severity.ERROR:

@@ -7,10 +7,10 @@ from itertools import chain
 from pathlib import Path
 
 from vicode.bica.tick import choose_tick_ns
-from vicode.check import check_project
+from vicode.check import find_errors
 from vicode.check.classes import check_classes
 from vicode.check.module_names import check_module_names
-from vicode.findings import DesignPath, Severity
+from vicode.findings import DesignPath
 from vicode.generators import collect_components, generate, python_class_path, python_probes
 from vicode.model.decision_keys import transition_key
 from vicode.model.design import Decision, DecisionGroup, Design, State, Transition
@@ -151,8 +151,7 @@ def behavior_key(project: Project, design: Design) -> object:
 
 
 def _check_errors(project: Project, components: frozenset[str]) -> None:
-    found = check_project(project, components)
-    errors = [each for each in found if each.severity is Severity.ERROR and each.applies_to("python")]
+    errors = [each for each in find_errors(project, components) if each.applies_to("python")]
     if errors:
         first = errors[0]
         where = f"{first.subject.component}: " if first.subject and first.subject.component else ""

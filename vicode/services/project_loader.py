@@ -1,6 +1,6 @@
 """Loads the projects at paths of the command line: designs, project folders, folders of projects."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING
 from vicode.findings import Finding, Severity
 
 if TYPE_CHECKING:
+    from vicode.model.project import Project
     from vicode.store import OpenProject
+
+    _Check = Callable[[Project, Collection[str] | None], tuple[Finding, ...]]
 
 DESIGN_SUFFIXES = (".yaml", ".yml")
 XABSL_SUFFIXES = (".xabsl", ".yabsl")
@@ -49,8 +52,13 @@ class LoadedProject:
         return self.open_project.design_paths
 
 
-def load_projects(paths: Sequence[str], profile: str = "") -> tuple[LoadedProject, ...]:
+def load_projects(paths: Sequence[str], profile: str = "", *, with_warnings: bool = False) -> tuple[LoadedProject, ...]:
     """Load every project once, with the implementations of a profile.
+
+    Args:
+        paths: Folders and files.
+        profile: The name of a profile.
+        with_warnings: Whether the findings include warnings and notes about designs.
 
     Raises:
         OSError: A path does not exist or cannot be read, there is no design at all, or no such profile.
@@ -73,7 +81,14 @@ def load_projects(paths: Sequence[str], profile: str = "") -> tuple[LoadedProjec
                 files.add(path)
     if not wanted:
         raise OSError(f"no designs in {', '.join(paths)}{_hint(paths)}")
-    return tuple(_load_project(folder, files, profile) for folder, files in wanted.items())
+    check = _load_check(with_warnings=with_warnings)
+    return tuple(_load_project(folder, files, profile, check) for folder, files in wanted.items())
+
+
+def _load_check(*, with_warnings: bool) -> "_Check":
+    from vicode.check import check_project, find_errors
+
+    return check_project if with_warnings else find_errors
 
 
 def _hint(paths: Sequence[str]) -> str:
@@ -93,8 +108,7 @@ def require_design_file(path: Path) -> None:
         raise OSError(f"{path} is not a design; specify a design (.yaml) or a folder with designs{way}")
 
 
-def _load_project(folder: Path, files: set[Path] | None, profile: str) -> LoadedProject:
-    from vicode.check import check_project
+def _load_project(folder: Path, files: set[Path] | None, profile: str, check: "_Check") -> LoadedProject:
     from vicode.generators import collect_components
     from vicode.store import locate_findings, open_project
 
@@ -104,7 +118,7 @@ def _load_project(folder: Path, files: set[Path] | None, profile: str) -> Loaded
             open_project=opened,
             selected_components=None,
             findings=(
-                *locate_findings([*opened.findings, *check_project(opened.project)], opened),
+                *locate_findings([*opened.findings, *check(opened.project, None)], opened),
                 *_check_classes(opened),
             ),
         )
@@ -114,7 +128,7 @@ def _load_project(folder: Path, files: set[Path] | None, profile: str) -> Loaded
     components = collect_components(opened.project, named)
     relevant = {opened.files[name].resolve() for name in (*components, "") if name in opened.files}
     relevant |= {file.resolve() for file in files}
-    findings = locate_findings([*opened.findings, *check_project(opened.project, components)], opened)
+    findings = locate_findings([*opened.findings, *check(opened.project, components)], opened)
     kept = tuple(each for each in findings if each.location is None or Path(each.location.file).resolve() in relevant)
     used = {use.component for each in opened.project.designs if each.component in components for use in each.uses}
     return LoadedProject(

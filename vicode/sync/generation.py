@@ -5,8 +5,8 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from vicode.check import check_project
-from vicode.findings import Finding, Severity, SourceLocation
+from vicode.check import find_errors
+from vicode.findings import Finding, SourceLocation
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import FileDiff, FileStatus, OutputFile, back_up_edited, compare_files, require_unchanged
@@ -249,10 +249,9 @@ def find_new_errors(before: Project, after: Project, applied: Iterable[AppliedEd
     """The errors that edits bring into designs, located in the generated files."""
     edits = tuple(applied)
     components = {edit.file.component for edit in edits}
-    known = {(finding.rule.code, finding.message) for finding in check_project(before, components)}
-    for finding in check_project(after, components):
-        is_new = finding.severity is Severity.ERROR and (finding.rule.code, finding.message) not in known
-        if is_new:
+    known = {(finding.rule.code, finding.message) for finding in find_errors(before, components)}
+    for finding in find_errors(after, components):
+        if (finding.rule.code, finding.message) not in known:
             yield _located(finding, edits, folder)
 
 

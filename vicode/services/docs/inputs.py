@@ -71,7 +71,7 @@ def load_site_inputs(paths: Sequence[Path], encoding: str = "") -> tuple[LoadedS
                 "specify a design (.yaml), a folder with designs, or the .xabsl file with the agents"
             )
         else:
-            readings += [_load_project_input(opened) for opened in load_projects([str(path)])]
+            readings += [_load_project_input(opened) for opened in load_projects([str(path)], with_warnings=True)]
     return tuple(readings)
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from vicode.check import check_project
+from vicode.check import find_errors
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
 from vicode.model.project import Project
@@ -118,8 +118,7 @@ def prepare_output(folder: Path, job: GenerationRequest, component: str) -> Pend
     project = job.project
     wanted = collect_components(project, (component,))
     parse_findings = [finding for name in ("", *wanted) for finding in job.parse_findings.get(name, ())]
-    findings = [*parse_findings, *check_project(project, wanted)]
-    errors = [finding for finding in findings if finding.severity is Severity.ERROR]
+    errors = [*(each for each in parse_findings if each.severity is Severity.ERROR), *find_errors(project, wanted)]
     languages = [language for language in GENERATORS if language in project.languages]
     sound = [language for language in languages if not any(error.applies_to(language) for error in errors)]
     reason = _reason(errors, component) if errors else ""

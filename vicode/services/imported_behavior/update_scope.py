@@ -3,8 +3,7 @@
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 
-from vicode.check import check_project
-from vicode.findings import Severity
+from vicode.check import find_errors
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.model.xabsl.names import component_name
@@ -36,8 +35,7 @@ class UpdateScope:
             project = self._without_edits()
             if project is None or not self.left_out:
                 return project
-            found = check_project(replace(project, languages=("xabsl",)))
-            errors = [finding for finding in found if finding.severity is Severity.ERROR]
+            errors = find_errors(replace(project, languages=("xabsl",)))
             names = {finding.subject.component if finding.subject else "" for finding in errors}
             if not names:
                 return project

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from vicode.check import check_project
+from vicode.check import find_errors
 from vicode.findings import Finding
 from vicode.output import resolve_below, write_atomically
 from vicode.services.imported_behavior.comment_places import DesignFile
@@ -20,7 +20,7 @@ from vicode.xabsl.source_text import ReadText, SourceEncodingError, decode_sourc
 def list_errors(opened: OpenProject) -> list[Finding]:
     """The errors of designs that prevent generating XABSL."""
     project = replace(opened.project, languages=("xabsl",))
-    findings = [*opened.findings, *locate_findings(check_project(project), opened)]
+    findings = [*opened.findings, *locate_findings(find_errors(project), opened)]
     return [each for each in findings if each.severity == "error"]
 
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
 from pathlib import Path
 
-from vicode.check import check_project
-from vicode.findings import Finding, Severity
+from vicode.check import find_errors as check_for_errors
+from vicode.findings import Finding
 from vicode.model.design import Design
 from vicode.model.paths import describe_path
 from vicode.model.project import Project
@@ -138,8 +138,8 @@ def describe_new_errors(project: Project, renamed: Project, components: Collecti
 
 def find_errors(project: Project, components: Collection[str] | None = None) -> list[Finding]:
     """The errors of a project and all its designs, or those of `components`."""
-    found = [finding for finding in check_project(project, components) if finding.severity is Severity.ERROR]
     # Errors of the name itself come first: they are the most specific.
+    found = check_for_errors(project, components)
     return sorted(found, key=lambda finding: finding.rule.code not in ("D404", "D405", "D406", "D407"))
 
 

@@ -9,8 +9,7 @@ from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from vicode.check import check_design
-from vicode.findings import Severity
+from vicode.check import find_design_errors
 from vicode.generators import UnsoundDesignError
 from vicode.generators.cpp import CppCode, cpp_generator
 from vicode.model.design import Design
@@ -233,6 +232,5 @@ def _users(designs: Collection[Design], design: Design) -> Iterator[Design]:
 
 def _list_errors(project: Project, designs: Collection[Design]) -> Iterator[tuple[str, str, str]]:
     for each in designs:
-        for finding in check_design(project, each):
-            if finding.severity is Severity.ERROR:
-                yield each.component, finding.rule.code, finding.message
+        for finding in find_design_errors(project, each):
+            yield each.component, finding.rule.code, finding.message

@@ -10,8 +10,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
-from vicode.check import check_design
-from vicode.findings import Severity
+from vicode.check import find_design_errors
 from vicode.generators import component_generator
 from vicode.model.design import Design
 from vicode.model.project import Project
@@ -269,8 +268,7 @@ class EditSearch:
         return frozenset(
             (each.component, finding.rule.code, finding.message)
             for each in (design, *(() if is_same else users))
-            for finding in check_design(project, each)
-            if finding.severity is Severity.ERROR
+            for finding in find_design_errors(project, each)
         )
 
     def _has_new_errors(self, design: Design) -> bool:
