@@ -95,7 +95,7 @@ class MachineAnalysis:
         leaves, stays = (self._find_times(node) for node in (may_leave, may_stay))
         last = stays[-1][1] if stays else (0, 0)
         return TimeInState(
-            at_least_ns=max(0, int(leaves[0][0][0])) if leaves else 0,
+            at_least_ns=int(max(0, leaves[0][0][0])) if leaves else 0,
             at_most_ns=None if last >= BEFORE_NAN else int(last[0]),
         )
 
