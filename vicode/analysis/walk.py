@@ -50,6 +50,9 @@ class Walk:
         self._design = machine.design
         self._conditions: Conditions = machine.guards.conditions
         self._robot = Interpreter(project, self._design.component)
+        for name, each in self._robot.machines.items():
+            for function, value in each.functions.items():
+                self._robot.set_input(name, function, _always(value))
         self.tick_ns = round(1e9 / self._design.frequency_hz) if self._design.frequency_hz else DEFAULT_TICK_NS
         self.steps: list[WalkStep] = []
 

@@ -17,6 +17,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="design file, project folder, or folder of projects (default: the current folder)",
     )
     parser.add_argument("--json", action="store_true", help="print findings as JSON")
+    parser.add_argument(
+        "--deep",
+        action="store_true",
+        help="also search for states that alternate and for designs that no agent activates",
+    )
     parser.add_argument("--strict", action="store_true", help="exit with code 1 on warnings, too")
 
 
@@ -31,7 +36,7 @@ def _patches(project: LoadedProject) -> Iterator[Finding]:
 
 def run(args: argparse.Namespace) -> int:
     """Print findings; return 1 for errors and, with --strict, for warnings."""
-    projects = load_projects(args.paths, with_warnings=True)
+    projects = load_projects(args.paths, with_warnings=True, deep=args.deep)
     findings = tuple(finding for project in projects for finding in (*project.findings, *_patches(project)))
     if args.json:
         print(render_json(findings), end="")

@@ -67,6 +67,7 @@ _RECORDS = (
         Severity.ERROR,
         "profile of an unknown component, class not in the form module:Class, or bad remote component",
     ),
+    ("P214", "inactive-component", Severity.NOTE, "design that no agent activates"),
     # Expressions
     ("E301", "not-an-expression", Severity.ERROR, "invalid expression syntax"),
     ("E302", "outside-grammar", Severity.ERROR, "unsupported expression syntax"),
@@ -108,6 +109,7 @@ _RECORDS = (
     ("D432", "hidden-method", Severity.WARNING, "method in class code that hides a generated one"),
     ("D433", "impossible-guard", Severity.WARNING, "guard that never holds"),
     ("D434", "needless-guard", Severity.NOTE, "guard that always holds"),
+    ("D435", "alternating-states", Severity.WARNING, "states that alternate while the inputs hold still"),
     # XABSL as a target language
     ("L701", "not-in-xabsl", Severity.ERROR, "feature that XABSL does not support"),
     ("L702", "other-result-in-xabsl", Severity.ERROR, "expression with a different result in XABSL"),

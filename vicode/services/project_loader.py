@@ -52,13 +52,16 @@ class LoadedProject:
         return self.open_project.design_paths
 
 
-def load_projects(paths: Sequence[str], profile: str = "", *, with_warnings: bool = False) -> tuple[LoadedProject, ...]:
+def load_projects(
+    paths: Sequence[str], profile: str = "", *, with_warnings: bool = False, deep: bool = False
+) -> tuple[LoadedProject, ...]:
     """Load every project once, with the implementations of a profile.
 
     Args:
         paths: Folders and files.
         profile: The name of a profile.
         with_warnings: Whether the findings include warnings and notes about designs.
+        deep: Whether they include what takes longer (`vicode.check.behavior`).
 
     Raises:
         OSError: A path does not exist or cannot be read, there is no design at all, or no such profile.
@@ -81,14 +84,19 @@ def load_projects(paths: Sequence[str], profile: str = "", *, with_warnings: boo
                 files.add(path)
     if not wanted:
         raise OSError(f"no designs in {', '.join(paths)}{_hint(paths)}")
-    check = _load_check(with_warnings=with_warnings)
+    check = _load_check(with_warnings=with_warnings, deep=deep)
     return tuple(_load_project(folder, files, profile, check) for folder, files in wanted.items())
 
 
-def _load_check(*, with_warnings: bool) -> "_Check":
+def _load_check(*, with_warnings: bool, deep: bool) -> "_Check":
     from vicode.check import check_project, find_errors
 
-    return check_project if with_warnings else find_errors
+    if not deep:
+        return check_project if with_warnings else find_errors
+
+    from vicode.check.behavior import find_behavior
+
+    return lambda project, components: (*check_project(project, components), *find_behavior(project, components))
 
 
 def _hint(paths: Sequence[str]) -> str:
