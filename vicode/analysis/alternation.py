@@ -13,13 +13,13 @@ from vicode.analysis.conditions import STATE_TIME
 from vicode.analysis.interval_diagrams import FALSE, TRUE, Node, TooLargeError
 from vicode.analysis.machines import LiveTransition, MachineAnalysis
 from vicode.analysis.quantities import Quantity
-from vicode.analysis.walk import Walk, WalkStep
+from vicode.analysis.walk import Inputs, Walk, WalkStep
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Assign
 from vicode.model.expressions import Done, ElapsedTime, OutputRef, StatusFlag, Variable
 from vicode.model.project import Project
 from vicode.model.traversal import iter_actions
-from vicode.semantics import NotInterpretableError
+from vicode.semantics import NotInterpretableError, Value
 
 _ITERATIONS = 12
 
@@ -37,6 +37,14 @@ class Alternation:
     states: tuple[str, ...]
     paths: tuple[DesignPath, ...]
     steps: tuple[WalkStep, ...]
+
+    @property
+    def held(self) -> Inputs:
+        """The inputs that hold still while the states alternate."""
+        held: dict[tuple[str, str], Value] = {}
+        for step in self.steps:
+            held |= step.inputs
+        return held
 
 
 class AlternationSearch:

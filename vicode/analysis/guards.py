@@ -92,10 +92,6 @@ class GuardAnalysis:
         """The values for which a transition or stay ends the decision."""
         return self._diagrams.both(each.own, each.reached)
 
-    def remaining(self, state: str) -> Node:
-        """The values for which no decision of a state is taken."""
-        return self._reached_after((*self.common, *self.states[state]))
-
     def is_possible(self, node: Node) -> bool:
         """Whether a case is not proved to be impossible."""
         return self.prove(node) is None

@@ -84,15 +84,24 @@ class MachineAnalysis:
         except (TooLargeError, RecursionError):
             return None
 
-    def _find_time(self, state: str) -> TimeInState:
-        diagrams = self.guards.conditions.diagrams
-        may_leave, may_stay = FALSE, TRUE
+    def staying(self, state: str) -> Node:
+        """The values for which a state may not be left.
+
+        Raises:
+            TooLargeError: The diagram has too many nodes.
+        """
+        diagrams, stays = self.guards.conditions.diagrams, TRUE
         for each in self.live[state]:
-            may_leave = diagrams.either(may_leave, each.taken)
             # The team decides whether a robot enters a cooperative state.
             if not self._is_cooperative(each.target):
-                may_stay = diagrams.without(may_stay, each.taken)
-        leaves, stays = (self._find_times(node) for node in (may_leave, may_stay))
+                stays = diagrams.without(stays, each.taken)
+        return stays
+
+    def _find_time(self, state: str) -> TimeInState:
+        leaving = FALSE
+        for each in self.live[state]:
+            leaving = self.guards.conditions.diagrams.either(leaving, each.taken)
+        leaves, stays = (self._find_times(node) for node in (leaving, self.staying(state)))
         last = stays[-1][1] if stays else (0, 0)
         return TimeInState(
             at_least_ns=int(max(0, leaves[0][0][0])) if leaves else 0,

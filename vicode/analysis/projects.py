@@ -5,8 +5,15 @@ from functools import cached_property
 
 from vicode.analysis.alternation import Alternation, AlternationSearch
 from vicode.analysis.machines import MachineAnalysis
-from vicode.model.design import Call, Design
+from vicode.analysis.walk import Walk
+from vicode.model.design import Call, Design, State
 from vicode.model.project import Project
+from vicode.semantics import NotInterpretableError
+
+_ROUNDS = 6
+
+_Place = tuple[str, str]
+"""A component and one of its states."""
 
 
 class ProjectAnalysis:
@@ -25,10 +32,9 @@ class ProjectAnalysis:
     @cached_property
     def active(self) -> frozenset[str]:
         """The designs that some agent may step; all of them if the project declares no agent."""
-        roots = [agent.root for agent in self.project.agents]
-        if not roots:
+        if not self._roots:
             return frozenset(self.machines)
-        pending, active = roots, set[str]()
+        pending, active = list(self._roots), set[str]()
         while pending:
             name = pending.pop()
             if name not in active and name in self.machines:
@@ -37,20 +43,50 @@ class ProjectAnalysis:
         return frozenset(active)
 
     def find_alternations(self, component: str) -> Iterator[Alternation]:
-        """Yield the alternations of a design."""
-        return AlternationSearch(self.project, self.machines[component]).find()
+        """Yield the alternations of a design; if others call it, those that last while a caller stays in its state."""
+        for each in AlternationSearch(self.project, self.machines[component]).find():
+            callers = self._callers.get(component, ())
+            if not callers or any(self._lasts_in(caller, component, each) for caller in callers):
+                yield each
+
+    @cached_property
+    def _callers(self) -> Mapping[str, tuple[_Place, ...]]:
+        """The states of active designs that step a component."""
+        callers: dict[str, list[_Place]] = {}
+        for name in self.active:
+            machine = self.machines[name]
+            for state in machine.design.states:
+                if state.name in machine.reachable:
+                    for stepped in dict.fromkeys(_stepped_components(machine.design, state)):
+                        callers.setdefault(stepped, []).append((name, state.name))
+        return {name: tuple(places) for name, places in callers.items()}
+
+    @cached_property
+    def _roots(self) -> frozenset[str]:
+        return frozenset(agent.root for agent in self.project.agents)
+
+    def _lasts_in(self, caller: _Place, component: str, alternation: Alternation) -> bool:
+        """Whether the states alternate while a caller is in a state, with inputs for which it stays there."""
+        states = alternation.states
+        held = {key: value for key, value in alternation.held.items() if key[0] != component}
+        expected = [states[(index + 1) % len(states)] for index in range(len(states) * _ROUNDS)]
+        try:
+            walk = Walk(self.project, self.machines[caller[0]])
+        except NotInterpretableError:
+            return True
+        return any(
+            walk.follow(component, expected, {caller[0]: caller[1], component: states[0]}, inputs)
+            for inputs in walk.find_inputs_to_stay(caller[1], held, len(expected))
+        )
 
     def _stepped(self, machine: MachineAnalysis) -> Iterator[str]:
         """The components that the reachable states of a design step."""
-        components = {use.alias: use.component for use in reversed(machine.design.uses)}
-        return (
-            components[alias] for alias in _stepped_aliases(machine.design, machine.reachable) if alias in components
-        )
+        for state in machine.design.states:
+            if state.name in machine.reachable:
+                yield from _stepped_components(machine.design, state)
 
 
-def _stepped_aliases(design: Design, states: frozenset[str]) -> Iterator[str]:
-    yield from (action.alias for action in design.common.actions if isinstance(action, Call))
-    for state in design.states:
-        if state.name in states:
-            yield from state.requires
-            yield from (action.alias for action in state.all_actions if isinstance(action, Call))
+def _stepped_components(design: Design, state: State) -> Iterator[str]:
+    components = {use.alias: use.component for use in reversed(design.uses)}
+    called = (action.alias for action in (*design.common.actions, *state.all_actions) if isinstance(action, Call))
+    return (components[alias] for alias in (*state.requires, *called) if alias in components)

@@ -8,12 +8,13 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, product
+from types import MappingProxyType
 
 from vicode.analysis.conditions import STATE_TIME, Conditions
 from vicode.analysis.interval_diagrams import BEFORE_NAN, Interval, Node, TooLargeError
 from vicode.analysis.machines import LiveTransition, MachineAnalysis
 from vicode.analysis.quantities import Quantity
-from vicode.model.expressions import BOOL, FLOAT, INT, OutputRef, StatusFlag, Variable
+from vicode.model.expressions import BOOL, FLOAT, INT, OutputRef, Variable
 from vicode.model.project import Project
 from vicode.semantics import InputFunction, Interpreter, RobotMemory, Value
 
@@ -92,6 +93,31 @@ class Walk:
             del self.steps[count:]
         return False
 
+    def find_inputs_to_stay(self, state: str, fixed: Inputs, iterations: int) -> Iterator[Inputs]:
+        """Yield inputs, the fixed ones among them, for which the root stays in a state for some iterations."""
+        early = self._conditions.diagrams.test(STATE_TIME, (((0, 0), (self.tick_ns * (iterations + 1), 0)),))
+        node = self._conditions.diagrams.both(self._machine.staying(state), early)
+        for inputs, _time_ns in self._find_inputs(node, fixed):
+            yield {**inputs, **fixed}
+
+    def follow(self, component: str, expected: Sequence[str], states: Mapping[str, str], inputs: Inputs) -> bool:
+        """Put components into states that they have just entered; whether the next states of one are the expected ones.
+
+        The inputs hold still. The run ends there.
+        """
+        self.step(inputs, self._memory.now_ns + self.tick_ns)
+        memories = self._memory.components
+        for name, state in states.items():
+            # A component that was not active before would restart.
+            memories[name].state, memories[name].stepped_in = state, self._memory.iteration
+            memories[name].entered_ns = self._memory.now_ns
+        for state in expected:
+            self.step({}, self._memory.now_ns + self.tick_ns)
+            memory = self._memory.components[component]
+            if memory.state != state or memory.stepped_in != self._memory.iteration:
+                return False
+        return True
+
     def step(self, inputs: Inputs, time_ns: int) -> None:
         """Run an iteration."""
         for (component, name), value in inputs.items():
@@ -124,10 +150,10 @@ class Walk:
 
     # Inputs
 
-    def _find_inputs(self, node: Node) -> Iterator[tuple[Inputs, int]]:
+    def _find_inputs(self, node: Node, fixed: Inputs = MappingProxyType({})) -> Iterator[tuple[Inputs, int]]:
         """Inputs that are in a diagram together with the present values of everything else, and the time for them."""
         try:
-            boxes = list(islice(self._conditions.diagrams.iterate_boxes(self._restrict(node)), _MOST_BOXES))
+            boxes = list(islice(self._conditions.diagrams.iterate_boxes(self._restrict(node, fixed)), _MOST_BOXES))
         except (TooLargeError, RecursionError):
             return
         for box in boxes:
@@ -136,15 +162,15 @@ class Walk:
             for values in islice(product(*choices), _MOST_CHOICES):
                 yield dict(zip(settable.values(), values, strict=True)), self._time_of(box.get(STATE_TIME))
 
-    def _restrict(self, node: Node) -> Node:
+    def _restrict(self, node: Node, fixed: Inputs) -> Node:
         diagrams, conditions = self._conditions.diagrams, self._conditions
         restricted = diagrams.both(node, conditions.possible((node,), with_nan=False))
         for level in diagrams.find_cuts((restricted,)):
             quantity = conditions.quantities[level]
-            if self._key(quantity) is None and isinstance(quantity.tree, Variable | OutputRef | StatusFlag):
-                value = self._present_value(quantity)
-                if value is not None:
-                    restricted = diagrams.both(restricted, diagrams.test(level, (self._point(quantity, value),)))
+            key = self._key(quantity)
+            value = self._present_value(quantity) if key is None else fixed.get(key)
+            if value is not None:
+                restricted = diagrams.both(restricted, diagrams.test(level, (self._point(quantity, value),)))
         return restricted
 
     def _time_of(self, interval: Interval | None) -> int:

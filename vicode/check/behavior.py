@@ -3,56 +3,87 @@ that no agent activates.
 """
 
 from collections.abc import Collection, Iterator
+from dataclasses import dataclass
 
 from vicode.analysis.alternation import Alternation
 from vicode.analysis.projects import ProjectAnalysis
 from vicode.findings import Finding, FindingSubject, Note, get_rule
+from vicode.model.design import Design
 from vicode.model.project import Project
 
 _MOST_INPUTS = 6
 
 
-def find_behavior(project: Project, components: Collection[str] | None = None) -> tuple[Finding, ...]:
-    """D435 and P214 for all designs, or those of `components`."""
+def find_behavior(
+    project: Project, components: Collection[str] | None = None, *, are_names_xabsl: bool = False
+) -> tuple[Finding, ...]:
+    """D435 and P214 for all designs, or those of `components`.
+
+    With `are_names_xabsl`, messages contain the names that an imported behavior has in XABSL.
+    """
     analysis = ProjectAnalysis(project)
+    names = _Names(project, are_xabsl=are_names_xabsl)
     designs = (each for each in project.designs if components is None or each.component in components)
     found: list[Finding] = []
     for design in designs:
         if design.component not in analysis.active:
-            found.append(_report_inactive(design.component))
-        found += (_report_alternation(design.component, each) for each in analysis.find_alternations(design.component))
+            found.append(_report_inactive(design, names))
+        found += (_report_alternation(design, each, names) for each in analysis.find_alternations(design.component))
     return tuple(found)
 
 
-def _report_inactive(component: str) -> Finding:
+@dataclass(frozen=True, slots=True)
+class _Names:
+    """The names of a project in messages."""
+
+    project: Project
+    are_xabsl: bool
+
+    def component(self, design: Design) -> str:
+        return (self.are_xabsl and design.xabsl_name) or design.component
+
+    def state(self, design: Design, name: str) -> str:
+        state = design.state(name)
+        return (self.are_xabsl and state is not None and state.xabsl_name) or name
+
+    def input(self, component: str, name: str) -> str:
+        interface = self.project.interface(component)
+        declared = (interface.output(name) or interface.parameter(name)) if interface else None
+        is_known = self.are_xabsl and declared is not None and declared.xabsl_name
+        return declared.xabsl_name if declared is not None and is_known else f"{component}.{name}"
+
+
+def _report_inactive(design: Design, names: _Names) -> Finding:
+    name = names.component(design)
     return Finding(
         rule=get_rule("P214"),
-        message=f"no agent activates {component}: no state that an agent can reach requires or calls it",
+        message=f"no agent activates {name}: no state that an agent can reach requires or calls it",
         fix="call it, add an agent with it as root, or delete it",
-        subject=FindingSubject(component=component, path=("component",)),
+        subject=FindingSubject(component=design.component, path=("component",)),
     )
 
 
-def _report_alternation(component: str, alternation: Alternation) -> Finding:
-    names = [f"'{state}'" for state in alternation.states]
-    held = list(_describe_inputs(alternation))
+def _report_alternation(design: Design, alternation: Alternation, names: _Names) -> Finding:
+    states = [f"'{names.state(design, state)}'" for state in alternation.states]
+    held = list(_describe_inputs(alternation, names))
     more = f" and {len(held) - _MOST_INPUTS} more" if len(held) > _MOST_INPUTS else ""
     inputs = f" with {', '.join(held[:_MOST_INPUTS])}{more}" if held else ""
-    states = f"{', '.join(names[:-1])} and {names[-1]}"
+    cycle = f"{', '.join(states[:-1])} and {states[-1]}"
     return Finding(
         rule=get_rule("D435"),
-        message=f"{states} alternate in each iteration while the inputs hold still{inputs}",
+        message=f"{cycle} alternate in each iteration while the inputs hold still{inputs}",
         fix="let the guards exclude each other, with a distance between their limits, or add a minimum time",
-        subject=FindingSubject(component=component, path=alternation.paths[0]),
+        subject=FindingSubject(component=design.component, path=alternation.paths[0]),
         notes=tuple(
-            Note(message="and this transition leads on", subject=FindingSubject(component=component, path=path))
+            Note(message="and this transition leads on", subject=FindingSubject(component=design.component, path=path))
             for path in alternation.paths[1:]
         ),
     )
 
 
-def _describe_inputs(alternation: Alternation) -> Iterator[str]:
+def _describe_inputs(alternation: Alternation, names: _Names) -> Iterator[str]:
     """The inputs that were set last, when the states began to alternate."""
-    held = next((step.inputs for step in reversed(alternation.steps) if step.inputs), {})
-    for (component, name), value in held.items():
-        yield f"{component}.{name} = {value:g}" if isinstance(value, float) else f"{component}.{name} = {value}"
+    set_last = next((step.inputs for step in reversed(alternation.steps) if step.inputs), {})
+    for (component, name), value in set_last.items():
+        shown = f"{value:g}" if isinstance(value, float) else str(value)
+        yield f"{names.input(component, name)} = {shown.rpartition('.')[2] if isinstance(value, str) else shown}"

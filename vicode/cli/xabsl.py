@@ -47,6 +47,15 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _add_check(parser: argparse.ArgumentParser) -> None:
+    _add_behavior(parser)
+    parser.add_argument(
+        "--deep",
+        action="store_true",
+        help="also report decisions that are never taken, states that alternate, and more",
+    )
+
+
+def _add_behavior(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("agents", metavar="AGENTS.xabsl", type=Path, help="XABSL file with the agents")
     parser.add_argument("--json", action="store_true", help="print findings as JSON")
     parser.add_argument(
@@ -57,22 +66,29 @@ def _add_check(parser: argparse.ArgumentParser) -> None:
 
 def _check(args: argparse.Namespace) -> int:
     """Check an XABSL behavior and report all problems at once."""
-    from vicode.xabsl.behavior_loader import compile_behavior
+    from vicode.xabsl.behavior_loader import load_behavior
+    from vicode.xabsl.compiler import compile_source
 
     encoding = find_encoding(args.agents, args.encoding)
-    compiled = compile_behavior(args.agents, encoding)
+    source = load_behavior(args.agents, encoding)
+    compiled = compile_source(source)
+    findings = compiled.findings
+    if args.deep:
+        from vicode.services.imported_behavior.behavior_check import find_in_behavior
+
+        findings = (*findings, *find_in_behavior(source, compiled))
     if args.json:
         from vicode.findings import render_json
 
-        print(render_json(with_display_paths(compiled.findings, args.agents)), end="")
+        print(render_json(with_display_paths(findings, args.agents)), end="")
     else:
-        print_behavior_findings(compiled.findings, args.agents, encoding, to_stderr=False)
-        print(count_findings(compiled.findings))
+        print_behavior_findings(findings, args.agents, encoding, to_stderr=False)
+        print(count_findings(findings))
     return _exit_code(compiled, strict=args.strict)
 
 
 def _add_compile(parser: argparse.ArgumentParser) -> None:
-    _add_check(parser)
+    _add_behavior(parser)
     parser.add_argument("--output", "-o", metavar="FILE", type=Path, help="write the intermediate code to FILE")
     parser.add_argument("--symbols", metavar="FILE", type=Path, help="write the list of all symbols to FILE")
 
