@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from vicode.check import check_project
+from vicode.check.behavior import find_behavior
 from vicode.findings import RULES, Rule, render_text
 from vicode.store import locate_findings, open_project
 from vicode.xabsl.compiler import compile_source
@@ -25,6 +26,9 @@ SECTIONS = dict(SECTION.findall(TEXT + "\n##"))
 FRAME = dict(EXAMPLE.findall(TEXT.split("\n## ")[0]))
 LANGUAGES_FRAME = FRAME | dict(EXAMPLE.findall(TEXT.split("\n## L:")[1].split("\n### ")[0]))
 XABSL_FRAME = dict(EXAMPLE.findall(TEXT.split("\n## X:")[1].split("\n### ")[0]))
+# Rules that only `check --deep` runs.
+DEEP = {"D435", "P214"}
+_DEEP_WORDS = ", only with `vicode check --deep`"
 # Where an example replaces a file, the frame declares items that nothing uses.
 ALLOWED_NOTES = {"X642", "X644"}
 EXAMPLES = {code: EXAMPLE.findall(text) for code, text in SECTIONS.items()}
@@ -37,7 +41,9 @@ def test_every_rule_has_a_section_in_order() -> None:
 
 @pytest.mark.parametrize("rule", RULES.values(), ids=lambda rule: rule.code)
 def test_sections_start_with_name_and_severity(rule: Rule) -> None:
-    assert SECTIONS[rule.code].startswith(f"**{rule.name}**, {rule.severity}. ")
+    assert SECTIONS[rule.code].startswith(
+        f"**{rule.name}**, {rule.severity}{_DEEP_WORDS if rule.code in DEEP else ''}. "
+    )
 
 
 @pytest.mark.parametrize("code", sorted(set(RULES) - WITHOUT_EXAMPLES))
@@ -66,7 +72,8 @@ def _check(code: str, file: str, text: str, folder: Path) -> tuple[set[str], str
         content = _insert(frame, text) if name == (file or "player.yaml") else frame
         (folder / name).write_text(content, encoding="utf-8")
     opened = open_project(folder)
-    findings = locate_findings((*opened.findings, *check_project(opened.project)), opened)
+    deep = find_behavior(opened.project) if code in DEEP else ()
+    findings = locate_findings((*opened.findings, *check_project(opened.project), *deep), opened)
     return {finding.rule.code for finding in findings}, render_text(findings)
 
 

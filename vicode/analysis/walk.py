@@ -67,8 +67,27 @@ class Walk:
 
     def go_to(self, state: str) -> bool:
         """Follow a shortest way of live transitions to a state; False if a transition on it could not be taken."""
-        if not self.steps:
-            self.step({}, 0)
+        if self.steps:
+            return self._follow_way(state)
+        start = self._memory.copy()
+        for inputs in self._find_first_inputs(state):
+            self.step(inputs, 0)
+            if self._follow_way(state):
+                return True
+            self._robot.memory = start.copy()
+            self.steps.clear()
+        return False
+
+    def _find_first_inputs(self, goal: str) -> Iterator[Inputs]:
+        """Inputs of the first iteration, in which the initial state can already be left."""
+        at_start = self._conditions.diagrams.test(STATE_TIME, (((0, 0), (1, 0)),))
+        ways = self._shortest_way(goal)[:1]
+        for node in (self._machine.staying(self.state), *(edge.taken for edge in ways)):
+            found = self._find_inputs(self._conditions.diagrams.both(node, at_start))
+            yield from (inputs for inputs, _time_ns in islice(found, 1))
+        yield {}
+
+    def _follow_way(self, state: str) -> bool:
         while self.state != state:
             edge = next(iter(self._shortest_way(state)), None)
             if edge is None or len(self.steps) > len(self._design.states) or not self.take(edge):
