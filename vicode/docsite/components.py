@@ -4,13 +4,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
+from vicode.analysis.machines import MachineAnalysis
 from vicode.docsite.decisions import CodeLinks, code_blocks, numbered_decisions, pseudocode_lines, transition_rows
 from vicode.docsite.diagrams import draw_decision_tree, draw_design, draw_neighborhood
 from vicode.docsite.doc_text import render_doc
 from vicode.docsite.findings import finding_rows
 from vicode.docsite.name_linker import NameLinker, join_spans, plain_text
 from vicode.docsite.site_input import SiteInput
-from vicode.docsite.time_limit import find_time_limit
 from vicode.docsite.urls import SiteUrls, path_anchor, state_anchor
 from vicode.docsite.uses import use_rows
 from vicode.docsite.views import (
@@ -46,6 +46,7 @@ class ComponentInputs:
 def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView:
     project, addresses = inputs.site_input.project, inputs.urls
     linker = NameLinker(project, addresses, design)
+    machine = MachineAnalysis(project, design)
     common = design.common
     has_common = bool(common.transitions or common.actions or common.doc)
     transitions = tuple(transition_rows(design, linker, addresses))
@@ -59,7 +60,7 @@ def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView
         transitions=tuple(tuple(rows) for _source, rows in groupby(transitions, key=lambda row: row.source)),
         columns=frozenset(name for row in transitions for name in ("timer", "doc_html") if getattr(row, name)),
         common=_common(design, linker, inputs) if has_common else None,
-        states=tuple(_state(design, state, linker, inputs) for state in design.states),
+        states=tuple(_state(machine, state, linker, inputs) for state in design.states),
         neighborhood_svg=draw_neighborhood(design, project, addresses),
         uses=tuple(use_rows(design, linker)),
         used_by=inputs.used_by,
@@ -96,8 +97,8 @@ def _facts(design: Design, inputs: ComponentInputs) -> Iterator[RichText]:
         yield (TextSpan(text="in XABSL "), TextSpan(text=design.xabsl_name, css_class="code"))
 
 
-def _state(design: Design, state: State, linker: NameLinker, made: ComponentInputs) -> StateView:
-    words = []
+def _state(machine: MachineAnalysis, state: State, linker: NameLinker, made: ComponentInputs) -> StateView:
+    design, words = machine.design, []
     if state.name == design.initial:
         words.append("initial")
     words += [word for word in ("final", "disabled") if getattr(state, word)]
@@ -117,7 +118,7 @@ def _state(design: Design, state: State, linker: NameLinker, made: ComponentInpu
         name=linker.state_name(state),
         badges=tuple(words),
         doc_html=render_doc(state.doc, parent_level=3),
-        facts=tuple((title, parts) for title, parts in _state_facts(design, state, linker) if parts),
+        facts=tuple((title, parts) for title, parts in _state_facts(machine, state, linker) if parts),
         phases=tuple(phase for phase in phases if phase.actions),
         pseudocode=pseudocode_lines(state.transitions, linker, ("states", state.name, "transitions"), made.code_links),
         code_links=made.code_links.get(("states", state.name), ()),
@@ -126,7 +127,8 @@ def _state(design: Design, state: State, linker: NameLinker, made: ComponentInpu
     )
 
 
-def _state_facts(design: Design, state: State, linker: NameLinker) -> Iterator[tuple[str, RichText]]:
+def _state_facts(machine: MachineAnalysis, state: State, linker: NameLinker) -> Iterator[tuple[str, RichText]]:
+    design = machine.design
     every_state = TextSpan(text="every state", href="#common")
     entries: dict[str, list[TextSpan]] = {}
     exits: dict[str, list[TextSpan]] = {}
@@ -148,10 +150,22 @@ def _state_facts(design: Design, state: State, linker: NameLinker) -> Iterator[t
     yield "Leads to", _numbered_links((linker.state(each), found) for each, found in exits.items())
     if design.common.transitions:
         yield "Tested first", (TextSpan(text="common transitions", href="#common"),)
-    bound = find_time_limit(state)
-    if bound:
-        yield "Lasts at most", linker.duration(bound)
+    yield from _times(state, machine, linker)
     yield "Requires", join_spans(linker.alias(alias) for alias in state.requires)
+
+
+def _times(state: State, machine: MachineAnalysis, linker: NameLinker) -> Iterator[tuple[str, RichText]]:
+    """How long the state lasts whatever the inputs are, as the guards prove."""
+    time = machine.time_in(state.name) if machine.live.get(state.name) else None
+    if time is None:
+        return
+    ns_per_unit = machine.guards.conditions.table.ns_per_unit
+    if time.at_least_ns:
+        yield "Lasts at least", linker.duration(f"{time.at_least_ns / ns_per_unit:.6g}")
+    if time.at_most_ns == 0:
+        yield "Lasts", (TextSpan(text="one iteration"),)
+    elif time.at_most_ns is not None:
+        yield "Lasts at most", linker.duration(f"{time.at_most_ns / ns_per_unit:.6g}")
 
 
 def _numbered_links(found: Iterable[tuple[TextSpan, Sequence[TextSpan]]]) -> RichText:
