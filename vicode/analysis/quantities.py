@@ -124,9 +124,9 @@ class QuantityTable:
     def domain_of_type(self, type_: str) -> Interval:
         if type_ == INT:
             return _STORED_INTS
-        if type_ == FLOAT:
-            return (BEFORE_ALL, AFTER_ALL)
-        return ((0, 0), (2 if type_ == BOOL else max(1, len(self.elements(type_))), 0))
+        count = 2 if type_ == BOOL else len(self.elements(type_))
+        # A float, or something of which the type is not known.
+        return ((0, 0), (count, 0)) if count else (BEFORE_ALL, AFTER_ALL)
 
 
 def before_whole(position: Position) -> Position:

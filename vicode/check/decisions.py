@@ -6,7 +6,7 @@ from vicode.analysis.guards import Basis, ProvedDecision, Verdict
 from vicode.check.context import RuleContext
 from vicode.check.identifiers_in_text import find_identifiers
 from vicode.findings import DesignPath, Finding, Note
-from vicode.model.design import Guard, Transition
+from vicode.model.design import DecisionGroup, Guard, Transition
 from vicode.model.traversal import find_decision
 
 _ALWAYS = "this decision always holds"
@@ -38,13 +38,12 @@ def _report(context: RuleContext, proved: ProvedDecision) -> Iterator[Finding]:
     match proved.verdict:
         case Verdict.NEVER_HOLDS:
             fix = "change the guard, or delete the decision"
-            yield context.make_finding("D433", path, f"this guard never holds{because}", fix)
+            yield context.make_finding("D433", _guard_path(context, path), f"this guard never holds{because}", fix)
         case Verdict.ALWAYS_HOLDS:
             located = find_decision(context.design, path)
             if located is not None and _reads_values(located.decision.guard):
-                yield context.make_finding(
-                    "D434", path, f"this guard always holds{because}", "change the guard, or remove it"
-                )
+                message, fix = f"this guard always holds{because}", "change the guard, or remove it"
+                yield context.make_finding("D434", _guard_path(context, path), message, fix)
         case Verdict.NEVER_TESTED if path[-1] == "else":
             yield _report_branch(context, proved)
         case Verdict.NEVER_TESTED:
@@ -56,7 +55,10 @@ def _report(context: RuleContext, proved: ProvedDecision) -> Iterator[Finding]:
             which = "an earlier one" if len(proved.earlier) == 1 else "one of the earlier ones"
             message = f"this decision is never taken: whenever its guard holds, {which} does{because}"
             notes = _notes(context, proved.earlier, "this decision is taken instead")
-            yield context.make_finding("D423", path, message, _MOVE, notes=notes)
+            located = find_decision(context.design, path)
+            is_group = located is not None and isinstance(located.decision, DecisionGroup)
+            where = _guard_path(context, path) if is_group else path
+            yield context.make_finding("D423", where, message, _MOVE, notes=notes)
 
 
 def _report_branch(context: RuleContext, proved: ProvedDecision) -> Finding:
@@ -65,6 +67,13 @@ def _report_branch(context: RuleContext, proved: ProvedDecision) -> Finding:
     reason = "the group has no guard" if is_empty else f"the guard always holds{_because(proved.basis)}"
     fix = f"{'add a guard to' if is_empty else 'change the guard of'} the group, or delete its 'else'"
     return context.make_finding("D423", proved.path, f"'else' is never tested: {reason}", fix)
+
+
+def _guard_path(context: RuleContext, path: DesignPath) -> DesignPath:
+    """The path of the guard of a decision, or of the decision if it has none."""
+    located = find_decision(context.design, path)
+    guard = located.decision.guard if located else Guard()
+    return (*path, "when") if guard.when else (*path, "after") if guard.after else path
 
 
 def _reads_values(guard: Guard) -> bool:

@@ -107,7 +107,7 @@ STAY = "initial: S\nstates: {S: {final: true, transitions: [{stay: true, when: %
         (
             "initial: S\nstates: {S: {transitions: [{to: T}, {to: T, after: 1}]}, T: {final: true}}",
             "D423",
-            "Remove the shadowed transition",
+            "Remove the transition",
         ),
         ("initial: S\nstates: {S: {transitions: [{to: S, after: 1}]}}", "D430", "Replace it with a stay"),
         (

@@ -20,14 +20,15 @@ from vicode.editor.view.scene_types import (
     SceneTransition,
 )
 from vicode.editor.view.selection import ItemRef, item_at_path
-from vicode.findings import Finding, Severity, worst_severity
+from vicode.findings import DesignPath, Finding, Severity, worst_severity
 from vicode.model.decision_keys import transition_key
-from vicode.model.design import COMMON, Call, Design, DiagramNote, Guard, Point, State, Transition, Use
+from vicode.model.design import COMMON, Call, DecisionGroup, Design, DiagramNote, Guard, Point, State, Transition, Use
 from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.guard_text import write_guard
 from vicode.model.project import Project
-from vicode.model.traversal import LocatedDecision, iter_transitions
+from vicode.model.traversal import LocatedDecision, find_decision, iter_transitions
 
+_DEAD = frozenset({"D421", "D423", "D433"})
 _Findings = dict[ItemRef, list[Finding]]
 
 
@@ -42,11 +43,13 @@ def make_scene(
 ) -> Scene:
     """The scene of a design; `changed_outside` and `unfinished` are states that are marked so."""
     by_item: _Findings = defaultdict(list)
+    findings = tuple(findings)
     for finding in findings:
         if finding.subject is not None and finding.subject.component == design.component:
             by_item[item_at_path(finding.subject.path)].append(finding)
     layout = complete_layout(design)
     transitions = list(iter_transitions(design))
+    dead = _find_dead_paths(design, findings)
     return {
         "rev": rev,
         "component": design.component,
@@ -57,10 +60,11 @@ def make_scene(
                 **_at(layout.states[state.name]),
                 "outside": state.name in changed_outside,
                 "unfinished": state.name in unfinished,
+                "dead": ("states", state.name) in dead and state.name not in unfinished,
             }
             for state in design.states
         ],
-        "transitions": list(_transitions(design, transitions, by_item)),
+        "transitions": list(_transitions(design, transitions, by_item, dead)),
         "components": [_component(project, use, by_item, layout.uses[use.alias]) for use in design.uses],
         "links": list(_links(design)),
         "frames": list(_frames(design, by_item)),
@@ -140,7 +144,25 @@ def _state(design: Design, state: State, by_item: _Findings) -> SceneDesignState
     }
 
 
-def _transitions(design: Design, transitions: list[LocatedDecision], by_item: _Findings) -> Iterable[SceneTransition]:
+def _find_dead_paths(design: Design, findings: Iterable[Finding]) -> frozenset[DesignPath]:
+    """The states that can never be active, and the decisions, groups and branches that can never be taken."""
+    paths = (
+        finding.subject.path
+        for finding in findings
+        if finding.rule.code in _DEAD and finding.subject is not None and finding.subject.component == design.component
+    )
+    return frozenset(_dead_branch(design, path[:-1]) if path[-1] in ("when", "after") else path for path in paths)
+
+
+def _dead_branch(design: Design, path: DesignPath) -> DesignPath:
+    """What is dead if the guard of a decision never holds: the `else` of a group can still be taken."""
+    located = find_decision(design, path)
+    return (*path, "then") if located is not None and isinstance(located.decision, DecisionGroup) else path
+
+
+def _transitions(
+    design: Design, transitions: list[LocatedDecision], by_item: _Findings, dead: frozenset[DesignPath]
+) -> Iterable[SceneTransition]:
     counts = Counter(located.source for located in transitions)
     orders: Counter[str] = Counter()
     off, unit = disabled_states(design), design.time_unit
@@ -158,6 +180,7 @@ def _transitions(design: Design, transitions: list[LocatedDecision], by_item: _F
             "order": orders[located.source],
             "of": counts[located.source],
             "disabled": not is_enabled(located, off),
+            "dead": any(located.path[:length] in dead for length in range(2, len(located.path) + 1)),
             "label_at": list(transition.label_at) if transition.label_at else None,
             "kind": str(guard_kind(located)),
             "doc": "\n".join(part for part in (transition_label(located, unit), transition.doc) if part),

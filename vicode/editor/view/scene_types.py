@@ -49,6 +49,8 @@ class SceneState(ScenePlace, SceneDesignState):
     """Whether its generated code was edited outside of regions."""
     unfinished: bool
     """Whether its findings are gray, as the drawing is not finished."""
+    dead: bool
+    """Whether it can never be active."""
 
 
 class SceneTransition(SceneMarks):
@@ -63,6 +65,8 @@ class SceneTransition(SceneMarks):
     order: int
     of: int
     disabled: bool
+    dead: bool
+    """Whether it can never be taken."""
     label_at: list[float] | None
     kind: str
     doc: str

@@ -24,7 +24,7 @@ const OFF = "M0 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0M1.6 3.4L8.4 -3.4";
 export function drawNode(node) {
   const draw = { states: drawState, components: drawComponent, common: drawCommon, notes: drawNote }[node.of];
   const group = svg("g", {
-    class: `item node ${kindOf(node)}${node.data.color ? ` color-${node.data.color}` : ""}${node.data.disabled ? " disabled" : ""}`,
+    class: `item node ${kindOf(node)}${node.data.color ? ` color-${node.data.color}` : ""}${node.data.disabled ? " disabled" : ""}${node.data.dead ? " dead" : ""}`,
     "data-id": node.id,
     "data-kind": kindOf(node),
     "data-key": node.key,

@@ -1,17 +1,23 @@
-"""Fixes of decisions that are shadowed or have no effect."""
+"""Fixes of decisions that are never taken or have no effect."""
 
 from dataclasses import replace
 
 from vicode.editor.session.fixes.context import Fix, FixContext
 from vicode.findings import DesignPath
-from vicode.model.design import DecisionGroup, Design, Stay, Transition
+from vicode.model.design import DecisionGroup, Design, Guard, Stay, Transition
 from vicode.model.edits import remove_decisions, replace_decision, update_state
 from vicode.model.traversal import find_decision
 
 
-def fix_shadowed_decision(case: FixContext) -> list[Fix]:
-    """D423 for a decision, the `else` branch of a group, or all decisions of a state."""
-    path = case.path
+def fix_dead_decision(case: FixContext) -> list[Fix]:
+    """D423 and D433 for a decision, the `else` of a group, or all decisions of a state.
+
+    There is none for the guard of a group.
+    """
+    path = _decision_path(case.path)
+    located = find_decision(case.design, path)
+    if path != case.path and located is not None and isinstance(located.decision, DecisionGroup):
+        return []
     if path[-1] == "else":
         return [Fix(label="Remove the else branch", edit=lambda old: _without_else(old, path[:-1]))]
     if path[-1] == "transitions":
@@ -22,7 +28,22 @@ def fix_shadowed_decision(case: FixContext) -> list[Fix]:
             return update_state(design, name, lambda state: replace(state, transitions=()))
 
         return [Fix(label=label, edit=remove_transitions)]
-    return [Fix(label="Remove the shadowed transition", edit=lambda old: remove_decisions(old, [path]))]
+    return [Fix(label="Remove the transition", edit=lambda old: remove_decisions(old, [path]))]
+
+
+def fix_needless_guard(case: FixContext) -> list[Fix]:
+    path = _decision_path(case.path)
+
+    def remove_guard(design: Design) -> Design:
+        located = find_decision(design, path)
+        return replace_decision(design, path, replace(located.decision, guard=Guard())) if located else design
+
+    return [Fix(label="Remove the guard", edit=remove_guard)]
+
+
+def _decision_path(path: DesignPath) -> DesignPath:
+    """The path of a decision from that of its guard."""
+    return path[:-1] if path[-1] in ("when", "after") else path
 
 
 def fix_no_effect(case: FixContext) -> list[Fix]:
@@ -44,4 +65,4 @@ def _without_else(design: Design, path: DesignPath) -> Design:
     return replace_decision(design, path, replace(located.decision, otherwise=()))
 
 
-FIXERS = {"D423": fix_shadowed_decision, "D430": fix_no_effect}
+FIXERS = {"D423": fix_dead_decision, "D433": fix_dead_decision, "D430": fix_no_effect, "D434": fix_needless_guard}
