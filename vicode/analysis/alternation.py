@@ -93,16 +93,16 @@ class AlternationSearch:
             if not self._is_passing(name, tick_ns)
         }
         for first in sorted(edges, key=order.__getitem__):
-            for edge in edges[first]:
-                for second in edges.get(edge.target, ()):
-                    if second.target == first and order[first] < order[edge.target]:
-                        yield ((first, edge), (edge.target, second))
-                    elif second.target != first and order[first] < min(
-                        order.get(edge.target, -1), order.get(second.target, -1)
-                    ):
-                        for third in edges.get(second.target, ()):
-                            if third.target == first:
-                                yield ((first, edge), (edge.target, second), (second.target, third))
+            steps = ((edge, second) for edge in edges[first] for second in edges.get(edge.target, ()))
+            for edge, second in steps:
+                # Each cycle once: from its first state in the design.
+                if order[first] >= min(order[each] for each in {edge.target, second.target} - {first}):
+                    continue
+                if second.target == first:
+                    yield ((first, edge), (edge.target, second))
+                for third in edges.get(second.target, ()) if second.target != first else ():
+                    if third.target == first:
+                        yield ((first, edge), (edge.target, second), (second.target, third))
 
     def _is_passing(self, state: str, tick_ns: int) -> bool:
         """Whether a state is left at once on purpose."""

@@ -166,3 +166,16 @@ def _hull_of_choice(
         # A nan among them may hide the others: docs/semantics.md, "Arithmetic".
         low, high = min(low, *(each[0] for each in given)), max(high, *(each[1] for each in given))
     return (low, high, nan)
+
+
+def find_orders(a: Interval, b: Interval) -> list[Interval]:
+    """The possible orders of two numbers of which the intervals are known: -1, 0, 1."""
+    (low_a, high_a), (low_b, high_b) = a, b
+    possible: list[Interval] = []
+    if low_a[0] < high_b[0]:
+        possible.append((BEFORE_ALL, (0, 0)))
+    if max(low_a, low_b) < min(high_a, high_b):
+        possible.append(((0, 0), (0, 1)))
+    if low_b[0] < high_a[0]:
+        possible.append(((0, 1), BEFORE_NAN))
+    return possible

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from vicode.analysis.bounds import find_bounds
+from vicode.analysis.bounds import find_bounds, find_orders
 from vicode.analysis.interval_diagrams import (
     AFTER_ALL,
     BEFORE_ALL,
@@ -23,6 +23,7 @@ from vicode.analysis.interval_diagrams import (
     Node,
     Position,
 )
+from vicode.analysis.number_sets import NumberSet, compare_with, cut_off, mirror
 from vicode.analysis.quantities import NANOSECONDS, Quantity, QuantityTable, Shape, before_whole, is_leaf, shape_of
 from vicode.model.design import Guard
 from vicode.model.expressions import (
@@ -51,14 +52,6 @@ _MAX_CELLS = 512
 _NO_SPAN = (0, 0)
 _MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 _STATE_TIME = ElapsedTime(kind="state", span=_NO_SPAN)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Region:
-    """A set of numbers: intervals in order, and nan or not."""
-
-    intervals: tuple[Interval, ...]
-    has_nan: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -163,7 +156,7 @@ class Conditions:
         ns = value * self.table.ns_per_unit
         if math.isnan(ns):
             return FALSE
-        return self._test(STATE_TIME, Region(intervals=(((round(ns) if math.isfinite(ns) else ns, 0), BEFORE_NAN),)))
+        return self._test(STATE_TIME, NumberSet(intervals=(((round(ns) if math.isfinite(ns) else ns, 0), BEFORE_NAN),)))
 
     def _add_unknown(self) -> Node:
         """A condition about which nothing is known."""
@@ -188,7 +181,7 @@ class Conditions:
                 triples = zip(operands, operators, operands[1:], strict=False)
                 return self._join("and", (self._compare(a, operator, b) for a, operator, b in triples))
             case FunctionCall(function="is_nan", arguments=(operand,)) if is_leaf(operand) and operand.type == FLOAT:
-                return self._test(self._level(operand), Region(intervals=(), has_nan=True))
+                return self._test(self._level(operand), NumberSet(intervals=(), has_nan=True))
             case _:
                 return self._test_bool(self._level(node))
 
@@ -236,29 +229,29 @@ class Conditions:
         if value is not None:
             return TRUE if value == element else FALSE
         index = self.table.elements(node.type).index(element)
-        return self._test(self._level(node), Region(intervals=(((index, 0), (index + 1, 0)),)))
+        return self._test(self._level(node), NumberSet(intervals=(((index, 0), (index + 1, 0)),)))
 
     def _compare_number(self, node: Expr, operator: str, number: float) -> Node:
         """Compare with a constant; a negation or an absolute value is moved to the constant, which is exact."""
-        return self._test_in(node, _region(operator, float(number) if node.type == FLOAT else number))
+        return self._test_in(node, compare_with(operator, float(number) if node.type == FLOAT else number))
 
-    def _test_in(self, node: Expr, region: Region) -> Node:
+    def _test_in(self, node: Expr, numbers: NumberSet) -> Node:
         match node:
             case Minus(operand=operand) if self.table.value_of(node) is None:
-                return self._test_in(operand, _mirror(region))
+                return self._test_in(operand, mirror(numbers))
             case FunctionCall(function="abs", arguments=(operand,)):
-                positive = Region(intervals=_cut_off(region.intervals, (0, 0)), has_nan=region.has_nan)
-                negative = Region(intervals=_mirror(positive).intervals)
+                positive = NumberSet(intervals=cut_off(numbers.intervals, (0, 0)), has_nan=numbers.has_nan)
+                negative = NumberSet(intervals=mirror(positive).intervals)
                 return self.diagrams.either(self._test_in(operand, positive), self._test_in(operand, negative))
             case FunctionCall(function="float", arguments=(operand,)):
-                return self._test_in(operand, region)
+                return self._test_in(operand, numbers)
             case ElapsedTime(kind="state"):
-                return self._test(STATE_TIME, self._as_ns(region))
+                return self._test(STATE_TIME, self._as_ns(numbers))
             case _:
-                return self._test(self._level(node), region)
+                return self._test(self._level(node), numbers)
 
-    def _as_ns(self, region: Region) -> Region:
-        """The nanoseconds of which the time in seconds is in a region, as `state_time` divides them."""
+    def _as_ns(self, numbers: NumberSet) -> NumberSet:
+        """The nanoseconds of which the time in seconds is in a numbers, as `state_time` divides them."""
 
         def find_first(position: Position) -> Position:
             seconds, side = position
@@ -269,7 +262,7 @@ class Conditions:
                 first += 1
             return (first, 0)
 
-        return replace(region, intervals=tuple((find_first(low), find_first(high)) for low, high in region.intervals))
+        return replace(numbers, intervals=tuple((find_first(low), find_first(high)) for low, high in numbers.intervals))
 
     def _compare_order(self, left: Expr, operator: str, right: Expr) -> Node:
         """Compare two values: their order is a quantity of its own, -1, 0, 1, or nan."""
@@ -286,11 +279,11 @@ class Conditions:
             is_int = left.type == right.type == INT
             domain = (BEFORE_ALL, BEFORE_NAN if is_int else AFTER_ALL)
             self.quantities[level] = Quantity(name="", type=FLOAT, domain=domain)
-        return self._test(level, _region(operator, 0))
+        return self._test(level, compare_with(operator, 0))
 
     def _compare_with_itself(self, node: Expr, operator: str) -> Node:
         """Only nan is not equal to itself."""
-        is_nan = FALSE if node.type == INT else self._test(self._level(node), Region(intervals=(), has_nan=True))
+        is_nan = FALSE if node.type == INT else self._test(self._level(node), NumberSet(intervals=(), has_nan=True))
         if operator in ("<", ">"):
             return FALSE
         return is_nan if operator == "!=" else self.diagrams.negate(is_nan)
@@ -320,14 +313,14 @@ class Conditions:
         return is_leaf(node) and node.type in (INT, FLOAT) and self.table.value_of(node) is None
 
     def _test_bool(self, level: int) -> Node:
-        return self._test(level, Region(intervals=(((1, 0), (2, 0)),)))
+        return self._test(level, NumberSet(intervals=(((1, 0), (2, 0)),)))
 
-    def _test(self, level: int, region: Region) -> Node:
+    def _test(self, level: int, numbers: NumberSet) -> Node:
         type_ = self.quantities[level].type
-        intervals = list(region.intervals)
+        intervals = list(numbers.intervals)
         if type_ in (INT, NANOSECONDS):
             intervals = [(before_whole(low), before_whole(high)) for low, high in intervals]
-        elif region.has_nan and type_ == FLOAT:
+        elif numbers.has_nan and type_ == FLOAT:
             if intervals and intervals[-1][1] == BEFORE_NAN:
                 intervals[-1] = (intervals[-1][0], AFTER_ALL)
             else:
@@ -368,23 +361,10 @@ class Conditions:
         found = [find_bounds(tree, by_shape, self.table) for tree in computed.trees]
         intervals = [interval for interval, _nan in found]
         if len(found) == 2:
-            intervals = _order(*intervals)
+            intervals = find_orders(*intervals)
         elif self.quantities[level].type == INT:
             intervals = [(before_whole(low), before_whole(high)) for low, high in intervals]
         return [*intervals, (BEFORE_NAN, AFTER_ALL)] if any(nan for _interval, nan in found) else intervals
-
-
-def _order(a: Interval, b: Interval) -> list[Interval]:
-    """The possible orders of two numbers of which the intervals are known: -1, 0, 1."""
-    (low_a, high_a), (low_b, high_b) = a, b
-    possible: list[Interval] = []
-    if low_a[0] < high_b[0]:
-        possible.append((BEFORE_ALL, (0, 0)))
-    if max(low_a, low_b) < min(high_a, high_b):
-        possible.append(((0, 0), (0, 1)))
-    if low_b[0] < high_a[0]:
-        possible.append(((0, 1), BEFORE_NAN))
-    return possible
 
 
 def _lower(node: Expr) -> Expr:
@@ -412,34 +392,3 @@ def _lower(node: Expr) -> Expr:
 def _is_exact(node: Expr, number: float) -> bool:
     """Whether a comparison with a constant compares the exact values: large ints are converted to doubles."""
     return node.type == FLOAT or math.isinf(number) or math.isnan(number) or abs(number) < 2**53
-
-
-def _region(operator: str, number: float) -> Region:
-    """The numbers for which a comparison with a constant holds."""
-    before, after = (number, 0), (number, 1)
-    if math.isnan(number):
-        return Region(intervals=((BEFORE_ALL, BEFORE_NAN),) if operator == "!=" else (), has_nan=operator == "!=")
-    match operator:
-        case "<":
-            return Region(intervals=((BEFORE_ALL, before),))
-        case "<=":
-            return Region(intervals=((BEFORE_ALL, after),))
-        case ">":
-            return Region(intervals=((after, BEFORE_NAN),))
-        case ">=":
-            return Region(intervals=((before, BEFORE_NAN),))
-        case "==":
-            return Region(intervals=((before, after),))
-        case _:
-            return Region(intervals=((BEFORE_ALL, before), (after, BEFORE_NAN)), has_nan=True)
-
-
-def _mirror(region: Region) -> Region:
-    def mirrored(position: Position) -> Position:
-        return (-position[0], 1 - position[1])
-
-    return replace(region, intervals=tuple((mirrored(high), mirrored(low)) for low, high in reversed(region.intervals)))
-
-
-def _cut_off(intervals: Iterable[Interval], start: Position) -> tuple[Interval, ...]:
-    return tuple((max(low, start), high) for low, high in intervals if high > start)
