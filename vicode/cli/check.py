@@ -3,8 +3,8 @@
 import argparse
 from collections.abc import Iterator
 
-from vicode.cli.console import print_findings
-from vicode.findings import Finding, Severity, count_findings, render_json
+from vicode.cli.console import add_format_arguments, print_findings, print_formatted
+from vicode.findings import Finding, Severity, count_findings
 from vicode.services.project_loader import LoadedProject, load_projects
 
 
@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=["."],
         help="design file, project folder, or folder of projects (default: the current folder)",
     )
-    parser.add_argument("--json", action="store_true", help="print findings as JSON")
+    add_format_arguments(parser)
     parser.add_argument(
         "--deep",
         action="store_true",
@@ -38,9 +38,7 @@ def run(args: argparse.Namespace) -> int:
     """Print findings; return 1 for errors and, with --strict, for warnings."""
     projects = load_projects(args.paths, with_warnings=True, deep=args.deep)
     findings = tuple(finding for project in projects for finding in (*project.findings, *_patches(project)))
-    if args.json:
-        print(render_json(findings), end="")
-    else:
+    if not print_formatted(findings, args):
         print_findings(findings)
         designs = sum(len(project.selected_designs) + len(project.open_project.broken_files) for project in projects)
         print(f"{count_findings(findings)} in {designs} design{'s' * (designs != 1)}")

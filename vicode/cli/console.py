@@ -1,11 +1,12 @@
 """Prints findings with their source lines, in color on a terminal."""
 
+import argparse
 import sys
 from collections.abc import Iterable
 from functools import lru_cache, partial
 from pathlib import Path
 
-from vicode.findings import Finding, Severity, escape_text, render_text
+from vicode.findings import Finding, Severity, escape_text, render_json, render_sarif, render_text
 
 _MAX_BYTES = 2_000_000
 _XABSL_SUFFIXES = (".xabsl", ".yabsl")
@@ -40,6 +41,20 @@ def print_findings(findings: Iterable[Finding], *, to_stderr: bool = False, enco
         shown.highlight_regex(rf"(?m)(?<=: ){severity} [A-Z]\d+|^{severity} [A-Z]\d+", color)
     shown.highlight_regex(r"(?m)^ +\^+$", "bold green")
     Console(file=stream, soft_wrap=True).print(shown)
+
+
+def add_format_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of other formats of findings."""
+    formats = parser.add_mutually_exclusive_group()
+    formats.add_argument("--json", action="store_true", help="print findings as JSON")
+    formats.add_argument("--sarif", action="store_true", help="print findings as SARIF, which code hosts read")
+
+
+def print_formatted(findings: Iterable[Finding], args: argparse.Namespace) -> bool:
+    """Print findings in the format that an option chose; False if none did."""
+    if args.json or args.sarif:
+        print((render_json if args.json else render_sarif)(findings), end="")
+    return bool(args.json or args.sarif)
 
 
 def describe_os_error(error: OSError) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from vicode.bica import options
 from vicode.cli import xabsl_diff, xabsl_update
-from vicode.cli.console import describe_os_error, print_findings
+from vicode.cli.console import add_format_arguments, describe_os_error, print_findings, print_formatted
 from vicode.cli.source_encoding import add_encoding_argument
 from vicode.cli.xabsl_behavior import print_behavior_findings
 from vicode.findings import count_findings
@@ -48,6 +48,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _add_check(parser: argparse.ArgumentParser) -> None:
     _add_behavior(parser)
+    add_format_arguments(parser)
     parser.add_argument(
         "--deep",
         action="store_true",
@@ -57,7 +58,6 @@ def _add_check(parser: argparse.ArgumentParser) -> None:
 
 def _add_behavior(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("agents", metavar="AGENTS.xabsl", type=Path, help="XABSL file with the agents")
-    parser.add_argument("--json", action="store_true", help="print findings as JSON")
     parser.add_argument(
         "--strict", action="store_true", help="reject constructs that the original compiler or its engines cannot read"
     )
@@ -77,11 +77,7 @@ def _check(args: argparse.Namespace) -> int:
         from vicode.services.imported_behavior.behavior_check import find_in_behavior
 
         findings = (*findings, *find_in_behavior(source, compiled))
-    if args.json:
-        from vicode.findings import render_json
-
-        print(render_json(with_display_paths(findings, args.agents)), end="")
-    else:
+    if not print_formatted(with_display_paths(findings, args.agents), args):
         print_behavior_findings(findings, args.agents, encoding, to_stderr=False)
         print(count_findings(findings))
     return _exit_code(compiled, strict=args.strict)

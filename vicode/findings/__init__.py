@@ -13,6 +13,7 @@ from vicode.findings.finding import (
 )
 from vicode.findings.nearest import did_you_mean, nearest_name, write_instead
 from vicode.findings.render import count_findings, escape_text, render_json, render_text
+from vicode.findings.sarif import render_sarif
 
 __all__ = [
     "RULES",
@@ -30,6 +31,7 @@ __all__ = [
     "get_rule",
     "nearest_name",
     "render_json",
+    "render_sarif",
     "render_text",
     "sort_findings",
     "worst_severity",
