@@ -66,23 +66,25 @@ class AlternationSearch:
         """Yield the alternations of two and three states; none if a design has errors or code that is not portable."""
         try:
             tick_ns = Walk(self._project, self._machine).tick_ns
+            for cycle in self._find_cycles(tick_ns):
+                found = self._replay(cycle, tick_ns)
+                if found is not None:
+                    yield found
         except NotInterpretableError:
             return
-        for cycle in self._find_cycles(tick_ns):
-            try:
-                held = self._hold(cycle, tick_ns)
-            except (TooLargeError, RecursionError):
-                continue
-            states = [state for state, _edge in cycle]
-            walk = Walk(self._project, self._machine) if held != FALSE else None
-            if walk is not None and walk.go_to(states[0]):
-                expected = [states[(index + 1) % len(states)] for index in range(_ITERATIONS)]
-                if walk.hold(held, expected):
-                    yield Alternation(
-                        states=tuple(states),
-                        paths=tuple(edge.path for _state, edge in cycle),
-                        steps=tuple(walk.steps),
-                    )
+
+    def _replay(self, cycle: Sequence[tuple[str, LiveTransition]], tick_ns: int) -> Alternation | None:
+        try:
+            held = self._hold(cycle, tick_ns)
+        except (TooLargeError, RecursionError):
+            return None
+        states = [state for state, _edge in cycle]
+        expected = [states[(index + 1) % len(states)] for index in range(_ITERATIONS)]
+        walk = Walk(self._project, self._machine)
+        if held == FALSE or not walk.go_to(states[0]) or not walk.hold(held, expected):
+            return None
+        paths = tuple(edge.path for _state, edge in cycle)
+        return Alternation(states=tuple(states), paths=paths, steps=tuple(walk.steps))
 
     def _find_cycles(self, tick_ns: int) -> Iterator[tuple[tuple[str, LiveTransition], ...]]:
         """Cycles of two and three states of which none is left whatever the inputs are, each once."""

@@ -72,12 +72,13 @@ class ProjectAnalysis:
         expected = [states[(index + 1) % len(states)] for index in range(len(states) * _ROUNDS)]
         try:
             walk = Walk(self.project, self.machines[caller[0]])
+            return any(
+                walk.follow(component, expected, {caller[0]: caller[1], component: states[0]}, inputs)
+                for inputs in walk.find_inputs_to_stay(caller[1], held, len(expected))
+            )
         except NotInterpretableError:
+            # Nothing is known of the caller.
             return True
-        return any(
-            walk.follow(component, expected, {caller[0]: caller[1], component: states[0]}, inputs)
-            for inputs in walk.find_inputs_to_stay(caller[1], held, len(expected))
-        )
 
     def _stepped(self, machine: MachineAnalysis) -> Iterator[str]:
         """The components that the reachable states of a design step."""

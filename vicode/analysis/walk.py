@@ -108,8 +108,7 @@ class Walk:
                     break
             else:
                 return True
-            self._robot.memory = before
-            del self.steps[count:]
+            self._restore(before, count)
         return False
 
     def find_inputs_to_stay(self, state: str, fixed: Inputs, iterations: int) -> Iterator[Inputs]:
@@ -122,8 +121,9 @@ class Walk:
     def follow(self, component: str, expected: Sequence[str], states: Mapping[str, str], inputs: Inputs) -> bool:
         """Put components into states that they have just entered; whether the next states of one are the expected ones.
 
-        The inputs hold still. The run ends there.
+        The inputs hold still. Without effect if they are not.
         """
+        before, count = self._memory.copy(), len(self.steps)
         self.step(inputs, self._memory.now_ns + self.tick_ns)
         memories = self._memory.components
         for name, state in states.items():
@@ -134,6 +134,7 @@ class Walk:
             self.step({}, self._memory.now_ns + self.tick_ns)
             memory = self._memory.components[component]
             if memory.state != state or memory.stepped_in != self._memory.iteration:
+                self._restore(before, count)
                 return False
         return True
 
@@ -150,9 +151,12 @@ class Walk:
         self.step(inputs, time_ns)
         if self.state == edge.target:
             return True
-        self._robot.memory = before
-        del self.steps[count:]
+        self._restore(before, count)
         return False
+
+    def _restore(self, memory: RobotMemory, count: int) -> None:
+        self._robot.memory = memory
+        del self.steps[count:]
 
     def _shortest_way(self, goal: str) -> list[LiveTransition]:
         ways: dict[str, list[LiveTransition]] = {self.state: []}

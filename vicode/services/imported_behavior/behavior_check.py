@@ -21,7 +21,7 @@ def find_in_behavior(source: ProgramSource, compiled: CompileResult) -> tuple[Fi
     imported = import_behavior(source, compiled, "behavior")
     found = (*check_project(imported.project), *find_behavior(imported.project, are_names_xabsl=True))
     places = {
-        made.component: {path: source.files[made.file].tokens.location(token) for token, path in made.anchors}
+        made.component: {path: source.files[made.file].tokens.location(token) for token, path in reversed(made.anchors)}
         for made in imported.designs
     }
     return sort_findings(_locate(each, places) for each in found if each.rule.code in _CODES or _is_proved(each))
