@@ -72,7 +72,7 @@ class Conditions:
     def __init__(self, table: QuantityTable) -> None:
         self.table = table
         self.diagrams = IntervalDiagrams(_MAX_NODES)
-        self.quantities: dict[int, Quantity] = {STATE_TIME: table.quantity(_STATE_TIME, "state_time")}
+        self.quantities: dict[int, Quantity] = {STATE_TIME: table.quantity(_STATE_TIME)}
         self._levels: dict[Shape, int] = {shape_of(_STATE_TIME): STATE_TIME}
         self._computed: dict[int, _Computed] = {}
         self._texts: dict[tuple[str, str], Node] = {}

@@ -86,11 +86,11 @@ class QuantityTable:
     def elements(self, type_: str) -> tuple[str, ...]:
         return self.scope.enumerations.get(type_, ())
 
-    def quantity(self, node: Expr, text: str = "") -> Quantity:
+    def quantity(self, node: Expr) -> Quantity:
         """The quantity of a tree, with the range of the declaration that it reads."""
         shape = shape_of(node)
         if shape not in self._quantities:
-            self._quantities[shape] = self._describe(node, text or name_of(node))
+            self._quantities[shape] = self._describe(node, name_of(node))
         return self._quantities[shape]
 
     def declaration(self, node: Expr) -> Declaration | None:
