@@ -8,6 +8,7 @@ reference interpreter goes to the first state and gets inputs from the diagram o
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 from vicode.analysis.conditions import STATE_TIME
 from vicode.analysis.interval_diagrams import FALSE, TRUE, Node, TooLargeError
@@ -22,6 +23,7 @@ from vicode.model.traversal import iter_actions
 from vicode.semantics import NotInterpretableError, Value
 
 _ITERATIONS = 12
+_MOST_CYCLES = 10_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,7 +68,7 @@ class AlternationSearch:
         """Yield the alternations of two and three states; none if a design has errors or code that is not portable."""
         try:
             tick_ns = Walk(self._project, self._machine).tick_ns
-            for cycle in self._find_cycles(tick_ns):
+            for cycle in islice(self._find_cycles(tick_ns), _MOST_CYCLES):
                 found = self._replay(cycle, tick_ns)
                 if found is not None:
                     yield found
