@@ -94,7 +94,7 @@ class GuardAnalysis:
 
     def is_possible(self, node: Node) -> bool:
         """Whether a case is not proved to be impossible."""
-        return self.prove(node) is None
+        return not self._is_impossible(node, no_nan=True)
 
     def prove(self, node: Node, *, may_assume_no_nan: bool = True) -> Basis | None:
         """Prove that a case is impossible; None if it may be possible."""
@@ -255,15 +255,29 @@ class GuardAnalysis:
             for each in earlier
             if not isinstance(each.decision, DecisionGroup) and self._diagrams.both(each.own, condition) != FALSE
         ]
-        needed = list(meeting)
-        for each in reversed(meeting):
-            fewer = [other for other in needed if other is not each]
-            rest = condition
-            for other in fewer:
-                rest = self._diagrams.without(rest, other.own)
-            if self.prove(rest, may_assume_no_nan=no_nan) is not None:
-                needed = fewer
-        return tuple(each.path for each in needed)
+        needed: list[TestedDecision] = []
+        while meeting and not self._is_impossible(condition, no_nan=no_nan):
+            # The decisions up to one of them are enough, and without that one they are not.
+            least, most = 1, len(meeting)
+            while least < most:
+                middle = (least + most) // 2
+                is_enough = self._is_impossible(self._without_all(condition, meeting[:middle]), no_nan=no_nan)
+                least, most = (least, middle) if is_enough else (middle + 1, most)
+            needed.append(meeting[least - 1])
+            condition = self._diagrams.without(condition, needed[-1].own)
+            del meeting[least - 1 :]
+        return tuple(each.path for each in reversed(needed))
+
+    def _without_all(self, condition: Node, decisions: Sequence[TestedDecision]) -> Node:
+        for each in decisions:
+            condition = self._diagrams.without(condition, each.own)
+        return condition
+
+    def _is_impossible(self, node: Node, *, no_nan: bool) -> bool:
+        try:
+            return self._is_excluded(node, set(), with_nan=not no_nan)
+        except (TooLargeError, RecursionError):
+            return False
 
 
 def analyze_guards(project: Project, design: Design) -> GuardAnalysis:
