@@ -266,8 +266,10 @@ def test_only_a_state_of_an_active_component_is_entered(door: Door) -> None:
 
 
 def test_before_the_first_iteration_no_component_is_active(root: Root) -> None:
+    made = Controller(root)
+    assert made.last_iteration == 0
     with pytest.raises(ControlError, match="not active"):
-        Controller(root).apply("viewer", {"do": "enter", "component": "Lamp", "state": "Lit"})
+        made.apply("viewer", {"do": "enter", "component": "Lamp", "state": "Lit"})
 
 
 # Errors

@@ -220,11 +220,11 @@ class _OptionEdits:
 
     def _insert_before(self, token: int, lines: str, indent: str) -> None:
         file = self.file
-        position = file.start_with_comments(token)
-        if file.is_first_in_line(file.start(token)):
-            file.insert(position, f"{indent}{lines}\n")
+        if file.starts_line(token):
+            file.insert(file.start_with_comments(token), f"{indent}{lines}\n")
         else:
-            file.insert(position, f"\n{indent}{lines}\n{indent}")
+            position = file.start(token)
+            file.replace(len(file.text[:position].rstrip(" \t")), position, f"\n{indent}{lines}\n{indent}")
 
     # Actions
 
@@ -255,30 +255,30 @@ class _OptionEdits:
             edit_list(file, old.actions, matches, added, style)
 
     def _edit_action(self, old: tree.ActionNode, before: tree.ActionNode, after: tree.ActionNode) -> None:
+        """Change an action that still sets the same symbol or calls the same component: others do not match."""
         file = self.file
         match old, before, after:
             case tree.AssignmentNode(), tree.AssignmentNode(), tree.AssignmentNode():
-                if before.symbol != after.symbol:
-                    file.replace_node(old.symbol, after.symbol.text)
                 edit_expression(file, old.value, before.value, after.value)
             case tree.CallNode(), tree.CallNode(), tree.CallNode():
-                if (before.name, before.kind) != (after.name, after.kind):
+                if before.kind != after.kind:
                     name = " ".join(word for word in (after.name.text, after.kind) if word)
                     file.replace(file.start(old.first_token), file.end(old.arguments.first_token - 1), name)
                 if before.arguments != after.arguments and not edit_arguments(
                     file, old.arguments, before.arguments, after.arguments
                 ):
                     file.replace_node(old.arguments, print_node(after.arguments))
-            case _:
-                file.replace_node(old, print_node(after))
 
 
 def _similarity(old: tree.ActionNode, new: tree.ActionNode) -> float:
-    if type(old) is not type(new):
-        return 0.0
-    old_name = old.symbol if isinstance(old, tree.AssignmentNode) else old.name
-    new_name = new.symbol if isinstance(new, tree.AssignmentNode) else new.name
-    return 0.5 * (old_name == new_name) + 0.5 * text_similarity(print_node(old), print_node(new))
+    """At least 0.5 if both set the same symbol or call the same component, otherwise 0."""
+    match old, new:
+        case (tree.AssignmentNode(symbol=old_name), tree.AssignmentNode(symbol=new_name)) | (
+            tree.CallNode(name=old_name),
+            tree.CallNode(name=new_name),
+        ) if old_name == new_name:
+            return 0.5 + 0.5 * text_similarity(print_node(old), print_node(new))
+    return 0.0
 
 
 def _indentation(file: SourceEdits, option: tree.OptionNode) -> tuple[str, str]:
