@@ -15,7 +15,8 @@ def token(file: SourceEdits, text: str) -> int:
 
 
 def test_an_error_names_its_option() -> None:
-    assert (str(PatchError("no")), PatchError("no").option, PatchError("no", "play").option) == ("no", "", "play")
+    plain, named = PatchError("no"), PatchError("no", "play")
+    assert [(str(each), each.option) for each in (plain, named)] == [("no", ""), ("no", "play")]
 
 
 # Positions
@@ -28,7 +29,13 @@ def test_start_and_end_of_a_token() -> None:
 
 @pytest.mark.parametrize(
     ("text", "word", "indent"),
-    [("one", "one", ""), ("  one", "one", "  "), ("a\n\t one two", "two", "\t "), ("a\n   \n b", "b", " ")],
+    [
+        ("one", "one", ""),
+        ("  one", "one", "  "),
+        ("a\n\t one two", "two", "\t "),
+        ("a\n   \n b", "b", " "),
+        ("\n  one", "one", "  "),
+    ],
 )
 def test_the_indentation_is_that_of_the_line(text: str, word: str, indent: str) -> None:
     file = edits(text)
@@ -46,6 +53,7 @@ def test_the_indentation_is_that_of_the_line(text: str, word: str, indent: str) 
         ("b\na one", "one", False),
         ("a one\n", "one", False),
         ("/* c */ one", "one", False),
+        ("\n one", "one", True),
         ("z\nx one", "one", False),
     ],
 )
@@ -81,6 +89,7 @@ def test_comments_behind_a_token_belong_to_it(behind: str, comments: str) -> Non
         ("  b", True),
         ("/* c */ b", True),
         ("a b", False),
+        ("x\na b", False),
         ("a\nb", True),
         ("a // c\nb", True),
         ("a\n/* c */ b", True),
@@ -109,6 +118,9 @@ def test_only_comments_precede_a_token_that_starts_a_line(text: str, starts_line
         ("a\n\n", "// d\n"),
         ("a\n// c\n \t\n", "// d\n"),
         ("a\n// c\n\n\n\n", " // d\n "),
+        ("a\n// c\n\n\n", " // d\n "),
+        ("a /* c\n d */\n", "  // e\n  "),
+        ("", "/* c\n\n d */\n"),
         ("a\r\n// c\r\n\r\n", "// d\r\n"),
         ("a\n", "/* c\n\n d */\n"),
         ("a\n// c\n\n// d\n\n", "// e\n"),
@@ -140,8 +152,8 @@ def test_edits_are_read_in_the_order_of_the_text() -> None:
     file.replace(8, 13, "3")
     file.insert(4, "and ")
     file.replace(0, 3, "1")
-    file.insert(4, "or ")
     file.replace(4, 7, "2")
+    file.insert(4, "or ")
     assert file.result() == "1 and or 2 3"
     assert file.read(4, 7) == "and or 2"
     assert file.read(5, 13) == "wo 3"
@@ -219,7 +231,8 @@ COMMENTED = {
     "  a // c|\n    b~": ("", "  a // c"),
     "  a // c|\n    b;~ d": ("\nx", "  a // c\nx d"),
     "  a // c|~\nd": (" y", "  a // c y\nd"),
-    "  a /* c */|\n  ~b": (" ", "  a /* c */ b"),
+    "  a // c|\n\n    ~b": (" ", "  a // c\n  b"),
+    "  a /* c */|\n  ~b": ("x ", "  a /* c */x b"),
 }
 
 

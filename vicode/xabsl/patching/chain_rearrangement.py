@@ -104,28 +104,36 @@ class ChainRearrangement:
     def _insert(self, texts: Sequence[str]) -> None:
         file, old = self.file, self.old
         previous: Match = None
+        first = ""
         for match, text in zip(self.matches, texts, strict=True):
             above, _zero, body = text.partition("\0")
             if match is not None and match in self.kept:
                 previous = match
             elif previous is None:
-                self._insert_first(above + body)
+                gap = self._gap_after(first) if first and not above else f"\n{self._indent()}"
+                first = f"{first}{gap}{above}else {body}" if first else above + body
             else:
                 position = file.end_with_comment(old.tests[previous].then.last_token)
                 has_comment = position != file.end(old.tests[previous].then.last_token)
                 follows_block = isinstance(old.tests[previous].then, tree.BlockNode)
                 is_line = bool(above) or has_comment or not (follows_block and self._is_same_line())
                 file.insert(position, f"\n{self._indent()}{above}else {body}" if is_line else f" else {body}")
+        if first:
+            self._insert_first(first)
 
     def _insert_first(self, text: str) -> None:
         file, front, start = self.file, self._front(), self.file.start(self.old.tests[0].first_token)
-        gap = " " if self._is_same_line() and "//" not in text.rsplit("\n", maxsplit=1)[-1] else "\n" + self._indent()
         if front == start or 0 in self.removed:
-            file.insert(front, f"{text}{gap}else ")
+            file.insert(front, f"{text}{self._gap_after(text)}else ")
         else:
             # The comments of the next test are between both.
             file.insert(front, f"{text}\n{self._indent()}")
             file.insert(start, "else ")
+
+    def _gap_after(self, test: str) -> str:
+        """What separates an `else` from the test before it."""
+        has_comment = "//" in test.rsplit("\n", maxsplit=1)[-1]
+        return " " if self._is_same_line() and not has_comment else f"\n{self._indent()}"
 
     def _front(self) -> int:
         """The start of the first test with the comments directly above it."""
