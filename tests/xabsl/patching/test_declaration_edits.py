@@ -44,6 +44,7 @@ DOCS = {
         "  const a = 1; /** x */ const b  = 2;",
     ),
     "removed": ("  /** x */\n  bool input  a;", "bool input a;", "  bool input  a;"),
+    "removed in a line": ("  /** x */ bool input  a;", "bool input a;", "  bool input  a;"),
     "changed": ("  /** one\n  two */ const a=1;", "/** one three */ const a = 1;", "  /** one\n  three */ const a=1;"),
     "and number": ("  /** x */\n  const a=1; // c", "/** y */ const a = 2;", "  /** y */\n  const a=2; // c"),
 }
@@ -81,6 +82,11 @@ ENUMERATIONS = {
     "added first in lines": ("enum a {\n x,\n y\n};", "enum a { w, x, y };", "enum a {\n w,\n x,\n y\n};"),
     "added to one in a line of its own": ("enum a {\n    x\n  };", "enum a { x, y };", "enum a {\n    x, y\n  };"),
     "added where the last shares a line": ("enum a {\n x, y};", "enum a { x, y, z };", "enum a {\n x, y, z};"),
+    "added to a last line": (
+        "enum a { x, y,\n    z};",
+        "enum a { x, y, z, w };",
+        "enum a { x, y,\n    z,\n    w};",
+    ),
     "another order": ("enum a {x ,  y , z} ;", "enum a { y, x, z };", "enum a {y, x, z} ;"),
     "all others": ("enum a {x ,  y} ;", "enum a { v, w };", "enum a {v, w} ;"),
     "removed and added": ("enum a {x ,  y} ;", "enum a { y, z };", "enum a {y, z} ;"),
@@ -183,6 +189,23 @@ def test_a_declaration_of_another_kind_replaces_the_old_one() -> None:
 @pytest.mark.parametrize(
     ("old", "before", "after", "expected"),
     [
+        (
+            "/** d */ behavior a { a.x; a.b ; }",
+            "/** d */ behavior a { a.b; }",
+            "/** e */ behavior a { a.b; }",
+            "/** e */ behavior a { a.x; a.b ; }",
+        ),
+        ("enum a {x , y};", "enum a { x };", "enum a internal { x };", "enum a internal {x , y};"),
+        ("enum a {x , y};", "const a = 1;", "const a = 1;", "enum a {x , y};"),
+    ],
+)
+def test_what_differs_in_the_file_stays_without_an_edit(old: str, before: str, after: str, expected: str) -> None:
+    assert edited(old, after, before) == expected
+
+
+@pytest.mark.parametrize(
+    ("old", "before", "after", "expected"),
+    [
         # The file has parentheses that the generator does not write.
         ("float  input a ( );", "float input a;", "bool input a;", "bool input a ( );"),
         ("float  input a ( );", "float input a();", "bool input a();", "bool input a ( );"),
@@ -199,7 +222,7 @@ def test_a_declaration_of_another_kind_replaces_the_old_one() -> None:
         ),
     ],
 )
-def test_the_file_may_differ_from_the_version_before(old: str, before: str, after: str, expected: str) -> None:
+def test_an_edit_of_what_differs_in_the_file(old: str, before: str, after: str, expected: str) -> None:
     assert edited(old, after, before) == expected
 
 
@@ -276,22 +299,27 @@ def test_without_a_change_each_character_stays(old: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("after", "expected"),
+    ("before", "after", "expected"),
     [
-        ('agent a("A", b);', '  agent  a  ( "A" , b ) ;'),
-        ('/** x */ agent a("A", b);', '  /** x */\n  agent  a  ( "A" , b ) ;'),
-        ('agent a("B", b);', '  agent  a  ( "B" , b ) ;'),
-        ('agent a("A", c);', '  agent  a  ( "A" , c ) ;'),
-        ('agent a("B", c);', '  agent  a  ( "B" , c ) ;'),
+        ('agent a("A", b);', 'agent a("A", b);', '  agent  a  ( "A" , b ) ;'),
+        ('agent a("A", b);', '/** x */ agent a("A", b);', '  /** x */\n  agent  a  ( "A" , b ) ;'),
+        ('agent a("A", b);', 'agent a("B", b);', '  agent  a  ( "B" , b ) ;'),
+        ('agent a("A", b);', 'agent a("A", c);', '  agent  a  ( "A" , c ) ;'),
+        ('agent a("A", b);', 'agent a("B", c);', '  agent  a  ( "B" , c ) ;'),
+        # What differs in the file stays without an edit.
+        ('agent a("X", b);', 'agent a("X", c);', '  agent  a  ( "A" , c ) ;'),
+        ('agent a("A", x);', 'agent a("B", x);', '  agent  a  ( "B" , b ) ;'),
     ],
 )
-def test_an_agent_is_changed(after: str, expected: str) -> None:
+def test_an_agent_is_changed(before: str, after: str, expected: str) -> None:
     file = SourceEdits(parse('  agent  a  ( "A" , b ) ;', "agents.xabsl"))
-    agents = [each for text in (file.text, after) for each in parse(text, "agents.xabsl").file.body]
-    before, new = (each for each in agents if isinstance(each, tree.AgentNode))
-    (old,) = file.parsed.file.body
-    assert isinstance(old, tree.AgentNode)
-    edit_agent(file, old, before, new)
+    old, was, now = (
+        each
+        for text in (file.text, before, after)
+        for each in parse(text, "agents.xabsl").file.body
+        if isinstance(each, tree.AgentNode)
+    )
+    edit_agent(file, old, was, now)
     assert file.result() == expected
 
 
