@@ -196,7 +196,12 @@ def test_an_output_of_the_world_is_read_by_its_name(attribute: str, output: str)
     now = project(lamp("team_size > 4"))
     (text,) = (file.text for file in generate(now) if file.component == "Lamp")
     assert "self.root.team.size > 4" in text
-    for call, words in ((f"self.world.{attribute}", f"eyes.{output}"), ("self.world.other", None)):
+    readings = (
+        (f"self.world.{attribute}", f"eyes.{output}"),
+        (f"abs(self.world.{attribute})", f"abs(eyes.{output})"),
+        ("self.world.other", None),
+    )
+    for call, words in readings:
         edited = text.replace("self.root.team.size > 4", f"{call} > 9")
         result = interpret_edits(now, "Lamp", generated=text, edited=edited)
         assert guards(result.design)[0] == ("team_size > 4" if words is None else f"{words} > 9")
