@@ -235,6 +235,50 @@ SMALL = {
             "   initial state s {\n      decision { stay; } action { }\n   }\n}"
         ),
     ),
+    "with the default indentation": (
+        "option o { initial state s {\n       action { }\n  }\n}",
+        "option o {\n  common action {\n    x = 1;\n  }\n\n  initial state s {\n       action { }\n  }\n}",
+    ),
+    "common action before a comment in the line": (
+        "option o {  /* c */ initial state s { action { } } }",
+        "option o {\n  common action {\n    x = 1;\n  }\n\n  /* c */ initial state s { action { } } }",
+    ),
+    "parameter of an option without parameters": (
+        "option  o {\n    initial state s {\n        action { }\n    }\n}",
+        "option  o {\n    float @p;\n\n    initial state s {\n        action { }\n    }\n}",
+    ),
+    "first parameter": (
+        "option  o { // c\n    float  @q;\n    initial state s {\n        action { }\n    }\n}",
+        "option  o { // c\n    float @p;\n    float  @q;\n    initial state s {\n        action { }\n    }\n}",
+    ),
+    "comment above a state in a line": (
+        "option o { initial state s { action { } } state t { action { } } }",
+        "option o { initial state s { action { } }\n  // c\n  state t { action { } } }",
+    ),
+    "comments above the first state": (
+        "option o { initial state s { action { } } }",
+        "option o {\n  // c\n  // d\n  initial state s { action { } } }",
+    ),
+    "comment of a state below a line break": (
+        "\noption o {\n initial state s { action { } } }",
+        "\noption o {\n  // c\n initial state s { action { } } }",
+    ),
+    "action with another indentation": (
+        "option o {\n  initial state s {\n    action {\n         x  = 1;\n    }\n  }\n}",
+        "option o {\n  initial state s {\n    action {\n         x  = 1;\n         y = 2;\n    }\n  }\n}",
+    ),
+    "argument of a call of a kind": (
+        "option o { initial state s { action { f  option  (f.x  = 1) ; } } }",
+        "option o { initial state s { action { f  option  (f.x  = 2) ; } } }",
+    ),
+    "action in several lines": (
+        "option o {\n   initial state s {\n      action {\n      }\n   }\n}",
+        (
+            "option o {\n   initial state s {\n      action {\n"
+            f"         walk(\n            walk.{'x' * 60} = 1,\n            walk.{'y' * 60} = 2\n         );\n"
+            "      }\n   }\n}"
+        ),
+    ),
     "state moved to the front": (
         "option o {\n  initial state s { action { } }\n\n  // t\n  state  t { action { } }\n}",
         "option o {\n  // t\n  state  t { action { } }\n\n  initial state s { action { } }\n}",
@@ -365,7 +409,32 @@ def test_a_small_option_is_changed(name: str) -> None:
             "option o {\n  // a\n  initial state s { action { } }\n}",
             "option o {\n  // b\n  initial state s { action { } }\n}",
             "option o {\n  // c\n  // d\n  initial state s { action { } }\n}",
-            "option o {\n  // a\n  // c\n  // d\n  initial state s { action { } }\n}",
+            "option o {\n  // c\n  // d\n  // a\n  initial state s { action { } }\n}",
+        ),
+        (
+            "option o {\n  /* a */ /* b */\n  initial state s { action { } }\n}",
+            "option o {\n  // a\n  initial state s { action { } }\n}",
+            "option o {\n  // c\n  initial state s { action { } }\n}",
+            "option o {\n  /* c */ /* b */\n  initial state s { action { } }\n}",
+        ),
+        (
+            "option o {\n  initial state s { action { }\n    // a\n  }\n  state t { action { } }\n}",
+            "option o {\n  initial state s { action { } }\n  // a\n  state t { action { } }\n}",
+            "option o {\n  initial state s { action { } }\n  // c\n  state t { action { } }\n}",
+            "option o {\n  initial state s { action { }\n    // a\n  }\n  // c\n  state t { action { } }\n}",
+        ),
+        # What differs stays without an edit.
+        (
+            "option o {\n  // a\n  initial state s { action { } }\n}",
+            "option o {\n  // b\n  initial state s { action { } }\n}",
+            "option o {\n  // b\n  initial state s { action { x = 1; } }\n}",
+            "option o {\n  // a\n  initial state s { action {\n    x = 1;\n  } }\n}",
+        ),
+        (
+            "/** d */ option o { common decision { if (x) goto s; } initial state s { action { } } }",
+            "/** d */ option o { initial state s { action { } } }",
+            "/** e */ option o { initial state s { action { } } }",
+            "/** e */ option o { common decision { if (x) goto s; } initial state s { action { } } }",
         ),
     ],
 )

@@ -51,7 +51,7 @@ class _OptionEdits:
         file, old, before, after = self.file, self.old, self.before.option, self.after.option
         edit_doc(file, old, before.doc, after.doc)
         opening = old.name.last_token + 1
-        style = ListStyle(opening=opening, indent=self.indent, unit=self.unit)
+        style = ListStyle(opening=opening, indent=self.indent)
         edit_parameters(file, old.parameters, (before.parameters, after.parameters), style)
         self._edit_common()
         self._edit_states()
@@ -99,7 +99,7 @@ class _OptionEdits:
             file.delete(position, position + len(rest) - len(rest.lstrip(" \t")))
             file.insert(position, f"{above}{block}\n\n{self.indent}")
         else:
-            is_blank = not rest.split("\n", 2)[1].strip() and rest.count("\n") > 1
+            is_blank = not rest.split("\n")[1].strip() and rest.count("\n") > 1
             file.insert(position, above + block + ("" if is_blank else "\n"))
 
     # States
@@ -163,8 +163,9 @@ class _OptionEdits:
             edit_words(file, doc_spans, was, now)
             return
         lines = print_node(after, self.after.comments).split("\n")
-        comments = "".join(f"{self.indent}{line}\n" for line in lines if line.startswith("//"))
-        file.insert(file.text.rfind("\n", 0, end) + 1, comments)
+        comments = [line for line in lines if line.startswith("//")]
+        if comments:
+            self._insert_before(first, f"\n{self.indent}".join(comments), self.indent)
 
     def _edit_head(self, old: tree.StateNode, before: tree.StateNode, after: tree.StateNode) -> None:
         """Edit what precedes the brace, except the name."""
@@ -188,18 +189,18 @@ class _OptionEdits:
         if before.decision == after.decision:
             return
         was, now = old.decision, after.decision
-        if was is None and now is not None:
-            lines = indented(print_node(now, self.after.comments), self._inner(old), self.unit)
-            # `action` is the token before the brace of the actions.
-            self._insert_before(old.actions.first_token - 1, lines, self._inner(old))
-        elif was is not None and now is None:
+        if was is None:
+            if now is not None:
+                lines = indented(print_node(now, self.after.comments), self._inner(old), self.unit)
+                # `action` is the token before the brace of the actions.
+                self._insert_before(old.actions.first_token - 1, lines, self._inner(old))
+        elif now is None:
             remove_item(self.file, was.first_token, was.last_token)
-        elif was is not None and now is not None:
-            if before.decision is None:
-                self.decisions.replace(was.tree, now.tree, now.else_doc)
-            else:
-                docs = was.else_doc, before.decision.else_doc, now.else_doc
-                self.decisions.edit(was.tree, before.decision.tree, now.tree, docs)
+        elif before.decision is None:
+            self.decisions.replace(was.tree, now.tree, now.else_doc)
+        else:
+            docs = was.else_doc, before.decision.else_doc, now.else_doc
+            self.decisions.edit(was.tree, before.decision.tree, now.tree, docs)
 
     def _has_common_changed(self) -> bool:
         """Whether the common decision is added or removed."""
@@ -207,12 +208,11 @@ class _OptionEdits:
         return (commons[0] is None) != (commons[1] is None)
 
     def _edit_else(self, old: tree.DecisionNode) -> None:
-        """Add or remove the `else` that follows a common decision."""
+        """Add or remove the `else` that follows a common decision: without one, there is none."""
         file, first = self.file, old.tree.first_token
         if self.after.option.common_decision is None:
-            if old.begins_with_else:
-                file.delete(file.start(first - 1), file.start(first))
-        elif not old.begins_with_else:
+            file.delete(file.start(first - 1), file.start(first))
+        else:
             file.insert(file.start(first), "else ")
 
     def _inner(self, state: tree.StateNode) -> str:
@@ -224,15 +224,14 @@ class _OptionEdits:
             file.insert(file.start_with_comments(token), f"{indent}{lines}\n")
         else:
             position = file.start(token)
-            file.replace(len(file.text[:position].rstrip(" \t")), position, f"\n{indent}{lines}\n{indent}")
+            file.delete(len(file.text[:position].rstrip(" \t")), position)
+            file.insert(position, f"\n{indent}{lines}\n{indent}")
 
     # Actions
 
     def _edit_actions(
         self, old: tree.ActionBlockNode, before: tree.ActionBlockNode, after: tree.ActionBlockNode
     ) -> None:
-        if before == after:
-            return
         file = self.file
         keys = [print_node(action) for action in before.actions]
         new_keys = [print_node(action) for action in after.actions]
