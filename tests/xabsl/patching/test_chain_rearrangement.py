@@ -154,6 +154,7 @@ def chain(*tests: str) -> str:
         (B, A, C),
         (C, A, B),
         (C, B, A),
+        (B, C, A),
         (C, A),
         (ADDED, A, B, C),
         (A, ADDED, B, C),
@@ -172,6 +173,32 @@ def test_tests_keep_the_comments_above_and_behind_them(tests: tuple[str, ...]) -
     assert edited(chain(A, B, C), after) == expected
 
 
+@pytest.mark.parametrize(
+    ("old", "expected"),
+    [
+        # The others begin lines, too.
+        (
+            "\n  if (a) {\n    goto s;\n  }\n  else {\n    stay;\n  }\n",
+            "\n  if (a) {\n    goto s;\n  }\n  else if (n) {\n    goto s;\n  }\n  else {\n    stay;\n  }\n",
+        ),
+        # No brace precedes it.
+        (
+            "\n  if (a) {\n    goto s;\n  } else if (b)\n    stay;\n  else\n    stay;\n",
+            (
+                "\n  if (a) {\n    goto s;\n  } else if (b)\n    stay;\n"
+                "  else if (n) {\n    goto s;\n  }\n  else\n    stay;\n"
+            ),
+        ),
+    ],
+)
+def test_an_added_test_begins_a_line(old: str, expected: str) -> None:
+    assert edited(old, expected) == expected
+
+
+def test_a_comment_behind_the_brace_stays() -> None:
+    assert edited(" // note" + chain(A, B, C), chain(B, C, A)) == " // note" + chain(B, C, A)
+
+
 def test_all_tests_are_removed() -> None:
     assert edited(chain(A, B, C), "stay;") == "\n  // rest\n  stay;\n"
 
@@ -186,6 +213,10 @@ BRACED = "\n  if (a) {\n    goto s;\n  } else if (b) { // 2\n    stay;\n  } else
         "\n  if (a) {\n    goto s;\n  } else {\n    stay;\n  }\n",
         "\n  if (b) { // 2\n    stay;\n  } else if (a) {\n    goto s;\n  } else {\n    stay;\n  }\n",
         BRACED.replace("if (a)", "if (n) {\n    goto s;\n  } else if (a)"),
+        BRACED.replace("if (a)", "if (n) {\n    goto s;\n  } else if (m) {\n    goto s;\n  } else if (a)"),
+        BRACED.replace(
+            "if (a)", "if (n) {\n    goto s;\n  }\n  /** x */\n  else if (m) {\n    goto s;\n  } else if (a)"
+        ),
         BRACED.replace("if (b)", "if (n) {\n    goto s;\n  } else if (b)"),
         BRACED.replace("} else {", "} else if (n) {\n    goto s;\n  } else {"),
         BRACED.replace("} else {", "}\n  /** x */\n  else if (n) {\n    goto s;\n  } else {"),

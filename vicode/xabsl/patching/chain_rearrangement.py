@@ -78,9 +78,8 @@ class ChainRearrangement:
             first = node.first_token + (file.tokens.kinds[node.first_token] == DOC)
             text = file.read(file.start(first), file.end_with_comment(node.then.last_token))
             text = text.replace("\r\n", "\n")
-            begin = file.end_with_comment(node.first_token - 1)
             before = else_token(file, node.first_token)
-            begin = file.end_with_comment(before - 1) if before is not None else begin
+            begin = file.end_with_comment((node.first_token if before is None else before) - 1)
             comments = file.comments_between(begin, file.start(first))
         docs = [f"/** {' '.join(doc.split())} */"] if doc else []
         return "".join(f"{line}\n{self._indent()}" for line in (*comments, *docs)) + "\0" + text
@@ -110,7 +109,7 @@ class ChainRearrangement:
             if match is not None and match in self.kept:
                 previous = match
             elif previous is None:
-                gap = self._gap_after(first) if first and not above else f"\n{self._indent()}"
+                gap = f"\n{self._indent()}" if above else self._gap_after(first)
                 first = f"{first}{gap}{above}else {body}" if first else above + body
             else:
                 position = file.end_with_comment(old.tests[previous].then.last_token)
@@ -132,7 +131,7 @@ class ChainRearrangement:
 
     def _gap_after(self, test: str) -> str:
         """What separates an `else` from the test before it."""
-        has_comment = "//" in test.rsplit("\n", maxsplit=1)[-1]
+        has_comment = "//" in test.rpartition("\n")[2]
         return " " if self._is_same_line() and not has_comment else f"\n{self._indent()}"
 
     def _front(self) -> int:
