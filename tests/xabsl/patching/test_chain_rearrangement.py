@@ -195,6 +195,12 @@ def test_an_added_test_begins_a_line(old: str, expected: str) -> None:
     assert edited(old, expected) == expected
 
 
+def test_a_test_is_moved_within_braces_in_a_line() -> None:
+    old = "\n    { if (a) goto s; else if (b) stay; else stay; }"
+    expected = "\n    { if (b) stay;\n    else if (a) goto s; else stay; }"
+    assert edited(old, expected) == expected
+
+
 def test_a_comment_behind_the_brace_stays() -> None:
     assert edited(" // note" + chain(A, B, C), chain(B, C, A)) == " // note" + chain(B, C, A)
 
