@@ -39,10 +39,6 @@ def parsed(text: str) -> ast.expr:
     return ast.parse(text, mode="eval").body
 
 
-def unparsed(node: ast.expr | None) -> str:
-    return ast.unparse(node) if node is not None else ""
-
-
 @pytest.mark.parametrize(
     ("python", "expected"),
     [
@@ -193,7 +189,8 @@ def test_a_change_has_several_readings(text: str, old: str | None, new: str, exp
 )
 def test_a_test_is_split_into_the_parts_of_a_guard(test: str, after: str, when: str, has_code: bool) -> None:
     found = reader().read_guard(parsed(test))
-    assert (found.after, unparsed(found.when), found.has_code) == (after, when, has_code)
+    read = ast.unparse(found.when) if found.when is not None else None
+    assert (found.after, read, found.has_code) == (after, when or None, has_code)
 
 
 def test_the_time_of_a_guard_has_the_unit_of_the_design() -> None:

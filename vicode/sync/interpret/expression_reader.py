@@ -129,7 +129,7 @@ class _Conversion(ast.NodeTransformer):
         # A name that collides in the module has underscores at its end.
         while name.endswith("_") and name not in self._declared:
             name = name[:-1]
-        return ast.Name(id=name if name in self._declared else node.id, ctx=ast.Load())
+        return ast.Name(id=name if name in self._declared else node.id)
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
         match node:
@@ -149,7 +149,7 @@ class _Conversion(ast.NodeTransformer):
         return self.generic_visit(node)
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        if self._is_ms and ast.unparse(node.right) in ("1000000.0", "1e6"):
+        if self._is_ms and ast.unparse(node.right) == "1000000.0":
             match ast.unparse(node.left):
                 case "self.root.now_ns - self._entered_ns":
                     return ast.Name(id="state_time")
