@@ -265,6 +265,12 @@ def test_a_small_option_is_changed(name: str) -> None:
         (
             "option o {\n  // a\n  initial state s { action { } }\n}",
             "option o {\n  // b\n  initial state s { action { } }\n}",
+            "option o {\n  initial state s { action { } }\n}",
+            "option o {\n  // a\n  initial state s { action { } }\n}",
+        ),
+        (
+            "option o {\n  // a\n  initial state s { action { } }\n}",
+            "option o {\n  // b\n  initial state s { action { } }\n}",
             "option o {\n  // b\n  initial state s { action { x = 1; } }\n}",
             "option o {\n  // a\n  initial state s { action {\n    x = 1;\n  } }\n}",
         ),
