@@ -263,6 +263,12 @@ def test_a_small_option_is_changed(name: str) -> None:
         ),
         # What differs stays without an edit.
         (
+            "option o {\n  initial state s {\n    action { }\n  }\n}",
+            "option o { initial state s { decision { stay; } action { } } }",
+            "option o { initial state s { action { } } }",
+            "option o {\n  initial state s {\n    action { }\n  }\n}",
+        ),
+        (
             "option o {\n  // a\n  initial state s { action { } }\n}",
             "option o {\n  // b\n  initial state s { action { } }\n}",
             "option o {\n  initial state s { action { } }\n}",
