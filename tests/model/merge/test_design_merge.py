@@ -96,6 +96,20 @@ def test_two_renames_of_one_item_are_a_conflict() -> None:
     assert theirs.design.initial == "Two"
 
 
+def test_two_renames_of_one_use_are_a_conflict() -> None:
+    ours, theirs = rename_use(BASE, "head", "one"), rename_use(BASE, "head", "two")
+    result = merge_designs(BASE, ours, theirs)
+    (conflict,) = result.conflicts
+    assert (conflict.path, conflict.base, conflict.ours, conflict.theirs) == (
+        ("uses", "head", "name"),
+        "head",
+        "one",
+        "two",
+    )
+    assert result.design == ours
+    assert merge_designs(BASE, ours, theirs, theirs_at=[conflict.path]).design == theirs
+
+
 def test_different_changes_of_one_value_are_a_conflict() -> None:
     ours, theirs = with_doc(BASE, "A", "mine"), with_doc(BASE, "A", "theirs")
     result = merge_designs(BASE, ours, theirs)
