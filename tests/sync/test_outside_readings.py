@@ -42,13 +42,21 @@ def project(design: Design, *languages: str) -> Project:
 
 
 def read(
-    now: Project, folder: Path, *edits: tuple[str, str], before: Project | None = None, **options: object
+    now: Project,
+    folder: Path,
+    *edits: tuple[str, str],
+    before: Project | None = None,
+    edited: tuple[str, ...] = ("Lamp",),
+    **options: object,
 ) -> tuple[OutsideReader, tuple[FileEdits, ...]]:
-    """A reader, and the files after edits of those of Lamp; `before` is the project that they were generated from."""
+    """A reader, and the files after edits of those of some components.
+
+    `before` is the project that the files were generated from.
+    """
     old, files = generate(before or now), generate(now)
     for file in old:
         text = file.text
-        for was, is_ in edits if file.component == "Lamp" else ():
+        for was, is_ in edits if file.component in edited else ():
             text = re.sub(was, is_, text)
         (folder / file.path).parent.mkdir(parents=True, exist_ok=True)
         (folder / file.path).write_text(text, encoding="utf-8")
@@ -108,11 +116,34 @@ def test_the_second_language_is_read_with_the_edits_of_the_first(tmp_path: Path)
     assert all(reading.edits for reading in readings)
 
 
+def test_each_component_is_read_with_its_own_design(tmp_path: Path) -> None:
+    now = project(lamp())
+    edits = (r"distance(\)?) > 1", r"distance\1 > 2")
+    reader, files = read(now, tmp_path, edits, edited=("Lamp", "Other"))
+    for order in (files, tuple(reversed(files))):
+        designs, readings = reader.read_all(now, order)
+        assert {name: (design.component, guards(design)) for name, design in designs.items()} == {
+            name: (name, ["eyes.distance > 2", "eyes.width > 1"]) for name in ("Lamp", "Other")
+        }
+        assert [bool(reading.edits) for reading in readings] == [True, True]
+
+
+def test_the_texts_of_the_reader_count(tmp_path: Path) -> None:
+    """They may be newer than those that the file was compared with."""
+    now = project(lamp())
+    reader, files = read(now, tmp_path, (r"distance(\)?) > 1", r"distance\1 > 2"))
+    design, reading = reader.read(now, replace(files[0], new=None))
+    assert design is not None
+    assert (guards(design)[0], reading.is_read) == ("eyes.distance > 2", True)
+
+
 def test_files_without_such_edits_are_left_out(tmp_path: Path) -> None:
     now = project(lamp())
     reader, files = read(now, tmp_path, (r"distance(\)?) > 1", r"distance\1 > 2"))
     for skipped in (replace(files[0], is_edited_outside=False), replace(files[0], path="python/p/gone.py")):
         assert reader.read_all(now, [skipped]) == ({}, ())
+        designs, readings = reader.read_all(now, [skipped, files[0]])
+        assert ([*designs], [reading.file for reading in readings]) == (["Lamp"], [files[0]])
 
 
 @pytest.mark.parametrize("change", [{"component": ""}, {"path": "xabsl/lamp.xabsl"}])
@@ -165,7 +196,12 @@ def test_an_output_of_the_world_is_read_by_its_name(attribute: str, output: str)
     now = project(lamp("team_size > 4"))
     (text,) = (file.text for file in generate(now) if file.component == "Lamp")
     assert "self.root.team.size > 4" in text
-    for call, words in ((f"self.world.{attribute}", f"eyes.{output}"), ("self.world.other", None)):
+    readings = (
+        (f"self.world.{attribute}", f"eyes.{output}"),
+        (f"abs(self.world.{attribute})", f"abs(eyes.{output})"),
+        ("self.world.other", None),
+    )
+    for call, words in readings:
         edited = text.replace("self.root.team.size > 4", f"{call} > 9")
         result = interpret_edits(now, "Lamp", generated=text, edited=edited)
         assert guards(result.design)[0] == ("team_size > 4" if words is None else f"{words} > 9")

@@ -94,7 +94,7 @@ class OutsideReader:
         edited = rebased.resolve(
             lambda each: each.file_text if chosen.get(conflict_name(file, each)) == "file" else each.design_text
         )
-        shown = str(Path(self.prefix, file.path)) if self.prefix else file.path
+        shown = Path(self.prefix, file.path).as_posix()
         interpret = INTERPRETERS[file.language]
         result = interpret(project, file.component, generated=self.texts[file.path], edited=edited, file=shown)
         reading = OutsideReading(

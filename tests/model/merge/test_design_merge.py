@@ -96,6 +96,20 @@ def test_two_renames_of_one_item_are_a_conflict() -> None:
     assert theirs.design.initial == "Two"
 
 
+def test_two_renames_of_one_use_are_a_conflict() -> None:
+    ours, theirs = rename_use(BASE, "head", "one"), rename_use(BASE, "head", "two")
+    result = merge_designs(BASE, ours, theirs)
+    (conflict,) = result.conflicts
+    assert (conflict.path, conflict.base, conflict.ours, conflict.theirs) == (
+        ("uses", "head", "name"),
+        "head",
+        "one",
+        "two",
+    )
+    assert result.design == ours
+    assert merge_designs(BASE, ours, theirs, theirs_at=[conflict.path]).design == theirs
+
+
 def test_different_changes_of_one_value_are_a_conflict() -> None:
     ours, theirs = with_doc(BASE, "A", "mine"), with_doc(BASE, "A", "theirs")
     result = merge_designs(BASE, ours, theirs)
@@ -208,7 +222,20 @@ def test_a_name_used_for_two_items_stays_with_ours() -> None:
     theirs = replace(BASE, variables=(*BASE.variables, Declaration(name="k", doc="another"), Declaration(name="z")))
     result = merge_designs(BASE, ours, theirs)
     assert [conflict.path for conflict in result.conflicts] == [("variables", "k")]
-    assert [each.name for each in result.design.variables] == ["k", "m", "z"]
+    assert result.design.variables == (ours.variables[0], BASE.variables[1], Declaration(name="z"))
+    chosen = merge_designs(BASE, ours, theirs, theirs_at=[("variables", "k")]).design
+    assert chosen.variables == (Declaration(name="k", doc="another"), BASE.variables[1], Declaration(name="z"))
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_a_name_that_one_side_uses_twice_is_no_conflict(count: int) -> None:
+    """It is a finding of that side."""
+    twice = tuple(Declaration(name="k", doc=str(number)) for number in range(count))
+    ours = replace(BASE, variables=(*BASE.variables, *twice))
+    documented = replace(BASE.variables[0], doc="how many")
+    theirs = replace(BASE, variables=(documented, BASE.variables[1]))
+    for both in (merged(ours, theirs), merged(theirs, ours)):
+        assert both.variables == (documented, BASE.variables[1], *twice)
 
 
 @given(designs, designs)

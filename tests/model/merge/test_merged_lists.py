@@ -270,9 +270,8 @@ def test_a_removed_use_that_the_other_side_calls_is_a_conflict(section: str) -> 
 def test_projects_are_merged_with_our_designs() -> None:
     base = Project(name="p", doc="a", enumerations=(Enumeration(name="Side", elements=(("left", ""),)),))
     ours = replace(base, doc="ours", designs=(FULL,))
-    theirs = replace(
-        base, doc="theirs", world="w", enumerations=(Enumeration(name="Side", elements=(("left", ""), ("right", ""))),)
-    )
+    both = (Enumeration(name="Side", elements=(("left", ""), ("right", ""))),)
+    theirs = replace(base, doc="theirs", world="w", enumerations=both, designs=(design("AB"),))
     result = merge_projects(base, ours, theirs)
     assert [each.path for each in result.conflicts] == [("doc",)]
     assert result.project == replace(theirs, doc="ours", designs=(FULL,))

@@ -89,8 +89,7 @@ def merge_projects(
 ) -> ProjectMergeResult:
     """Merge the changes that two sides made to project.yaml; see `merge_designs`. The designs are those of our side."""
     merger = _Merger(frozenset(theirs_at))
-    base, theirs = replace(base, designs=ours.designs), replace(theirs, designs=ours.designs)
-    project = merger.merge_record((), base, ours, theirs)
+    project = merger.merge_record((), base, ours, replace(theirs, designs=ours.designs))
     return ProjectMergeResult(project=project, conflicts=tuple(merger.conflicts))
 
 

@@ -4,6 +4,7 @@ import ast
 from dataclasses import dataclass, field
 
 from vicode.model.design import Design, Guard
+from vicode.model.expressions import BOOL, FLOAT, INT
 from vicode.model.names import python_attribute_name
 from vicode.model.project import WORLD, Project
 from vicode.model.python_parser import parse_single_expression
@@ -118,7 +119,9 @@ class _Conversion(ast.NodeTransformer):
     def __init__(self, reader: ExpressionReader) -> None:
         project = reader.project
         self._inputs, self._aliases = reader.inputs, {use.alias for use in reader.design.uses}
-        self._declared = {item.name for item in project.constants} | {item.name for item in project.enumerations}
+        enumerations = {item.name for item in project.enumerations}
+        self._declared = {item.name for item in project.constants} | enumerations
+        self._types = {BOOL, INT, FLOAT} | enumerations
         self._is_ms = reader.design.time_unit == "ms"
 
     def visit_Name(self, node: ast.Name) -> ast.AST:
@@ -126,7 +129,7 @@ class _Conversion(ast.NodeTransformer):
         # A name that collides in the module has underscores at its end.
         while name.endswith("_") and name not in self._declared:
             name = name[:-1]
-        return ast.Name(id=name if name in self._declared else node.id, ctx=ast.Load())
+        return ast.Name(id=name if name in self._declared else node.id)
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
         match node:
@@ -146,7 +149,7 @@ class _Conversion(ast.NodeTransformer):
         return self.generic_visit(node)
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        if self._is_ms and ast.unparse(node.right) in ("1000000.0", "1e6"):
+        if self._is_ms and ast.unparse(node.right) == "1000000.0":
             match ast.unparse(node.left):
                 case "self.root.now_ns - self._entered_ns":
                     return ast.Name(id="state_time")
@@ -162,7 +165,7 @@ class _Conversion(ast.NodeTransformer):
         is_input = len(node.args) == 1 and ast.unparse(node.args[0]).startswith("self.world.")
         self.generic_visit(node)
         match node:
-            case ast.Call(func=ast.Name(), args=[only], keywords=[]) if is_input:
+            case ast.Call(func=ast.Name(id=name), args=[only], keywords=[]) if is_input and name in self._types:
                 return only
             case ast.Call(func=function, args=[only], keywords=[]) if ast.unparse(function) in CONVERSIONS:
                 return only

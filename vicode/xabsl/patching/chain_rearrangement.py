@@ -78,9 +78,8 @@ class ChainRearrangement:
             first = node.first_token + (file.tokens.kinds[node.first_token] == DOC)
             text = file.read(file.start(first), file.end_with_comment(node.then.last_token))
             text = text.replace("\r\n", "\n")
-            begin = file.end_with_comment(node.first_token - 1)
             before = else_token(file, node.first_token)
-            begin = file.end_with_comment(before - 1) if before is not None else begin
+            begin = file.end_with_comment((node.first_token if before is None else before) - 1)
             comments = file.comments_between(begin, file.start(first))
         docs = [f"/** {' '.join(doc.split())} */"] if doc else []
         return "".join(f"{line}\n{self._indent()}" for line in (*comments, *docs)) + "\0" + text
@@ -104,28 +103,36 @@ class ChainRearrangement:
     def _insert(self, texts: Sequence[str]) -> None:
         file, old = self.file, self.old
         previous: Match = None
+        first = ""
         for match, text in zip(self.matches, texts, strict=True):
             above, _zero, body = text.partition("\0")
             if match is not None and match in self.kept:
                 previous = match
             elif previous is None:
-                self._insert_first(above + body)
+                gap = f"\n{self._indent()}" if above else self._gap_after(first)
+                first = f"{first}{gap}{above}else {body}" if first else above + body
             else:
                 position = file.end_with_comment(old.tests[previous].then.last_token)
                 has_comment = position != file.end(old.tests[previous].then.last_token)
                 follows_block = isinstance(old.tests[previous].then, tree.BlockNode)
                 is_line = bool(above) or has_comment or not (follows_block and self._is_same_line())
                 file.insert(position, f"\n{self._indent()}{above}else {body}" if is_line else f" else {body}")
+        if first:
+            self._insert_first(first)
 
     def _insert_first(self, text: str) -> None:
         file, front, start = self.file, self._front(), self.file.start(self.old.tests[0].first_token)
-        gap = " " if self._is_same_line() and "//" not in text.rsplit("\n", maxsplit=1)[-1] else "\n" + self._indent()
         if front == start or 0 in self.removed:
-            file.insert(front, f"{text}{gap}else ")
+            file.insert(front, f"{text}{self._gap_after(text)}else ")
         else:
             # The comments of the next test are between both.
             file.insert(front, f"{text}\n{self._indent()}")
             file.insert(start, "else ")
+
+    def _gap_after(self, test: str) -> str:
+        """What separates an `else` from the test before it."""
+        has_comment = "//" in test.rpartition("\n")[2]
+        return " " if self._is_same_line() and not has_comment else f"\n{self._indent()}"
 
     def _front(self) -> int:
         """The start of the first test with the comments directly above it."""

@@ -60,8 +60,6 @@ def edit_parameters(
 def _edit_parameter(
     file: SourceEdits, old: tree.ParameterNode, before: tree.ParameterNode, after: tree.ParameterNode
 ) -> None:
-    if before == after:
-        return
     edit_doc(file, old, *_docs_without_range(file, old, before.doc, after.doc))
     if (before.type, before.range, before.unit) != (after.type, after.range, after.unit):
         file.replace(_head_start(file, old), file.end(old.last_token - 1), _without_doc(after).removesuffix(";"))
@@ -95,8 +93,7 @@ def edit_declaration(
         case tree.SymbolNode(), tree.SymbolNode(), tree.SymbolNode():
             _edit_symbol(file, old, before, after)
         case tree.ConstantNode(), tree.ConstantNode(), tree.ConstantNode():
-            if (before.number, before.unit) != (after.number, after.unit):
-                _replace_constant(file, old, before, after)
+            _replace_constant(file, old, before, after)
         case tree.EnumerationNode(), tree.EnumerationNode(), tree.EnumerationNode():
             _edit_enumeration(file, old, before, after)
         case tree.BehaviorNode(), tree.BehaviorNode(), tree.BehaviorNode():
@@ -159,8 +156,7 @@ def _edit_elements(file: SourceEdits, old: Sequence[tree.NameNode], names: Seque
     """Remove and add elements with the commas beside them."""
     known = {item.text: item for item in old}
     first = next(index for index, item in enumerate(old) if item.text in names)
-    if first:
-        file.delete(file.start(old[0].first_token), file.start(old[first].first_token))
+    file.delete(file.start(old[0].first_token), file.start(old[first].first_token))
     for index in range(first + 1, len(old)):
         if old[index].text not in names:
             file.delete(file.end(old[index - 1].last_token), file.end(old[index].last_token))
@@ -228,4 +224,4 @@ def _head_start(file: SourceEdits, node: tree.SyntaxNode) -> int:
 
 
 def _without_doc(node: tree.ParameterNode | tree.DeclarationNode) -> str:
-    return print_node(replace(node, doc="", first_token=-1))
+    return print_node(replace(node, doc=""))

@@ -51,7 +51,7 @@ class _OptionEdits:
         file, old, before, after = self.file, self.old, self.before.option, self.after.option
         edit_doc(file, old, before.doc, after.doc)
         opening = old.name.last_token + 1
-        style = ListStyle(opening=opening, indent=self.indent, unit=self.unit)
+        style = ListStyle(opening=opening, indent=self.indent)
         edit_parameters(file, old.parameters, (before.parameters, after.parameters), style)
         self._edit_common()
         self._edit_states()
@@ -99,7 +99,7 @@ class _OptionEdits:
             file.delete(position, position + len(rest) - len(rest.lstrip(" \t")))
             file.insert(position, f"{above}{block}\n\n{self.indent}")
         else:
-            is_blank = not rest.split("\n", 2)[1].strip() and rest.count("\n") > 1
+            is_blank = not rest.split("\n")[1].strip() and rest.count("\n") > 1
             file.insert(position, above + block + ("" if is_blank else "\n"))
 
     # States
@@ -163,8 +163,9 @@ class _OptionEdits:
             edit_words(file, doc_spans, was, now)
             return
         lines = print_node(after, self.after.comments).split("\n")
-        comments = "".join(f"{self.indent}{line}\n" for line in lines if line.startswith("//"))
-        file.insert(file.text.rfind("\n", 0, end) + 1, comments)
+        comments = [line for line in lines if line.startswith("//")]
+        if comments:
+            self._insert_before(first, f"\n{self.indent}".join(comments), self.indent)
 
     def _edit_head(self, old: tree.StateNode, before: tree.StateNode, after: tree.StateNode) -> None:
         """Edit what precedes the brace, except the name."""
@@ -188,18 +189,18 @@ class _OptionEdits:
         if before.decision == after.decision:
             return
         was, now = old.decision, after.decision
-        if was is None and now is not None:
-            lines = indented(print_node(now, self.after.comments), self._inner(old), self.unit)
-            # `action` is the token before the brace of the actions.
-            self._insert_before(old.actions.first_token - 1, lines, self._inner(old))
-        elif was is not None and now is None:
+        if was is None:
+            if now is not None:
+                lines = indented(print_node(now, self.after.comments), self._inner(old), self.unit)
+                # `action` is the token before the brace of the actions.
+                self._insert_before(old.actions.first_token - 1, lines, self._inner(old))
+        elif now is None:
             remove_item(self.file, was.first_token, was.last_token)
-        elif was is not None and now is not None:
-            if before.decision is None:
-                self.decisions.replace(was.tree, now.tree, now.else_doc)
-            else:
-                docs = was.else_doc, before.decision.else_doc, now.else_doc
-                self.decisions.edit(was.tree, before.decision.tree, now.tree, docs)
+        elif before.decision is None:
+            self.decisions.replace(was.tree, now.tree, now.else_doc)
+        else:
+            docs = was.else_doc, before.decision.else_doc, now.else_doc
+            self.decisions.edit(was.tree, before.decision.tree, now.tree, docs)
 
     def _has_common_changed(self) -> bool:
         """Whether the common decision is added or removed."""
@@ -207,12 +208,11 @@ class _OptionEdits:
         return (commons[0] is None) != (commons[1] is None)
 
     def _edit_else(self, old: tree.DecisionNode) -> None:
-        """Add or remove the `else` that follows a common decision."""
+        """Add or remove the `else` that follows a common decision: without one, there is none."""
         file, first = self.file, old.tree.first_token
         if self.after.option.common_decision is None:
-            if old.begins_with_else:
-                file.delete(file.start(first - 1), file.start(first))
-        elif not old.begins_with_else:
+            file.delete(file.start(first - 1), file.start(first))
+        else:
             file.insert(file.start(first), "else ")
 
     def _inner(self, state: tree.StateNode) -> str:
@@ -220,10 +220,11 @@ class _OptionEdits:
 
     def _insert_before(self, token: int, lines: str, indent: str) -> None:
         file = self.file
-        position = file.start_with_comments(token)
-        if file.is_first_in_line(file.start(token)):
-            file.insert(position, f"{indent}{lines}\n")
+        if file.starts_line(token):
+            file.insert(file.start_with_comments(token), f"{indent}{lines}\n")
         else:
+            position = file.start(token)
+            file.delete(len(file.text[:position].rstrip(" \t")), position)
             file.insert(position, f"\n{indent}{lines}\n{indent}")
 
     # Actions
@@ -231,8 +232,6 @@ class _OptionEdits:
     def _edit_actions(
         self, old: tree.ActionBlockNode, before: tree.ActionBlockNode, after: tree.ActionBlockNode
     ) -> None:
-        if before == after:
-            return
         file = self.file
         keys = [print_node(action) for action in before.actions]
         new_keys = [print_node(action) for action in after.actions]
@@ -255,30 +254,30 @@ class _OptionEdits:
             edit_list(file, old.actions, matches, added, style)
 
     def _edit_action(self, old: tree.ActionNode, before: tree.ActionNode, after: tree.ActionNode) -> None:
+        """Change an action that still sets the same symbol or calls the same component: others do not match."""
         file = self.file
         match old, before, after:
             case tree.AssignmentNode(), tree.AssignmentNode(), tree.AssignmentNode():
-                if before.symbol != after.symbol:
-                    file.replace_node(old.symbol, after.symbol.text)
                 edit_expression(file, old.value, before.value, after.value)
             case tree.CallNode(), tree.CallNode(), tree.CallNode():
-                if (before.name, before.kind) != (after.name, after.kind):
+                if before.kind != after.kind:
                     name = " ".join(word for word in (after.name.text, after.kind) if word)
                     file.replace(file.start(old.first_token), file.end(old.arguments.first_token - 1), name)
                 if before.arguments != after.arguments and not edit_arguments(
                     file, old.arguments, before.arguments, after.arguments
                 ):
                     file.replace_node(old.arguments, print_node(after.arguments))
-            case _:
-                file.replace_node(old, print_node(after))
 
 
 def _similarity(old: tree.ActionNode, new: tree.ActionNode) -> float:
-    if type(old) is not type(new):
-        return 0.0
-    old_name = old.symbol if isinstance(old, tree.AssignmentNode) else old.name
-    new_name = new.symbol if isinstance(new, tree.AssignmentNode) else new.name
-    return 0.5 * (old_name == new_name) + 0.5 * text_similarity(print_node(old), print_node(new))
+    """At least 0.5 if both set the same symbol or call the same component, otherwise 0."""
+    match old, new:
+        case (tree.AssignmentNode(symbol=old_name), tree.AssignmentNode(symbol=new_name)) | (
+            tree.CallNode(name=old_name),
+            tree.CallNode(name=new_name),
+        ) if old_name == new_name:
+            return 0.5 + 0.5 * text_similarity(print_node(old), print_node(new))
+    return 0.0
 
 
 def _indentation(file: SourceEdits, option: tree.OptionNode) -> tuple[str, str]:

@@ -72,8 +72,8 @@ class SourceEdits:
     def indent_at(self, position: int) -> str:
         """The indentation of the line of a character."""
         line = self.text.rfind("\n", 0, position) + 1
-        found = re.match(r"[ \t]*", self.text[line:])
-        return found[0] if found else ""
+        rest = self.text[line:]
+        return rest[: len(rest) - len(rest.lstrip(" \t"))]
 
     def is_first_in_line(self, position: int) -> bool:
         return not self.text[self.text.rfind("\n", 0, position) + 1 : position].strip(" \t\ufeff")
@@ -124,7 +124,7 @@ class SourceEdits:
     # Edits
 
     def replace(self, start: int, end: int, text: str) -> None:
-        if end > start and start in self.line_comment_ends and not _NEWLINE.match(text or self.text[end:]):
+        if end > start and start in self.line_comment_ends and not _NEWLINE.match(text + self.text[end:]):
             # What follows must not become part of the comment.
             text = f"\n{self.indent_at(start)}{text.lstrip()}"
             end += 0 if text.strip() else len(self.text[end:]) - len(self.text[end:].lstrip(" \t"))
