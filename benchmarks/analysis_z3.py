@@ -1,0 +1,326 @@
+"""What `vicode.analysis` proves about random guards, compared with the solver z3 and with the reference interpreter.
+
+`python -m benchmarks.analysis_z3 [--cases N] [--seed N] [--reduce N]` needs `pip install z3-solver`.
+
+A case is a state with one or two transitions. Each verdict is the claim that a formula never holds, such as "the second
+guard and not the first". z3 decides the formula over exact real numbers without nan and with no division by zero; the
+reference interpreter evaluates it with doubles. So
+
+- a claim is wrong if the interpreter finds values for which the formula holds: the solution of z3, its neighbors, and
+  values near the constants of the guards, nan and infinity included;
+- a proof of z3 is not valid for doubles if the interpreter finds such values;
+- all other proofs of z3 that the analysis does not find are missed. With `--reduce N`, so many of them are reduced to
+  their smallest part that is still missed, and counted by its operations.
+"""
+
+import argparse
+import ast
+import math
+import random
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import islice
+
+from benchmarks.random_guards import DECLARATIONS, ENUMERATION, RandomGuards, draw_values
+from vicode.analysis.conditions import Conditions
+from vicode.analysis.guards import GuardAnalysis, ProvedDecision, Verdict
+from vicode.analysis.quantities import build_quantities
+from vicode.model.design import Design, Guard, State, Transition
+from vicode.model.expressions import BOOL, Binary, Comparison, Expr, Number, parse_expression, walk
+from vicode.model.project import Project
+from vicode.semantics import evaluate
+from vicode.semantics.values import Value
+
+try:
+    import z3
+
+    from benchmarks.z3_encoding import Encoder
+except ImportError:
+    z3 = None
+
+SOLVER_MS = 1000
+SAMPLES = 300
+BATCH = 20
+"""Cases in a design, which share diagrams."""
+LARGEST = 1e40
+"""Products of eight such values are no longer infinite."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Claim:
+    """That a formula never holds, which is what a verdict says about a transition of a case."""
+
+    index: int
+    verdict: Verdict
+    formula: str
+
+
+@dataclass(slots=True)
+class Result:
+    """What became of the claims.
+
+    Attributes:
+        counts: How many claims there are by kind of guard and outcome.
+        wrong: Verdicts that do not hold, with values.
+        unconfirmed: Verdicts that z3 does not prove, for which the interpreter finds no values either.
+        missed: Formulas that z3 proves and the analysis does not.
+    """
+
+    counts: Counter[tuple[str, str]]
+    wrong: list[str]
+    unconfirmed: list[str]
+    missed: list[str]
+
+
+class ValueReader:
+    """Reads times, for the reference interpreter."""
+
+    has_xabsl_rules = False
+
+    def __init__(self, values: Mapping[str, Value]) -> None:
+        self._values = values
+
+    def note_large_int(self) -> None:
+        """Results beyond 2**53 are limited as in any design."""
+
+    def read_time(self, kind: str) -> Value:
+        return self._values[f"{kind}_time"]
+
+
+class Oracle:
+    """Decides formulas with z3 and with the reference interpreter."""
+
+    def __init__(self, conditions: Conditions, chance: random.Random) -> None:
+        self._scope = conditions.table.scope
+        self._chance = chance
+
+    def parse(self, formula: str) -> Expr:
+        parsed = parse_expression(formula, self._scope, BOOL)
+        if parsed.tree is None or parsed.diagnostics:
+            raise ValueError(formula)
+        return parsed.tree
+
+    def solve(self, formula: str) -> tuple[str, Mapping[str, Value]]:
+        """Whether a formula has a solution: "sat", "unsat" or "unknown"; and the solution."""
+        encoder, solver = Encoder(), z3.Solver()
+        solver.set("timeout", SOLVER_MS)
+        solver.add(encoder.encode(self.parse(formula)), *encoder.facts)
+        answer = str(solver.check())
+        return (answer, encoder.values_of(solver.model()) if answer == "sat" else {})
+
+    def find_values(
+        self, formula: str, near: Mapping[str, Value], *, largest: float = math.inf
+    ) -> Mapping[str, Value] | None:
+        """Values for which a formula holds with doubles."""
+        tree = self.parse(formula)
+        literals = [float(node.value) for node in walk(tree) if isinstance(node, Number)]
+        numbers = [*literals, *(-each for each in literals), 0.0, *map(float, filter(_is_number, near.values()))]
+        drawn = draw_values(self._chance, numbers, largest=largest)
+        for number, values in enumerate(islice(drawn, SAMPLES)):
+            tried = {**values, **(near if number < 3 else {}), **(_beside(near, self._chance) if number < 40 else {})}
+            if evaluate(tree, BOOL, tried, ValueReader(tried)):  # type: ignore[arg-type]
+                return {node: tried[node] for node in sorted(tried) if node in formula}
+        return None
+
+
+def _is_number(value: Value) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _beside(values: Mapping[str, Value], chance: random.Random) -> dict[str, Value]:
+    """A solution in which floats are up to 2 doubles away."""
+    moved = dict(values)
+    for name, value in values.items():
+        if isinstance(value, float):
+            near = value + chance.randrange(-2, 3) * math.ulp(value)
+            moved[name] = max(near, 0.0) if name.endswith("_time") else near
+    return moved
+
+
+# Claims
+
+
+def format_guard(guard: Guard) -> str:
+    """A guard as one expression; the durations of the random guards are whole nanoseconds."""
+    return " and ".join(f"({part})" for part in (guard.after and f"state_time >= {guard.after}", guard.when) if part)
+
+
+def list_claims(guards: Sequence[Guard]) -> Iterator[Claim]:
+    """The claims that a case may lead to, the strongest first for each transition."""
+    earlier = ""
+    for index, guard in enumerate(guards):
+        own = format_guard(guard)
+        formulas = [(Verdict.NEVER_HOLDS, own)]
+        if earlier:
+            formulas += [(Verdict.NEVER_TESTED, f"not ({earlier})"), (Verdict.SHADOWED, f"({own}) and not ({earlier})")]
+        formulas.append((Verdict.ALWAYS_HOLDS, f"not ({own})"))
+        for verdict, formula in formulas:
+            yield Claim(index=index, verdict=verdict, formula=formula)
+        earlier = own
+
+
+def analyze(cases: Sequence[Sequence[Guard]]) -> tuple[GuardAnalysis, Conditions]:
+    """Analyze a design with a state for each case."""
+    states = [
+        State(name=f"S{number}", transitions=tuple(Transition(to="S0", guard=guard) for guard in guards))
+        for number, guards in enumerate(cases)
+    ]
+    design = Design(component="Tested", parameters=DECLARATIONS, initial="S0", states=tuple(states))
+    project = Project(name="bench", enumerations=(ENUMERATION,), designs=(design,))
+    conditions = Conditions(build_quantities(project, design))
+    analysis = GuardAnalysis(design, conditions)
+    assert len(analysis.states) == len(states)
+    return analysis, conditions
+
+
+def kind_of(tree: Expr, conditions: Conditions) -> str:
+    """What an analysis must know to decide a formula."""
+    nodes = list(walk(tree))
+    if any(isinstance(node, Binary) for node in nodes):
+        return "with arithmetic"
+    pairs = [
+        pair
+        for node in nodes
+        if isinstance(node, Comparison)
+        for pair in zip(node.operands, node.operands[1:], strict=False)
+    ]
+    if all(
+        any(conditions.table.value_of(each) is not None for each in pair)
+        for pair in pairs
+        if pair[0].type in ("int", "float")
+    ):
+        return "comparisons with constants"
+    return "comparisons of two values"
+
+
+def judge_batch(cases: Sequence[Sequence[Guard]], chance: random.Random, result: Result) -> None:
+    analysis, conditions = analyze(cases)
+    oracle = Oracle(conditions, chance)
+    verdicts = {(each.path[1], each.path[3]): each for each in analysis.find_verdicts()}
+    for case, guards in enumerate(cases):
+        decided: set[int] = set()
+        for claim in list_claims(guards):
+            kind = kind_of(oracle.parse(claim.formula), conditions)
+            verdict = verdicts.get((f"S{case}", claim.index))
+            answer, solution = oracle.solve(claim.formula)
+            if verdict is not None and verdict.verdict is claim.verdict:
+                result.counts[kind, judge_verdict(claim, verdict, answer, solution, oracle, result)] += 1
+            elif claim.index not in decided:
+                outcome = judge_silence(claim, oracle, result) if answer == "unsat" else f"no claim, z3: {answer}"
+                result.counts[kind, outcome] += 1
+            if answer == "unsat":
+                decided.add(claim.index)
+
+
+def judge_verdict(
+    claim: Claim, verdict: ProvedDecision, answer: str, solution: Mapping[str, Value], oracle: Oracle, result: Result
+) -> str:
+    """What z3 and the interpreter say about a verdict."""
+    largest = LARGEST if verdict.basis.no_nan else math.inf
+    values = oracle.find_values(claim.formula, solution, largest=largest)
+    if values is not None:
+        result.wrong.append(f"{claim.verdict}: {claim.formula}\n    holds for {values}")
+        return "WRONG"
+    if answer == "unsat":
+        return "proved by both"
+    result.unconfirmed.append(f"{claim.verdict}: {claim.formula}\n    z3: {solution or answer}")
+    return f"proved, z3: {answer}"
+
+
+def judge_silence(claim: Claim, oracle: Oracle, result: Result) -> str:
+    """What the interpreter says where z3 proves what the analysis does not say."""
+    values = oracle.find_values(claim.formula, {})
+    if values is not None:
+        return "proof of z3 not valid for doubles"
+    result.missed.append(claim.formula)
+    return "missed"
+
+
+# Reduction of what is missed
+
+
+def reduce_formula(formula: str, is_missed: Callable[[str], bool]) -> str:
+    """The smallest part of a formula that is still missed."""
+    for shorter in sorted(set(_list_shorter(formula)), key=len):
+        if len(shorter) < len(formula) and is_missed(shorter):
+            return reduce_formula(shorter, is_missed)
+    return formula
+
+
+def _list_shorter(formula: str) -> Iterator[str]:
+    tree = ast.parse(formula, mode="eval")
+    for node in list(ast.walk(tree)):
+        for name, value in ast.iter_fields(node):
+            places = value if isinstance(value, list) else [value]
+            for number, child in enumerate(places):
+                if isinstance(child, ast.expr):
+                    yield from _replace(tree, node, name, number if isinstance(value, list) else None)
+        if isinstance(node, ast.BoolOp) and len(node.values) > 2:
+            for removed in list(node.values):
+                kept, node.values = node.values, [each for each in node.values if each is not removed]
+                yield ast.unparse(tree)
+                node.values = kept
+        if isinstance(node, ast.Compare) and len(node.ops) > 1:
+            kept, node.ops, node.comparators = (node.ops, node.comparators), node.ops[:-1], node.comparators[:-1]
+            yield ast.unparse(tree)
+            node.ops, node.comparators = kept
+
+
+def _replace(tree: ast.AST, node: ast.AST, name: str, number: int | None) -> Iterator[str]:
+    """Texts in which a child is replaced by one of its own children or a constant."""
+    value = getattr(node, name)
+    child = value if number is None else value[number]
+    parts = [each for each in ast.iter_child_nodes(child) if isinstance(each, ast.expr)]
+    for new in (*parts, ast.Name("seen"), ast.Constant(1), ast.Constant(True)):
+        if number is None:
+            setattr(node, name, new)
+        else:
+            value[number] = new
+        yield ast.unparse(tree)
+    if number is None:
+        setattr(node, name, child)
+    else:
+        value[number] = child
+
+
+def print_missed(missed: Sequence[str], chance: random.Random) -> None:
+    analysis, conditions = analyze([[Guard(when="seen")]])
+    oracle = Oracle(conditions, chance)
+
+    def is_missed(formula: str) -> bool:
+        try:
+            if analysis.prove(conditions.of_text(formula)) is not None or oracle.solve(formula)[0] != "unsat":
+                return False
+        except (ValueError, NotImplementedError):
+            return False
+        return oracle.find_values(formula, {}) is None
+
+    reduced = Counter(reduce_formula(formula, is_missed) for formula in missed if is_missed(formula))
+    for formula, number in reduced.most_common():
+        print(f"{number:5}  {formula}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cases", type=int, default=10_000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--reduce", type=int, default=0, help="reduce so many of the formulas that are missed")
+    options = parser.parse_args()
+    if z3 is None:
+        sys.exit("this benchmark needs z3: pip install z3-solver")
+    chance, result = random.Random(options.seed), Result(counts=Counter(), wrong=[], unconfirmed=[], missed=[])
+    cases = [RandomGuards(chance, has_arithmetic=number % 2 == 1).draw_case() for number in range(options.cases)]
+    for start in range(0, options.cases, BATCH):
+        judge_batch(cases[start : start + BATCH], chance, result)
+    for kind, outcome in sorted(result.counts):
+        print(f"{kind:28} {outcome:36} {result.counts[kind, outcome]:6}")
+    print(f"{len(result.wrong)} wrong verdicts", *result.wrong, sep="\n  ")
+    print(f"{len(result.unconfirmed)} verdicts that z3 does not prove", *result.unconfirmed, sep="\n  ")
+    print_missed(chance.sample(result.missed, min(options.reduce, len(result.missed))), chance)
+    sys.exit(bool(result.wrong))
+
+
+if __name__ == "__main__":
+    main()
