@@ -21,14 +21,25 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import islice
+from itertools import islice, pairwise
 
 from benchmarks.random_guards import DECLARATIONS, ENUMERATION, RandomGuards, draw_values
 from vicode.analysis.conditions import Conditions
 from vicode.analysis.guards import GuardAnalysis, ProvedDecision, Verdict
 from vicode.analysis.quantities import build_quantities
 from vicode.model.design import Design, Guard, State, Transition
-from vicode.model.expressions import BOOL, Binary, Comparison, Expr, Number, parse_expression, walk
+from vicode.model.expressions import (
+    BOOL,
+    FLOAT,
+    INT,
+    Binary,
+    Comparison,
+    Expr,
+    Number,
+    Variable,
+    parse_expression,
+    walk,
+)
 from vicode.model.project import Project
 from vicode.semantics import evaluate
 from vicode.semantics.values import Value
@@ -40,12 +51,14 @@ try:
 except ImportError:
     z3 = None
 
+KINDS = ("comparisons with constants", "comparisons of two values", "with arithmetic")
+PROVED, MISSED, INVALID, SILENT = "proved by both", "missed", "z3 only, not valid for doubles", "no claim"
+UNCONFIRMED, WRONG, UNKNOWN = "proved, not by z3", "wrong", "no claim, z3: unknown"
+OUTCOMES = (PROVED, MISSED, INVALID, UNCONFIRMED, WRONG, SILENT, UNKNOWN)
 SOLVER_MS = 1000
 SAMPLES = 300
 BATCH = 20
 """Cases in a design, which share diagrams."""
-LARGEST = 1e40
-"""Products of eight such values are no longer infinite."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -111,18 +124,25 @@ class Oracle:
         return (answer, encoder.values_of(solver.model()) if answer == "sat" else {})
 
     def find_values(
-        self, formula: str, near: Mapping[str, Value], *, largest: float = math.inf
+        self, formula: str, near: Mapping[str, Value], *, with_nan: bool = True
     ) -> Mapping[str, Value] | None:
-        """Values for which a formula holds with doubles."""
+        """Values for which a formula holds with doubles; without nan if no part may be nan."""
         tree = self.parse(formula)
         literals = [float(node.value) for node in walk(tree) if isinstance(node, Number)]
         numbers = [*literals, *(-each for each in literals), 0.0, *map(float, filter(_is_number, near.values()))]
-        drawn = draw_values(self._chance, numbers, largest=largest)
-        for number, values in enumerate(islice(drawn, SAMPLES)):
-            tried = {**values, **(near if number < 3 else {}), **(_beside(near, self._chance) if number < 40 else {})}
-            if evaluate(tree, BOOL, tried, ValueReader(tried)):  # type: ignore[arg-type]
-                return {node: tried[node] for node in sorted(tried) if node in formula}
+        for number, values in enumerate(islice(draw_values(self._chance, numbers), SAMPLES)):
+            tried = {**values, **(near if number == 0 else _beside(near, self._chance) if number < 40 else {})}
+            if _evaluate(tree, tried) and (with_nan or not _has_nan(tree, tried)):
+                return {node.name: tried[node.name] for node in walk(tree) if isinstance(node, Variable)}
         return None
+
+
+def _evaluate(tree: Expr, values: Mapping[str, Value]) -> Value:
+    return evaluate(tree, tree.type, values, ValueReader(values))  # type: ignore[arg-type]
+
+
+def _has_nan(tree: Expr, values: Mapping[str, Value]) -> bool:
+    return any(math.isnan(_evaluate(node, values)) for node in walk(tree) if node.type == FLOAT)  # type: ignore[arg-type]
 
 
 def _is_number(value: Value) -> bool:
@@ -176,23 +196,14 @@ def analyze(cases: Sequence[Sequence[Guard]]) -> tuple[GuardAnalysis, Conditions
 
 
 def kind_of(tree: Expr, conditions: Conditions) -> str:
-    """What an analysis must know to decide a formula."""
+    """What an analysis must know to decide a formula: one of `KINDS`."""
     nodes = list(walk(tree))
     if any(isinstance(node, Binary) for node in nodes):
-        return "with arithmetic"
-    pairs = [
-        pair
-        for node in nodes
-        if isinstance(node, Comparison)
-        for pair in zip(node.operands, node.operands[1:], strict=False)
-    ]
-    if all(
-        any(conditions.table.value_of(each) is not None for each in pair)
-        for pair in pairs
-        if pair[0].type in ("int", "float")
-    ):
-        return "comparisons with constants"
-    return "comparisons of two values"
+        return KINDS[2]
+    pairs = [pair for node in nodes if isinstance(node, Comparison) for pair in pairwise(node.operands)]
+    numbers = [pair for pair in pairs if pair[0].type in (INT, FLOAT)]
+    compares_constants = all(any(conditions.table.value_of(each) is not None for each in pair) for pair in numbers)
+    return KINDS[0] if compares_constants else KINDS[1]
 
 
 def judge_batch(cases: Sequence[Sequence[Guard]], chance: random.Random, result: Result) -> None:
@@ -208,8 +219,7 @@ def judge_batch(cases: Sequence[Sequence[Guard]], chance: random.Random, result:
             if verdict is not None and verdict.verdict is claim.verdict:
                 result.counts[kind, judge_verdict(claim, verdict, answer, solution, oracle, result)] += 1
             elif claim.index not in decided:
-                outcome = judge_silence(claim, oracle, result) if answer == "unsat" else f"no claim, z3: {answer}"
-                result.counts[kind, outcome] += 1
+                result.counts[kind, judge_silence(claim, answer, oracle, result)] += 1
             if answer == "unsat":
                 decided.add(claim.index)
 
@@ -218,24 +228,24 @@ def judge_verdict(
     claim: Claim, verdict: ProvedDecision, answer: str, solution: Mapping[str, Value], oracle: Oracle, result: Result
 ) -> str:
     """What z3 and the interpreter say about a verdict."""
-    largest = LARGEST if verdict.basis.no_nan else math.inf
-    values = oracle.find_values(claim.formula, solution, largest=largest)
+    values = oracle.find_values(claim.formula, solution, with_nan=not verdict.basis.no_nan)
     if values is not None:
         result.wrong.append(f"{claim.verdict}: {claim.formula}\n    holds for {values}")
-        return "WRONG"
+        return WRONG
     if answer == "unsat":
-        return "proved by both"
+        return PROVED
     result.unconfirmed.append(f"{claim.verdict}: {claim.formula}\n    z3: {solution or answer}")
-    return f"proved, z3: {answer}"
+    return UNCONFIRMED
 
 
-def judge_silence(claim: Claim, oracle: Oracle, result: Result) -> str:
-    """What the interpreter says where z3 proves what the analysis does not say."""
-    values = oracle.find_values(claim.formula, {})
-    if values is not None:
-        return "proof of z3 not valid for doubles"
+def judge_silence(claim: Claim, answer: str, oracle: Oracle, result: Result) -> str:
+    """What z3 and the interpreter say where there is no verdict."""
+    if answer != "unsat":
+        return SILENT if answer == "sat" else UNKNOWN
+    if oracle.find_values(claim.formula, {}) is not None:
+        return INVALID
     result.missed.append(claim.formula)
-    return "missed"
+    return MISSED
 
 
 # Reduction of what is missed
@@ -302,6 +312,15 @@ def print_missed(missed: Sequence[str], chance: random.Random) -> None:
         print(f"{number:5}  {formula}")
 
 
+def print_counts(counts: Counter[tuple[str, str]]) -> None:
+    print(f"| guards | {' | '.join(OUTCOMES)} | share proved |")
+    print(f"|---|{'---|' * (len(OUTCOMES) + 1)}")
+    for kind in KINDS:
+        row = [counts[kind, outcome] for outcome in OUTCOMES]
+        share = counts[kind, PROVED] / max(1, counts[kind, PROVED] + counts[kind, MISSED])
+        print(f"| {kind} | {' | '.join(map(str, row))} | {share:.1%} |")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cases", type=int, default=10_000)
@@ -314,8 +333,7 @@ def main() -> None:
     cases = [RandomGuards(chance, has_arithmetic=number % 2 == 1).draw_case() for number in range(options.cases)]
     for start in range(0, options.cases, BATCH):
         judge_batch(cases[start : start + BATCH], chance, result)
-    for kind, outcome in sorted(result.counts):
-        print(f"{kind:28} {outcome:36} {result.counts[kind, outcome]:6}")
+    print_counts(result.counts)
     print(f"{len(result.wrong)} wrong verdicts", *result.wrong, sep="\n  ")
     print(f"{len(result.unconfirmed)} verdicts that z3 does not prove", *result.unconfirmed, sep="\n  ")
     print_missed(chance.sample(result.missed, min(options.reduce, len(result.missed))), chance)

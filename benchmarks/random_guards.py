@@ -148,19 +148,15 @@ class RandomGuards:
         return condition.replace("3", "2") if self._chance.random() < 0.3 else condition
 
 
-def draw_values(chance: random.Random, numbers: Sequence[float], *, largest: float) -> Iterator[Mapping[str, Value]]:
-    """Yield values of all inputs without end, most of them at or near numbers of the guards.
-
-    Args:
-        largest: The limit of values without a range; nan and the largest doubles occur only if it is infinite.
-    """
+def draw_values(chance: random.Random, numbers: Sequence[float]) -> Iterator[Mapping[str, Value]]:
+    """Yield values of all inputs without end, most of them at or near the numbers of a guard."""
 
     def draw(low: float, high: float) -> float:
         kind = chance.random()
         if kind < 0.6:
             value = chance.choice(numbers) + chance.choice((0, 0, 0, 1, -1, 0.25, -0.25))
             value = math.nextafter(value, chance.choice((-math.inf, math.inf))) if kind < 0.1 else value
-        elif kind < 0.7 and math.isinf(high) and math.isinf(largest):
+        elif kind < 0.7 and math.isinf(high):
             return chance.choice(EXTREMES)
         else:
             value = chance.uniform(max(low, -20), min(high, 20))

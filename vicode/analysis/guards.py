@@ -196,7 +196,9 @@ class GuardAnalysis:
             rest = self._diagrams.both(condition, each.reached)
             basis = self.prove(rest, may_assume_no_nan=not tests_nan)
             if basis is not None:
-                culprits = self._find_culprits(condition, earlier, no_nan=basis.no_nan)
+                culprits, rest = self._find_culprits(condition, earlier, no_nan=basis.no_nan)
+                # Fewer decisions may rest on more ranges.
+                basis = self.prove(rest, may_assume_no_nan=basis.no_nan) or basis
                 yield ProvedDecision(path=each.path, verdict=verdict, basis=basis, earlier=culprits)
                 return
         basis = None if each.decision.guard.is_empty else self.prove(self._diagrams.without(each.within, each.own))
@@ -210,22 +212,27 @@ class GuardAnalysis:
 
     def _find_culprits(
         self, condition: Node, earlier: Sequence[TestedDecision], *, no_nan: bool
-    ) -> tuple[DesignPath, ...]:
-        """A smallest set of earlier decisions, one of which is taken whenever the condition holds."""
+    ) -> tuple[tuple[DesignPath, ...], Node]:
+        """A smallest set of earlier decisions, one of which is taken whenever the condition holds, and the remaining
+        case, which is impossible.
+        """
         meeting = [
             each
             for each in earlier
             if not isinstance(each.decision, DecisionGroup) and self._diagrams.both(each.own, condition) != FALSE
         ]
-        needed = list(meeting)
+        needed, remaining = list(meeting), self._remaining_after(meeting, condition)
         for each in reversed(meeting):
             fewer = [other for other in needed if other is not each]
-            rest = condition
-            for other in fewer:
-                rest = self._diagrams.without(rest, other.own)
+            rest = self._remaining_after(fewer, condition)
             if self.prove(rest, may_assume_no_nan=no_nan) is not None:
-                needed = fewer
-        return tuple(each.path for each in needed)
+                needed, remaining = fewer, rest
+        return (tuple(each.path for each in needed), remaining)
+
+    def _remaining_after(self, listed: Sequence[TestedDecision], condition: Node) -> Node:
+        for each in listed:
+            condition = self._diagrams.without(condition, each.own)
+        return condition
 
 
 def analyze_guards(project: Project, design: Design) -> GuardAnalysis:
