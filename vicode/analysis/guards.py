@@ -176,7 +176,11 @@ class GuardAnalysis:
         for index, each in enumerate(listed):
             if any(each.path[: len(path)] == path for path in closed):
                 continue
-            for verdict in self._judge(each, (*before, *listed[:index])):
+            try:
+                verdicts = tuple(self._judge(each, (*before, *listed[:index])))
+            except (TooLargeError, RecursionError):
+                continue
+            for verdict in verdicts:
                 yield verdict
                 is_group = isinstance(each.decision, DecisionGroup) and verdict.path == each.path
                 if is_group and verdict.verdict in (Verdict.NEVER_HOLDS, Verdict.SHADOWED):
