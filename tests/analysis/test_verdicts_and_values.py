@@ -7,10 +7,12 @@ from itertools import product
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vicode.analysis.guards import Verdict, analyze_guards
-from vicode.model.design import Declaration, Design, Guard, State, Transition
+from vicode.analysis.guards import ProvedDecision, Verdict, analyze_guards
+from vicode.findings import DesignPath
+from vicode.model.design import Decision, DecisionGroup, Declaration, Design, Guard, State, Transition
 from vicode.model.expressions import BOOL, Expr, Scope, Variable, build_scope, parse_expression, walk
 from vicode.model.project import Enumeration, Project
+from vicode.model.traversal import iter_decisions
 from vicode.semantics import evaluate
 from vicode.semantics.values import Value
 
@@ -31,6 +33,7 @@ _BEYOND: Mapping[str, Sequence[Value]] = {
 """Values that a declared range excludes, too."""
 _TYPES = {**dict.fromkeys("mn", "int"), **dict.fromkeys("fg", "float"), **dict.fromkeys("pq", "bool"), "e": "E"}
 _ORDERS = st.sampled_from(("<", "<=", ">", ">=", "==", "!="))
+_Seen = set[tuple[DesignPath, bool]]
 _PROJECT = Project(
     name="p", enumerations=(Enumeration(name="E", elements=tuple((name, "") for name in ("one", "two", "three"))),)
 )
@@ -110,30 +113,57 @@ def computed_numbers(names: Sequence[str]) -> Texts:
     )
 
 
-class Decisions:
-    """The transitions of a state, with their verdicts and the names of the inputs that they read."""
+@st.composite
+def nested_decisions(draw: st.DrawFn) -> tuple[Decision, ...]:
+    """Transitions in groups."""
+    names = sorted(draw(st.lists(st.sampled_from(sorted(_DOMAINS)), min_size=1, max_size=2, unique=True)))
+    guards = st.builds(Guard, when=conditions(names, single_numbers))
+    transitions = st.builds(Transition, to=st.just("A"), guard=guards)
+    lists = st.recursive(
+        st.lists(transitions, max_size=2).map(tuple),
+        lambda inner: st.lists(transitions | st.builds(DecisionGroup, guard=guards, then=inner, otherwise=inner)).map(
+            tuple
+        ),
+        max_leaves=3,
+    )
+    return draw(lists)
 
-    def __init__(self, guards: Sequence[str]) -> None:
-        transitions = tuple(Transition(to="A", guard=Guard(when=guard)) for guard in guards)
+
+class Decisions:
+    """The decisions of a state, with the guards and the names of the inputs that they read."""
+
+    def __init__(self, decisions: Sequence[Decision]) -> None:
         parameters = (Declaration(name=name, type=type_, range=_RANGES.get(name)) for name, type_ in _TYPES.items())
-        state = State(name="A", transitions=transitions)
-        design = Design(component="T", parameters=tuple(parameters), initial="A", states=(state,))
-        scope = build_scope(_PROJECT, design)
-        self.trees = [_parse(guard, scope) for guard in guards]
-        self.names = sorted({node.name for tree in self.trees for node in walk(tree) if isinstance(node, Variable)})
-        self.verdicts = {int(str(each.path[3])): each for each in analyze_guards(_PROJECT, design).find_verdicts()}
+        state = State(name="A", transitions=tuple(decisions))
+        self._design = Design(component="T", parameters=tuple(parameters), initial="A", states=(state,))
+        scope = build_scope(_PROJECT, self._design)
+        self.paths = {located.path[3:]: located.decision for located in iter_decisions(self._design)}
+        self._trees = {path: _parse(each.guard.when, scope) for path, each in self.paths.items()}
+        nodes = [node for tree in self._trees.values() for node in walk(tree)]
+        self._names = sorted({node.name for node in nodes if isinstance(node, Variable)})
+
+    def judge(self) -> list[ProvedDecision]:
+        return list(analyze_guards(_PROJECT, self._design).find_verdicts())
 
     def evaluate(self, *, beyond: Collection[str] = ()) -> set[tuple[bool, ...]]:
         """Which guards can hold together, for all values of the inputs; `beyond` their range for some of them."""
-        domains = [(_BEYOND if name in beyond else _DOMAINS)[name] for name in self.names]
-        named = (dict(zip(self.names, values, strict=True)) for values in product(*domains))
-        return {tuple(bool(evaluate(tree, BOOL, each)) for tree in self.trees) for each in named}
+        domains = [(_BEYOND if name in beyond else _DOMAINS)[name] for name in self._names]
+        named = (dict(zip(self._names, values, strict=True)) for values in product(*domains))
+        return {tuple(bool(evaluate(tree, BOOL, each)) for tree in self._trees.values()) for each in named}
 
 
 def _parse(guard: str, scope: Scope) -> Expr:
     tree = parse_expression(guard, scope, BOOL).tree
     assert tree is not None, guard
     return tree
+
+
+def transitions(guards: Sequence[str]) -> Decisions:
+    return Decisions([Transition(to="A", guard=Guard(when=guard)) for guard in guards])
+
+
+def number(path: DesignPath) -> int:
+    return int(str(path[3]))
 
 
 def agrees(verdict: Verdict, index: int, held: Sequence[bool], earlier: Collection[int]) -> bool:
@@ -157,34 +187,80 @@ def is_true(verdict: Verdict, index: int, rows: Iterable[Sequence[bool]], earlie
 @settings(max_examples=settings().max_examples * 3)
 @given(guards(single_numbers))
 def test_the_verdicts_are_those_of_all_values(guards: list[str]) -> None:
-    decisions = Decisions(guards)
+    decisions = transitions(guards)
     rows = decisions.evaluate()
     expected = {}
     for index in range(len(guards)):
         if true := [each for each in Verdict if is_true(each, index, rows, range(index))]:
             expected[index] = true[0]
-    assert {index: each.verdict for index, each in decisions.verdicts.items()} == expected
+    assert {number(each.path): each.verdict for each in decisions.judge()} == expected
 
 
 @given(guards(computed_numbers))
 def test_no_value_contradicts_a_verdict_about_arithmetic(guards: list[str]) -> None:
-    decisions = Decisions(guards)
-    rows = decisions.evaluate() if decisions.verdicts else ()
-    for index, proved in decisions.verdicts.items():
-        # A quotient of inputs that are 0 is nan.
-        assert proved.basis.no_nan or is_true(proved.verdict, index, rows, range(index)), proved
+    decisions = transitions(guards)
+    # A quotient of inputs that are 0 is nan.
+    verdicts = [each for each in decisions.judge() if not each.basis.no_nan]
+    rows = decisions.evaluate() if verdicts else ()
+    for each in verdicts:
+        index = number(each.path)
+        assert is_true(each.verdict, index, rows, range(index)), each
 
 
 @given(guards(single_numbers, most=2))
 def test_the_ranges_and_earlier_decisions_that_a_verdict_names_are_enough_and_needed(guards: list[str]) -> None:
-    decisions = Decisions(guards)
-    for index, proved in decisions.verdicts.items():
+    decisions = transitions(guards)
+    for proved in decisions.judge():
+        index = number(proved.path)
         named = {fact[0] for fact in proved.basis.facts}
         others = {*_RANGES} - named
-        earlier = {int(str(path[3])) for path in proved.earlier}
+        earlier = {*map(number, proved.earlier)}
         assert is_true(proved.verdict, index, decisions.evaluate(beyond=others), earlier), proved
         for name in named:
             assert not is_true(proved.verdict, index, decisions.evaluate(beyond={*others, name}), earlier), proved
         rows = decisions.evaluate() if earlier else ()
         for each in earlier:
             assert not is_true(proved.verdict, index, rows, earlier - {each}), proved
+
+
+def decide(items: Sequence[Decision], path: DesignPath, held: Mapping[DesignPath, bool], seen: _Seen) -> bool:
+    """Note the decisions that are tested, and whether they hold; return whether one is taken."""
+    for index, item in enumerate(items):
+        here = (*path, index)
+        seen.add((here, held[here]))
+        if isinstance(item, DecisionGroup):
+            name, branch = ("then", item.then) if held[here] else ("else", item.otherwise)
+            is_taken = decide(branch, (*here, name), held, seen)
+        else:
+            is_taken = held[here]
+        if is_taken:
+            return True
+    return False
+
+
+@given(nested_decisions())
+def test_the_decisions_of_groups_that_are_never_taken_are_found(items: tuple[Decision, ...]) -> None:
+    decisions = Decisions(items)
+    seen: _Seen = set()
+    for row in decisions.evaluate():
+        decide(items, (), dict(zip(decisions.paths, row, strict=True)), seen)
+    verdicts = {each.path[3:]: each.verdict for each in decisions.judge()}
+    for path, verdict in verdicts.items():
+        outcomes = {holds for tested, holds in seen if tested[: len(path)] == path}
+        match verdict:
+            case Verdict.NEVER_TESTED:
+                assert not outcomes, path
+            case Verdict.ALWAYS_HOLDS:
+                assert (path, False) not in seen, path
+            case _:
+                assert (path, True) not in seen, path
+    leaves = {path for path, item in decisions.paths.items() if not isinstance(item, DecisionGroup)}
+    for path in leaves - {path for path, holds in seen if holds}:
+        assert any(covers(verdict, judged, path) for judged, verdict in verdicts.items()), path
+
+
+def covers(verdict: Verdict, judged: DesignPath, path: DesignPath) -> bool:
+    """Whether a decision is never taken because of the verdict about it or about a group."""
+    if path[: len(judged)] != judged or verdict is Verdict.ALWAYS_HOLDS:
+        return False
+    return verdict is Verdict.NEVER_TESTED or path[len(judged) :][:1] in ((), ("then",))
