@@ -139,6 +139,7 @@ def test_a_guard_that_can_hold_is_left_alone(guard: str) -> None:
 def test_a_range_on_which_a_proof_rests_is_named() -> None:
     assert judge("a > 20") == [(0, Verdict.NEVER_HOLDS, (), Basis(facts=("a from 0 to 10",)))]
     assert judge("a > 20 and a < 15") == [(0, Verdict.NEVER_HOLDS, (), Basis())]
+    assert judge("not max(a, b) >= 0") == [(0, Verdict.NEVER_HOLDS, (), Basis(facts=("a from 0 to 10",)))]
     assert judge("n + 1 > b + 20") == [(0, Verdict.NEVER_HOLDS, (), Basis(facts=("b from 0 to 10", "n from 0 to 3")))]
 
 
