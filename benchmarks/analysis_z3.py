@@ -23,7 +23,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, pairwise
 
-from benchmarks.random_guards import DECLARATIONS, ENUMERATION, RandomGuards, draw_values
+from benchmarks.random_guards import DECLARATIONS, ENUMERATION, FLOATS, RANGES, RandomGuards, draw_values
 from vicode.analysis.conditions import Conditions
 from vicode.analysis.guards import GuardAnalysis, ProvedDecision, Verdict
 from vicode.analysis.quantities import build_quantities
@@ -150,12 +150,12 @@ def _is_number(value: Value) -> bool:
 
 
 def _beside(values: Mapping[str, Value], chance: random.Random) -> dict[str, Value]:
-    """A solution in which floats are up to 2 doubles away."""
+    """A solution in which inputs are up to 2 doubles away."""
     moved = dict(values)
-    for name, value in values.items():
-        if isinstance(value, float):
-            near = value + chance.randrange(-2, 3) * math.ulp(value)
-            moved[name] = max(near, 0.0) if name.endswith("_time") else near
+    for name in {*moved} & {*FLOATS}:
+        low, high = RANGES.get(name, (-math.inf, math.inf))
+        value = float(values[name])
+        moved[name] = min(max(value + chance.randrange(-2, 3) * math.ulp(value), low), high)
     return moved
 
 
