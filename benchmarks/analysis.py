@@ -273,8 +273,8 @@ def compare(
     differences = []
     for key in sorted({*ours, *theirs}):
         own, foreign = ours.get(key, "none"), theirs.get(key, {"none"})
-        if own == "tautology" and has_ranges:
-            continue
+        if has_ranges and own == "tautology":
+            own = "none"
         if own != ("shadowed" if "shadowed" in foreign else min(foreign)):
             state, index = key
             guards = [guard for _, guard in machine[int(state[1:])][: index + 1]]

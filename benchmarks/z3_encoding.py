@@ -92,7 +92,7 @@ class Encoder:
                 return self._operate(operator, left, right)
             case FunctionCall(function=function, arguments=arguments, type=type_):
                 return _call(function, [self._as(each, type_) for each in arguments])
-        raise NotImplementedError(type(node))
+        raise ValueError(type(node))
 
     def values_of(self, model: z3.ModelRef) -> dict[str, Value]:
         """The values of a solution, as near as doubles come."""
@@ -164,4 +164,4 @@ def _call(function: str, given: Sequence[z3.ExprRef]) -> z3.ExprRef:
         case "clamp":
             x, low, high = given
             return z3.If(x < low, low, z3.If(high < x, high, x))
-    raise NotImplementedError(function)
+    raise ValueError(function)
