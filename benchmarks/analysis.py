@@ -5,7 +5,7 @@ transitions per state, whose guards compare 8 inputs; some guards never hold, al
 processor times: `analysis` is that of the verdicts alone with expressions not yet parsed, `process` that of a process
 that reads the YAML file and prints the verdicts.
 
-With the command of pyfcstm 0.6 (`pip install pyfcstm`; "venv/bin/pyfcstm", say) the verdicts are compared. It knows no
+With the command of pyfcstm 0.6 ("venv/bin/pyfcstm", say) the verdicts are compared. It knows no
 ranges. So it reads each machine twice: as it is, compared with the design without ranges, and with the ranges as part
 of each guard, where no guard always holds. Differences are printed.
 """

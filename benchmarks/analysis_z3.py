@@ -1,6 +1,6 @@
 """What `vicode.analysis` proves about random guards, compared with the solver z3 and with the reference interpreter.
 
-`python -m benchmarks.analysis_z3 [--cases N] [--seed N] [--reduce N]` needs `pip install z3-solver`.
+`python -m benchmarks.analysis_z3 [--cases N] [--seed N] [--reduce N]` needs the package `z3-solver`.
 
 A case is a state with one or two transitions. Each verdict is the claim that a formula never holds, such as "the second
 guard and not the first". z3 decides the formula over exact real numbers without nan and with no division by zero; the
@@ -328,7 +328,7 @@ def main() -> None:
     parser.add_argument("--reduce", type=int, default=0, help="reduce so many of the formulas that are missed")
     options = parser.parse_args()
     if z3 is None:
-        sys.exit("this benchmark needs z3: pip install z3-solver")
+        sys.exit("this benchmark needs z3: install the package z3-solver")
     chance, result = random.Random(options.seed), Result(counts=Counter(), wrong=[], unconfirmed=[], missed=[])
     cases = [RandomGuards(chance, has_arithmetic=number % 2 == 1).draw_case() for number in range(options.cases)]
     for start in range(0, options.cases, BATCH):

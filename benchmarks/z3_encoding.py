@@ -1,4 +1,4 @@
-"""Expressions of guards as formulas of the solver z3 (`pip install z3-solver`)."""
+"""Expressions of guards as formulas of the solver z3 (package `z3-solver`)."""
 
 from collections.abc import Iterator, Sequence
 
