@@ -2,7 +2,8 @@
 
 import pytest
 
-from vicode.analysis.guards import Basis, Verdict, analyze_guards
+from vicode.analysis import conditions
+from vicode.analysis.guards import Basis, GuardAnalysis, Verdict, analyze_guards
 from vicode.model.design import Code, DecisionGroup, Declaration, Design, Guard, State, Stay, Transition, Use
 from vicode.model.project import WORLD, Enumeration, Interface, Project
 
@@ -28,6 +29,15 @@ _EYES = Interface(
 
 def judge(*guards: str | Guard, time_unit: str = "") -> list[tuple[int, Verdict, tuple[int, ...], Basis]]:
     """The verdicts about transitions with these guards: number, verdict, earlier ones, basis."""
+    analysis = analyze(*guards, time_unit=time_unit)
+    assert set(analysis.states) == {"A", "B"}
+    return [
+        (int(str(each.path[3])), each.verdict, tuple(int(str(path[3])) for path in each.earlier), each.basis)
+        for each in analysis.find_verdicts()
+    ]
+
+
+def analyze(*guards: str | Guard, time_unit: str = "") -> GuardAnalysis:
     transitions = tuple(
         Transition(to="B", guard=each if isinstance(each, Guard) else Guard(when=each)) for each in guards
     )
@@ -50,12 +60,7 @@ def judge(*guards: str | Guard, time_unit: str = "") -> list[tuple[int, Verdict,
         components=(_EYES,),
         designs=(design,),
     )
-    analysis = analyze_guards(project, design)
-    assert set(analysis.states) == {"A", "B"}
-    return [
-        (int(str(each.path[3])), each.verdict, tuple(int(str(path[3])) for path in each.earlier), each.basis)
-        for each in analysis.find_verdicts()
-    ]
+    return analyze_guards(project, design)
 
 
 @pytest.mark.parametrize(
@@ -134,6 +139,7 @@ def test_a_guard_that_can_hold_is_left_alone(guard: str) -> None:
 def test_a_range_on_which_a_proof_rests_is_named() -> None:
     assert judge("a > 20") == [(0, Verdict.NEVER_HOLDS, (), Basis(facts=("a from 0 to 10",)))]
     assert judge("a > 20 and a < 15") == [(0, Verdict.NEVER_HOLDS, (), Basis())]
+    assert judge("not max(a, b) >= 0") == [(0, Verdict.NEVER_HOLDS, (), Basis(facts=("a from 0 to 10",)))]
     assert judge("n + 1 > b + 20") == [(0, Verdict.NEVER_HOLDS, (), Basis(facts=("b from 0 to 10", "n from 0 to 3")))]
 
 
@@ -201,3 +207,13 @@ def test_decisions_of_groups_are_judged_within_them() -> None:
         ((0, "else", 0), Verdict.ALWAYS_HOLDS),
         ((1,), Verdict.NEVER_TESTED),
     ]
+
+
+def test_what_is_too_large_has_no_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+    guards = ("a + b > 5 and n > 1", "x < y and seen", "a + b > 5 and n > 2", "x < y and seen and k > 3", "a > 11")
+    numbers_found = set()
+    for limit in range(2, 150):
+        monkeypatch.setattr(conditions, "_MAX_NODES", limit)
+        numbers_found.add(tuple(each.path[3] for each in analyze(*guards).find_verdicts()))
+    assert {(), (2, 3, 4)} < numbers_found
+    assert all({*numbers} <= {2, 3, 4} for numbers in numbers_found)

@@ -172,6 +172,9 @@ def find_orders(a: Interval, b: Interval) -> list[Interval]:
     """The possible orders of two numbers of which the intervals are known: -1, 0, 1."""
     (low_a, high_a), (low_b, high_b) = a, b
     possible: list[Interval] = []
+    if low_a == high_a or low_b == high_b:
+        # A value that can only be nan has no order.
+        return possible
     if low_a[0] < high_b[0]:
         possible.append((BEFORE_ALL, (0, 0)))
     if max(low_a, low_b) < min(high_a, high_b):

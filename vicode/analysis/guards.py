@@ -197,7 +197,11 @@ class GuardAnalysis:
             if any(each.path[: len(path)] == path for path in closed):
                 continue
             earlier = (*before, *listed[:index])
-            for verdict in self._judge(each, earlier):
+            try:
+                verdicts = tuple(self._judge(each, earlier))
+            except (TooLargeError, RecursionError):
+                continue
+            for verdict in verdicts:
                 yield self._with_constants(verdict, (*earlier, each))
                 is_group = isinstance(each.decision, DecisionGroup) and verdict.path == each.path
                 if is_group and verdict.verdict in (Verdict.NEVER_HOLDS, Verdict.SHADOWED):
@@ -231,7 +235,9 @@ class GuardAnalysis:
             rest = self._diagrams.both(condition, each.reached)
             basis = self.prove(rest, may_assume_no_nan=not tests_nan)
             if basis is not None:
-                culprits = self._find_culprits(condition, earlier, no_nan=basis.no_nan)
+                culprits, rest = self._find_culprits(condition, earlier, no_nan=basis.no_nan)
+                # Fewer decisions may rest on more ranges.
+                basis = self.prove(rest, may_assume_no_nan=basis.no_nan) or basis
                 return ProvedDecision(path=each.path, verdict=verdict, basis=basis, earlier=culprits)
         return None
 
@@ -248,8 +254,11 @@ class GuardAnalysis:
 
     def _find_culprits(
         self, condition: Node, earlier: Sequence[TestedDecision], *, no_nan: bool
-    ) -> tuple[DesignPath, ...]:
-        """A smallest set of earlier decisions, one of which is taken whenever the condition holds."""
+    ) -> tuple[tuple[DesignPath, ...], Node]:
+        """A smallest set of earlier decisions, one of which is taken whenever the condition holds.
+
+        The second value is the case that remains, which is impossible.
+        """
         meeting = [
             each
             for each in earlier
@@ -266,7 +275,7 @@ class GuardAnalysis:
             needed.append(meeting[least - 1])
             condition = self._diagrams.without(condition, needed[-1].own)
             del meeting[least - 1 :]
-        return tuple(each.path for each in reversed(needed))
+        return tuple(each.path for each in reversed(needed)), condition
 
     def _without_all(self, condition: Node, decisions: Sequence[TestedDecision]) -> Node:
         for each in decisions:
