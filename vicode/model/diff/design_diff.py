@@ -14,16 +14,11 @@ from vicode.model.design import (
     State,
     Use,
 )
-from vicode.model.diff.changes import (
-    Change,
-    ChangeKind,
-    describe_action,
-    describe_code,
-)
+from vicode.model.diff.changes import Change, ChangeKind
 from vicode.model.diff.decision_diff import diff_decisions
 from vicode.model.diff.item_diff import (
-    diff_attributes,
     diff_declarations,
+    diff_fields,
     diff_keyed,
     diff_ordered,
     diff_positions,
@@ -31,30 +26,16 @@ from vicode.model.diff.item_diff import (
 )
 from vicode.model.edits import rename_state, rename_use
 from vicode.model.merge.matching import find_renamed_states, find_renamed_uses
+from vicode.model.words import describe_action, describe_value
 
-_DESIGN_ATTRIBUTES = {
-    "xabsl_name": "XABSL name",
-    "doc": "description",
-    "frequency_hz": "frequency",
-    "resume": "resume",
-    "arithmetic": "arithmetic",
-    "time_unit": "time unit",
-    "initial": "initial state",
-    "module": "module code",
-    "members": "class code",
-}
-_STATE_ATTRIBUTES = {
-    "id": "id",
-    "xabsl_name": "XABSL name",
-    "doc": "description",
-    "color": "color",
-    "final": "final",
-    "capacity": "capacity",
-    "synchronized": "synchronized",
-    "disabled": "disabled",
-}
-_DECISION_ATTRIBUTES = {"doc": "description", "id": "id", "disabled": "disabled"}
+_SECTIONS = ("parameters", "outputs", "variables")
 _PHASES = {"enter": "enter action", "actions": "action", "leave": "leave action"}
+_APART = {
+    Design: ("component", "uses", *_SECTIONS, "common", "states", "frames", "notes"),
+    State: ("name", "at", "requires", "modulates", *_PHASES, "transitions"),
+    CommonSection: ("at", "actions", "transitions"),
+}
+"""The fields that are not compared as one value."""
 
 
 def diff_designs(old: Design, new: Design) -> tuple[Change, ...]:
@@ -96,7 +77,7 @@ def _apply_renames(old: Design, new: Design) -> tuple[Design, list[Change]]:
 
 
 def _diff_content(old: Design, new: Design) -> Iterator[Change]:
-    yield from diff_attributes((), "", old, new, _DESIGN_ATTRIBUTES)
+    yield from diff_fields((), "", old, new, _APART[Design])
     yield from diff_keyed(
         ("uses",),
         old.uses,
@@ -105,7 +86,7 @@ def _diff_content(old: Design, new: Design) -> Iterator[Change]:
         content=lambda use: str(use.component),
         compare=_diff_use,
     )
-    for section in ("parameters", "outputs", "variables"):
+    for section in _SECTIONS:
         before, after = getattr(old, section), getattr(new, section)
         yield from diff_declarations((section,), before, after, section.removesuffix("s"))
     yield from _diff_common(old.common, new.common)
@@ -136,23 +117,23 @@ def _diff_content(old: Design, new: Design) -> Iterator[Change]:
 
 
 def _diff_use(path: DesignPath, old: Use, new: Use) -> Iterator[Change]:
-    yield from diff_attributes(path, f"use {new.alias}", old, new, {"component": "component"})
+    yield from diff_fields(path, f"use {new.alias}", old, new, ("alias", "at"))
     yield from diff_positions(path, f"use {new.alias}", old.at, new.at)
 
 
 def _diff_frame(path: DesignPath, old: DiagramFrame, new: DiagramFrame) -> Iterator[Change]:
     subject = f"frame {new.name}"
-    yield from diff_attributes(path, subject, old, new, {"color": "color"})
+    yield from diff_fields(path, subject, old, new, ("name", "states"))
     yield from diff_values((*path, "states"), subject, old.states, new.states, ", ".join)
 
 
 def _diff_note(path: DesignPath, old: DiagramNote, new: DiagramNote) -> Iterator[Change]:
-    yield from diff_attributes(path, f"note {new.name}", old, new, {"text": "text"})
+    yield from diff_fields(path, f"note {new.name}", old, new, ("name", "at"))
     yield from diff_positions(path, f"note {new.name}", old.at, new.at)
 
 
 def _diff_common(old: CommonSection, new: CommonSection) -> Iterator[Change]:
-    yield from diff_attributes(("common",), "common section", old, new, {"doc": "description"})
+    yield from diff_fields(("common",), "common section", old, new, _APART[CommonSection])
     yield from diff_positions(("common",), "common section", old.at, new.at)
     yield from _diff_actions(("common", "actions"), "action", "common section", old.actions, new.actions)
     yield from diff_decisions(("common", "transitions"), "common", old.transitions, new.transitions)
@@ -166,7 +147,7 @@ def _describe_state(state: State) -> str:
 
 def _diff_state(path: DesignPath, old: State, new: State) -> Iterator[Change]:
     owner = f"state {new.name}"
-    yield from diff_attributes(path, owner, old, new, _STATE_ATTRIBUTES)
+    yield from diff_fields(path, owner, old, new, _APART[State])
     yield from diff_positions(path, owner, old.at, new.at)
     yield from diff_keyed(
         (*path, "requires"),
@@ -207,8 +188,8 @@ def _diff_actions(
 
 def _diff_action(path: DesignPath, subject: str, old: Action, new: Action) -> Iterator[Change]:
     if isinstance(old, RunCode) and isinstance(new, RunCode):
-        yield from diff_attributes(path, subject, old, new, {"id": "id"})
-        yield from diff_values(path, subject, old.code, new.code, describe_code)
+        yield from diff_fields(path, subject, old, new, ("code",))
+        yield from diff_values(path, subject, old.code, new.code, describe_value)
     else:
         yield from diff_values(path, subject, old, new, describe_action)
 
