@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
-from vicode.editor.session.forms.fields import known_field
+from vicode.editor.session.forms.fields import known_field, other_nodes
 from vicode.editor.session.forms.form_paths import parse_path, resolve
 from vicode.editor.session.forms.item_place import ItemPlace
 from vicode.editor.session.forms.list_ids import ListIds
@@ -126,6 +126,7 @@ def _more(place: ItemPlace, declaration: Declaration, *, is_shared: bool) -> Sec
     if place.section == ("constants" if is_shared else "parameters"):
         tunable = known_field(declaration, ("tunable",))
         nodes.append(Check(path=place.within("tunable"), label=tunable.label, value=declaration.tunable))
+    nodes += other_nodes(declaration, place.path, noun=place.noun, is_committed=is_shared)
     caption = declaration_caption(declaration, place.section)
     return Section(key=place.key, title="More", caption=caption, nodes=tuple(nodes), look="more")
 

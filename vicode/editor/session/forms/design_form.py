@@ -2,7 +2,7 @@
 
 from vicode.editor.session.forms.decision_form import code_texts
 from vicode.editor.session.forms.declaration_form import declaration_cards
-from vicode.editor.session.forms.fields import known_field
+from vicode.editor.session.forms.fields import known_field, other_nodes
 from vicode.editor.session.forms.interface_form import interface_lists
 from vicode.editor.session.forms.item_place import ItemPlace
 from vicode.editor.session.forms.list_ids import ListIds
@@ -54,6 +54,7 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
             )
         ),
         Check(path=("resume",), label=resume.label, value=design.resume),
+        *other_nodes(design),
         *interface_lists(project, design, ids.of_project(project)),
         *((_xabsl(design),) if uses_xabsl(project, design) or design.time_unit else ()),
         Heading(text="Uses", hint="components this design requires or modulates"),

@@ -1,6 +1,6 @@
 """The forms of what only the diagram shows: frames and notes."""
 
-from vicode.editor.session.forms.fields import known_field
+from vicode.editor.session.forms.fields import known_field, other_nodes
 from vicode.editor.session.forms.nodes import Button, Colors, ItemName, MultiChoice, Node, TextField, Title
 from vicode.model.design import STATE_COLORS, DiagramFrame, DiagramNote
 
@@ -13,6 +13,7 @@ def frame_form(frame: DiagramFrame) -> tuple[Node, ...]:
         ItemName(path=("name",), label="Title", value=frame.name),
         Colors(path=("color",), label="Color", value=frame.color, options=STATE_COLORS),
         MultiChoice(path=("states",), label="States", value=frame.states, options="states"),
+        *other_nodes(frame),
         _REMOVE,
     )
 
@@ -22,5 +23,6 @@ def note_form(note: DiagramNote) -> tuple[Node, ...]:
     return (
         Title(text="Note"),
         TextField(path=("text",), label=text.label, value=note.text, is_long=True),
+        *other_nodes(note),
         _REMOVE,
     )

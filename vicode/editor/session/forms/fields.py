@@ -1,10 +1,15 @@
-"""The values that forms show and change: how each is read from its owner, validated and written."""
+"""The values that forms show and change: how each is read from its owner, validated and written.
+
+A key of the format needs no entry: without one, its field is derived from its schema and stands below the others.
+"""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 from vicode.editor.session import texts
+from vicode.editor.session.forms.nodes import Check, Node, TextField
 from vicode.editor.session.forms.pairs import find_error, find_lost_pairs, format_pairs, parse_pairs
 from vicode.editor.session.gestures import number_text
 from vicode.findings import DesignPath
@@ -27,7 +32,11 @@ from vicode.model.design import (
 )
 from vicode.model.names import is_valid_name
 from vicode.model.project import Agent, Enumeration, Interface, Project
+from vicode.model.words import field_word
 from vicode.services import messages
+from vicode.store.format import DESIGN_RECORDS
+from vicode.store.project_format import PROJECT_RECORDS
+from vicode.store.schema_types import KeySchema, RecordSchema, ScalarSchema, ScalarType
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,6 +107,17 @@ def count(name: str, label: str, hint: str) -> FormField:
     )
 
 
+def number(name: str, label: str, hint: str) -> FormField:
+    """The field of a number above 0, or None."""
+    return FormField(
+        label=label,
+        hint=hint,
+        read=lambda owner: number_text.format_number(getattr(owner, name)),
+        write=lambda owner, text: replace(owner, **{name: number_text.parse_frequency(text)}),
+        validate=number_text.validate_frequency,
+    )
+
+
 def pairs(name: str, label: str, *, is_required: bool = False) -> FormField:
     """The field of assignments or arguments: lines `name = expression`."""
 
@@ -141,13 +161,7 @@ _STATE: Mapping[DesignPath, FormField] = {
     ("synchronized",): count("synchronized", "Synchronized (robots)", "not synchronized"),
     ("xabsl_name",): _XABSL_NAME,
 }
-_FREQUENCY = FormField(
-    label="Frequency, Hz",
-    hint="every step",
-    read=lambda owner: number_text.format_number(owner.frequency_hz),
-    write=lambda owner, text: replace(owner, frequency_hz=number_text.parse_frequency(text)),
-    validate=number_text.validate_frequency,
-)
+_FREQUENCY = number("frequency_hz", "Frequency, Hz", "every step")
 _DECLARATION: Mapping[DesignPath, FormField] = {
     ("type",): FormField(
         label="Type",
@@ -263,7 +277,8 @@ def xabsl_field(element: str) -> FormField:
 
 def field_of(owner: object, path: DesignPath) -> FormField | None:
     """The field at a path of an owner; None if there is none."""
-    return _FIELDS.get(type(owner), {}).get(path)
+    kind: Any = type(owner)
+    return _FIELDS.get(kind, {}).get(path) or _other_fields(kind, "").get(path)
 
 
 def known_field(owner: object, path: DesignPath) -> FormField:
@@ -271,3 +286,54 @@ def known_field(owner: object, path: DesignPath) -> FormField:
     field = field_of(owner, path)
     assert field is not None, f"{type(owner).__name__} has no field {path}"
     return field
+
+
+def other_nodes(
+    owner: object, base: DesignPath = (), *, noun: str = "", is_committed: bool = False
+) -> tuple[Node, ...]:
+    """The fields of an owner at `base` that its form has not placed; `noun` is the name of its record in the format."""
+    nodes: list[Node] = []
+    kind: Any = type(owner)
+    for path, field in _other_fields(kind, noun).items():
+        value, here = field.read(owner), (*base, *path)
+        if isinstance(value, bool):
+            nodes.append(Check(path=here, label=field.label, value=value, hint=field.hint))
+        else:
+            text = TextField(path=here, label=field.label, value=value, help=field.hint, is_checked=True)
+            nodes.append(replace(text, is_committed=is_committed))
+    return tuple(nodes)
+
+
+_IN_NO_FORM = ("id", "alias", "component", "clock", "generated", "xabsl_encoding")
+"""Written by the editor, changed in another way, or edited in the file."""
+
+
+@cache
+def _other_fields(kind: type, noun: str) -> Mapping[DesignPath, FormField]:
+    """The fields without an entry in `_FIELDS`, of all records or that with a name."""
+    found: dict[DesignPath, FormField] = {}
+    for record in (*DESIGN_RECORDS, *PROJECT_RECORDS):
+        if kind in (record.model, *record.variants.values()) and noun in ("", record.name):
+            for key in record.keys:
+                path, field = tuple(key.model_field.split(".")), _derived_field(kind, record, key)
+                if field is not None and path not in _FIELDS.get(kind, {}) and key.model_field not in _IN_NO_FORM:
+                    found[path] = field
+    return found
+
+
+def _derived_field(kind: type, record: RecordSchema, key: KeySchema) -> FormField | None:
+    """The field of a key by its type; None if it is no scalar of a class."""
+    owner, _dot, name = key.model_field.rpartition(".")
+    kind = record.nested[owner] if owner else kind
+    if key.constant is not None or not isinstance(key.schema, ScalarSchema) or not hasattr(kind, name):
+        return None
+    word, scalar, choices = field_word(kind, name), key.schema.scalar_type, key.schema.choices
+    label, hint = word[:1].upper() + word[1:], key.description.replace("`", "")
+    is_number = scalar in (ScalarType.COUNT, ScalarType.NUMBER)
+    make = count if scalar is ScalarType.COUNT else number
+    field = make(name, label, hint) if is_number else attribute(name, label, hint=hint)
+    if is_number or choices:
+        is_wrong = field.validate if is_number else lambda value: value not in ("", *choices)
+        error = texts.expected(" or ".join(choices) or scalar)
+        field = replace(field, validate=lambda value: error if is_wrong(value) else "")
+    return part(owner, field) if owner else field

@@ -9,7 +9,7 @@ from vicode.editor.session.forms.declaration_form import (
     describe_declaration,
     text_field,
 )
-from vicode.editor.session.forms.fields import known_field
+from vicode.editor.session.forms.fields import known_field, other_nodes
 from vicode.editor.session.forms.item_place import ItemPlace
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import (
@@ -88,6 +88,7 @@ def _project_nodes(here: ItemPlace, project: Project) -> tuple[Node, ...]:
     return (
         SCOPE,
         *fields,
+        *other_nodes(project, here.path, is_committed=True),
         Heading(text="Enumerations", hint="types with named values"),
         _cards(here, "enumerations", enumerations, "the project"),
         Heading(text="Constants", hint="values available in all designs"),
@@ -144,6 +145,7 @@ def component_nodes(place: ItemPlace, component: Interface) -> tuple[Node, ...]:
     fields: tuple[Node, ...] = (
         ItemName(path=place.within("name"), label="Name", value=component.component),
         *(text_field(place, component, name, is_committed=True, is_wide=name != names[0]) for name in names),
+        *other_nodes(component, place.path, is_committed=True),
     )
     group = Group(path=place.path, noun="component", title=component.component, look="shared", nodes=fields)
     return (group, *lists)
@@ -162,6 +164,7 @@ def _agent(place: ItemPlace, agent: Agent) -> Group:
         text_field(place, agent, "title", is_committed=True),
         text_field(place, agent, "xabsl_name", is_committed=True),
         text_field(place, agent, "doc", is_committed=True, is_wide=True),
+        *other_nodes(agent, place.path, is_committed=True),
     )
     return Group(path=place.path, noun="agent", title=agent.name, look="shared", nodes=nodes)
 
@@ -174,6 +177,7 @@ def _enumeration(place: ItemPlace, enumeration: Enumeration) -> Group:
         text_field(place, enumeration, "xabsl_name", is_committed=True),
         text_field(place, enumeration, "doc", is_committed=True, is_wide=True),
         Check(path=place.within("internal"), label=internal.label, value=enumeration.internal, is_wide=True),
+        *other_nodes(enumeration, place.path, is_committed=True),
         _cards(place, "elements", [(each, _element(each, element)) for each, element in elements], enumeration.name),
         _names_in_xabsl(place, enumeration, [each for each, _element in elements]),
     )

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from vicode.editor.session.forms.action_form import action_cards, modulation_cards
 from vicode.editor.session.forms.decision_form import decisions_list
-from vicode.editor.session.forms.fields import initial_field, known_field
+from vicode.editor.session.forms.fields import initial_field, known_field, other_nodes
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import (
     Check,
@@ -41,13 +41,14 @@ def state_form(project: Project, design: Design, state: State, ids: ListIds) -> 
         Heading(text="Actions", hint="run in order in each iteration"),
         action_cards(project, ("actions",), state.actions, ids.ids((*owner, "actions"), state.actions)),
         Heading(text="Modulates", hint="components this state runs, with parameters"),
-        modulation_cards(state.modulates),
+        modulation_cards(project, state.modulates),
         Heading(text="Transitions", hint="the first whose guard holds is taken"),
         decisions_list(design, ("transitions",), state.transitions),
         Heading(text="Requires", hint="components that run before this state, in each step"),
         MultiChoice(path=("requires",), label="Components", value=state.requires, options="uses"),
         _enter_and_leave(project, state, ids),
         _more(project, design, state),
+        *other_nodes(state),
     )
 
 
@@ -62,6 +63,7 @@ def common_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
         decisions_list(design, ("transitions",), common.transitions),
         Heading(text="Actions", hint="run in every state before its own"),
         action_cards(project, ("actions",), common.actions, ids.ids(("common", "actions"), common.actions)),
+        *other_nodes(common),
     )
 
 
