@@ -6,7 +6,7 @@ import pytest
 
 from vicode.editor.session.forms import fields as form_fields
 from vicode.editor.session.forms.nodes import Check, TextField
-from vicode.store.format import COUNT, FLAG, FREQUENCY, TEXT
+from vicode.store.format import COUNT, FLAG, FREQUENCY, NAMES, POSITION, TEXT
 from vicode.store.schema_types import KeySchema, RecordSchema, ScalarSchema, ScalarType
 
 SIZES = ScalarSchema(scalar_type=ScalarType.NAME, choices=("small", "large"))
@@ -28,6 +28,8 @@ class Gadget:
     spare_parts: int | None = None
     pace: float | None = None
     size: str = ""
+    colors: tuple[str, ...] = ()
+    place: tuple[float, float] | None = None
     cover: Cover = field(default_factory=Cover)
 
 
@@ -42,6 +44,8 @@ GADGET = RecordSchema(
         KeySchema("spare_parts", COUNT, "number of parts", keeps_empty=True),
         KeySchema("pace", FREQUENCY, "steps per second"),
         KeySchema("size", SIZES, "size"),
+        KeySchema("colors", NAMES, "colors"),
+        KeySchema("place", POSITION, "no text"),
         KeySchema("note", TEXT, "note on its cover", field="cover.note"),
     ),
 )
@@ -60,13 +64,20 @@ def test_fields_follow_the_types_of_their_keys() -> None:
         (("spare_parts",), "Spare parts", "2"),
         (("pace",), "Pace", ""),
         (("size",), "Size", ""),
+        (("colors",), "Colors", ""),
         (("cover", "note"), "Note", ""),
     ]
     assert form_fields.other_nodes(Gadget(), noun="component") == ()
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "value"), [("spare_parts", "3", 3), ("pace", "2.5", 2.5), ("size", "large", "large")]
+    ("name", "text", "value"),
+    [
+        ("spare_parts", "3", 3),
+        ("pace", "2.5", 2.5),
+        ("size", "large", "large"),
+        ("colors", "red, blue", ("red", "blue")),
+    ],
 )
 def test_valid_texts_are_written(name: str, text: str, value: object) -> None:
     derived = form_fields.known_field(Gadget(), (name,))

@@ -34,9 +34,9 @@ from vicode.model.names import is_valid_name
 from vicode.model.project import Agent, Enumeration, Interface, Project
 from vicode.model.words import field_word
 from vicode.services import messages
-from vicode.store.format import DESIGN_RECORDS
+from vicode.store.format import DESIGN_RECORDS, NAMES
 from vicode.store.project_format import PROJECT_RECORDS
-from vicode.store.schema_types import KeySchema, RecordSchema, ScalarSchema, ScalarType
+from vicode.store.schema_types import KeySchema, ListSchema, RecordSchema, ScalarSchema, ScalarType
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,6 +115,16 @@ def number(name: str, label: str, hint: str) -> FormField:
         read=lambda owner: number_text.format_number(getattr(owner, name)),
         write=lambda owner, text: replace(owner, **{name: number_text.parse_frequency(text)}),
         validate=number_text.validate_frequency,
+    )
+
+
+def names(name: str, label: str, hint: str) -> FormField:
+    """The field of several names, separated by commas or blanks."""
+    return FormField(
+        label=label,
+        hint=hint,
+        read=lambda owner: ", ".join(getattr(owner, name)),
+        write=lambda owner, text: replace(owner, **{name: tuple(text.replace(",", " ").split())}),
     )
 
 
@@ -202,12 +212,7 @@ def _validate_name(text: str) -> str:
 _PROJECT: Mapping[DesignPath, FormField] = {
     ("name",): replace(attribute("name", "Project name"), validate=_validate_name),
     ("doc",): attribute("doc", "Project description"),
-    ("languages",): FormField(
-        label="Languages",
-        hint="python",
-        read=lambda owner: ", ".join(owner.languages),
-        write=lambda owner, text: replace(owner, languages=tuple(text.replace(",", " ").split())),
-    ),
+    ("languages",): names("languages", "Languages", "python"),
     ("world",): attribute("world", "World", hint="module:Class"),
 }
 _SHARED: Mapping[DesignPath, FormField] = {
@@ -322,18 +327,33 @@ def _other_fields(kind: type, noun: str) -> Mapping[DesignPath, FormField]:
 
 
 def _derived_field(kind: type, record: RecordSchema, key: KeySchema) -> FormField | None:
-    """The field of a key by its type; None if it is no scalar of a class."""
+    """The field of a key by its type; None if no field can show it, or the class has no such field."""
     owner, _dot, name = key.model_field.rpartition(".")
     kind = record.nested[owner] if owner else kind
-    if key.constant is not None or not isinstance(key.schema, ScalarSchema) or not hasattr(kind, name):
+    if key.constant is not None or not hasattr(kind, name):
         return None
-    word, scalar, choices = field_word(kind, name), key.schema.scalar_type, key.schema.choices
-    label, hint = word[:1].upper() + word[1:], key.description.replace("`", "")
-    is_number = scalar in (ScalarType.COUNT, ScalarType.NUMBER)
-    make = count if scalar is ScalarType.COUNT else number
-    field = make(name, label, hint) if is_number else attribute(name, label, hint=hint)
-    if is_number or choices:
-        is_wrong = field.validate if is_number else lambda value: value not in ("", *choices)
-        error = texts.expected(" or ".join(choices) or scalar)
-        field = replace(field, validate=lambda value: error if is_wrong(value) else "")
+    word, hint = field_word(kind, name), key.description.replace("`", "")
+    label = word[:1].upper() + word[1:]
+    match key.schema:
+        case ScalarSchema(scalar_type=ScalarType.COUNT):
+            field = count(name, label, hint)
+        case ScalarSchema(scalar_type=ScalarType.NUMBER):
+            field = number(name, label, hint)
+        case ScalarSchema():
+            field = attribute(name, label, hint=hint)
+        case ListSchema() if key.schema == NAMES:
+            field = names(name, label, hint)
+        case _:
+            return None
+    field = _with_error(field, key.schema) if isinstance(key.schema, ScalarSchema) else field
     return part(owner, field) if owner else field
+
+
+def _with_error(field: FormField, schema: ScalarSchema) -> FormField:
+    """The field with an error message that names the valid values."""
+    error, choices = texts.expected(" or ".join(schema.choices) or schema.scalar_type), ("", *schema.choices)
+
+    def validate(value: Any) -> str:
+        return error if field.validate(value) or (schema.choices and value not in choices) else ""
+
+    return replace(field, validate=validate)
