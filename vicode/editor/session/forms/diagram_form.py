@@ -1,7 +1,7 @@
 """The forms of what only the diagram shows: frames and notes."""
 
-from vicode.editor.session.forms.fields import known_field, other_nodes
-from vicode.editor.session.forms.nodes import Button, Colors, ItemName, MultiChoice, Node, TextField, Title
+from vicode.editor.session.forms.fields import field_node, other_nodes
+from vicode.editor.session.forms.nodes import Button, Colors, ItemName, MultiChoice, Node, Title
 from vicode.model.design import STATE_COLORS, DiagramFrame, DiagramNote
 
 _REMOVE = Button(label="Remove", icon="delete", action="remove", is_danger=True)
@@ -19,10 +19,9 @@ def frame_form(frame: DiagramFrame) -> tuple[Node, ...]:
 
 
 def note_form(note: DiagramNote) -> tuple[Node, ...]:
-    text = known_field(note, ("text",))
     return (
         Title(text="Note"),
-        TextField(path=("text",), label=text.label, value=note.text, is_long=True),
+        field_node(note, "text"),
         *other_nodes(note),
         _REMOVE,
     )

@@ -3,7 +3,7 @@
 A key of the format needs no entry: without one, its field is derived from its schema and stands below the others.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
@@ -39,19 +39,25 @@ from vicode.store.project_format import PROJECT_RECORDS
 from vicode.store.schema_types import KeySchema, ListSchema, RecordSchema, ScalarSchema, ScalarType
 
 
+def _accept(_value: Any) -> str:
+    return ""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FormField:
     """A value of an owner (a state, a transition), as a form shows it: a text, a bool, or several texts.
 
     `write` returns the changed owner; `validate` returns an error message, or "" for a value that can be written.
-    `find_loss` says why the value of an owner cannot be edited without a loss, or "".
+    `find_loss` says why the value of an owner cannot be edited without a loss, or "". Texts for humans are `is_prose`.
     """
 
     label: str
     read: Callable[[Any], Any]
     write: Callable[[Any, Any], Any]
     hint: str = ""
-    validate: Callable[[Any], str] = lambda _value: ""
+    help: str = ""
+    is_prose: bool = False
+    validate: Callable[[Any], str] = _accept
     find_loss: Callable[[Any], str] = lambda _owner: ""
 
 
@@ -96,7 +102,7 @@ def replace_text(written: Code | None, language: str, text: str) -> Code:
     return Code(texts=tuple((texts or {"python": text if language == "python" else ""}).items()))
 
 
-def count(name: str, label: str, hint: str) -> FormField:
+def count(name: str, label: str, hint: str = "") -> FormField:
     """The field of a number of robots, or None."""
     return FormField(
         label=label,
@@ -107,7 +113,7 @@ def count(name: str, label: str, hint: str) -> FormField:
     )
 
 
-def number(name: str, label: str, hint: str) -> FormField:
+def number(name: str, label: str, hint: str = "") -> FormField:
     """The field of a number above 0, or None."""
     return FormField(
         label=label,
@@ -118,7 +124,7 @@ def number(name: str, label: str, hint: str) -> FormField:
     )
 
 
-def names(name: str, label: str, hint: str) -> FormField:
+def names(name: str, label: str, hint: str = "") -> FormField:
     """The field of several names, separated by commas or blanks."""
     return FormField(
         label=label,
@@ -146,7 +152,7 @@ def pairs(name: str, label: str, *, is_required: bool = False) -> FormField:
 
 FROM_VALUE = "from value"
 """The type of a declaration without one: that of its value."""
-DESCRIPTION = attribute("doc", "Description")
+DESCRIPTION = replace(attribute("doc", "Description"), is_prose=True)
 _PREDICATE = "Predicate (body of a function that returns a bool)"
 _GUARD: Mapping[DesignPath, FormField] = {
     ("guard", "when"): part("guard", attribute("when", "When", hint="always")),
@@ -167,8 +173,14 @@ _STATE: Mapping[DesignPath, FormField] = {
     ("disabled",): attribute("disabled", "Disabled", hint="Not generated"),
     ("color",): _COLOR,
     ("requires",): attribute("requires", "Components", parse=tuple),
-    ("capacity",): count("capacity", "Capacity (robots at once)", "no limit"),
-    ("synchronized",): count("synchronized", "Synchronized (robots)", "not synchronized"),
+    ("capacity",): replace(
+        count("capacity", "Capacity (robots at once)", "no limit"),
+        help="A robot waits in its current state until there is room.",
+    ),
+    ("synchronized",): replace(
+        count("synchronized", "Synchronized (robots)", "not synchronized"),
+        help="Robots wait in their current state until this many are ready.",
+    ),
     ("xabsl_name",): _XABSL_NAME,
 }
 _FREQUENCY = number("frequency_hz", "Frequency, Hz", "every step")
@@ -211,14 +223,14 @@ def _validate_name(text: str) -> str:
 
 _PROJECT: Mapping[DesignPath, FormField] = {
     ("name",): replace(attribute("name", "Project name"), validate=_validate_name),
-    ("doc",): attribute("doc", "Project description"),
+    ("doc",): replace(DESCRIPTION, label="Project description"),
     ("languages",): names("languages", "Languages", "python"),
     ("world",): attribute("world", "World", hint="module:Class"),
 }
 _SHARED: Mapping[DesignPath, FormField] = {
     ("doc",): DESCRIPTION,
     ("xabsl_name",): _XABSL_NAME,
-    ("title",): attribute("title", "Title"),
+    ("title",): replace(attribute("title", "Title"), is_prose=True),
 }
 _INTERFACE: Mapping[DesignPath, FormField] = {
     ("frequency_hz",): _FREQUENCY,
@@ -229,14 +241,16 @@ _INTERFACE: Mapping[DesignPath, FormField] = {
 }
 _INTERNAL = "Internal (elements numbered by the XABSL engine)"
 _ENUMERATION: Mapping[DesignPath, FormField] = {("internal",): attribute("internal", _INTERNAL), **_SHARED}
-_MEANING = FormField(label="Meaning", read=lambda pair: pair[1], write=lambda pair, text: (pair[0], text))
+_MEANING = FormField(
+    label="Meaning", is_prose=True, read=lambda pair: pair[1], write=lambda pair, text: (pair[0], text)
+)
 _CODE: Mapping[DesignPath, FormField] = {("code", language): code("code", language, "") for language in LANGUAGES}
 _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     Transition: {("to",): attribute("to", "To"), **_GUARD},
     Stay: _GUARD,
     DecisionGroup: _GUARD,
     State: _STATE,
-    CommonSection: {("doc",): attribute("doc", "Description (all states)")},
+    CommonSection: {("doc",): replace(DESCRIPTION, label="Description (all states)")},
     Design: _DESIGN,
     Project: _PROJECT,
     Interface: _INTERFACE,
@@ -251,7 +265,7 @@ _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
             validate=lambda names: "" if names else "a frame needs at least one state; remove the frame instead",
         ),
     },
-    DiagramNote: {("text",): attribute("text", "Text")},
+    DiagramNote: {("text",): replace(attribute("text", "Text"), is_prose=True)},
     Assign: {("values",): pairs("values", "name = expression, one per line", is_required=True)},
     Call: {("arguments",): pairs("arguments", "parameter = expression, one per line")},
     RunCode: _CODE,
@@ -293,20 +307,36 @@ def known_field(owner: object, path: DesignPath) -> FormField:
     return field
 
 
+def field_node(
+    owner: object, name: str, base: DesignPath = (), *, is_committed: bool = False, is_wide: bool = False
+) -> TextField | Check:
+    """The node of a text, number or flag of an owner at `base`; `name` is that of an attribute, or "part.attribute"."""
+    path = tuple(name.split("."))
+    field = known_field(owner, path)
+    value, here = field.read(owner), (*base, *path)
+    if isinstance(value, bool):
+        return Check(path=here, label=field.label, value=value, hint=field.hint, is_wide=is_wide)
+    return TextField(
+        path=here,
+        label=field.label,
+        value=value,
+        hint=field.hint,
+        help=field.help,
+        is_code=not field.is_prose,
+        is_long=name in ("doc", "text") and not isinstance(owner, Declaration | tuple),
+        is_checked=field.validate is not _accept,
+        is_committed=is_committed,
+        is_wide=is_wide,
+    )
+
+
 def other_nodes(
     owner: object, base: DesignPath = (), *, noun: str = "", is_committed: bool = False
 ) -> tuple[Node, ...]:
     """The fields of an owner at `base` that its form has not placed; `noun` is the name of its record in the format."""
-    nodes: list[Node] = []
     kind: Any = type(owner)
-    for path, field in _other_fields(kind, noun).items():
-        value, here = field.read(owner), (*base, *path)
-        if isinstance(value, bool):
-            nodes.append(Check(path=here, label=field.label, value=value, hint=field.hint))
-        else:
-            text = TextField(path=here, label=field.label, value=value, help=field.hint, is_checked=True)
-            nodes.append(replace(text, is_committed=is_committed))
-    return tuple(nodes)
+    names = (".".join(map(str, path)) for path in _other_fields(kind, noun))
+    return tuple(field_node(owner, name, base, is_committed=is_committed) for name in names)
 
 
 _IN_NO_FORM = ("id", "alias", "component", "clock", "generated", "xabsl_encoding")
@@ -332,28 +362,31 @@ def _derived_field(kind: type, record: RecordSchema, key: KeySchema) -> FormFiel
     kind = record.nested[owner] if owner else kind
     if key.constant is not None or not hasattr(kind, name):
         return None
-    word, hint = field_word(kind, name), key.description.replace("`", "")
+    word, about = field_word(kind, name), key.description.replace("`", "")
     label = word[:1].upper() + word[1:]
     match key.schema:
-        case ScalarSchema(scalar_type=ScalarType.COUNT):
-            field = count(name, label, hint)
-        case ScalarSchema(scalar_type=ScalarType.NUMBER):
-            field = number(name, label, hint)
-        case ScalarSchema():
-            field = attribute(name, label, hint=hint)
+        case ScalarSchema(scalar_type=ScalarType.BOOLEAN):
+            field = attribute(name, label, hint=about)
+        case ScalarSchema(scalar_type=ScalarType.TEXT):
+            field = replace(attribute(name, label), help=about, is_prose=True)
+        case ScalarSchema(scalar_type=type_, choices=choices):
+            make = _MAKERS.get(type_, attribute)
+            field = _with_error(replace(make(name, label), help=about), " or ".join(choices) or type_, choices)
         case ListSchema() if key.schema == NAMES:
-            field = names(name, label, hint)
+            field = replace(names(name, label), help=about)
         case _:
             return None
-    field = _with_error(field, key.schema) if isinstance(key.schema, ScalarSchema) else field
     return part(owner, field) if owner else field
 
 
-def _with_error(field: FormField, schema: ScalarSchema) -> FormField:
-    """The field with an error message that names the valid values."""
-    error, choices = texts.expected(" or ".join(schema.choices) or schema.scalar_type), ("", *schema.choices)
+def _with_error(field: FormField, expected: str, choices: Sequence[str]) -> FormField:
+    """The field with a message that names the valid values, which are choices if there are any."""
 
     def validate(value: Any) -> str:
-        return error if field.validate(value) or (schema.choices and value not in choices) else ""
+        is_valid = not field.validate(value) and (not choices or value in ("", *choices))
+        return "" if is_valid else texts.expected(expected)
 
     return replace(field, validate=validate)
+
+
+_MAKERS: Mapping[ScalarType, Callable[[str, str], FormField]] = {ScalarType.COUNT: count, ScalarType.NUMBER: number}
