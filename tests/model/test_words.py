@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from vicode.model.design import Declaration, State
+from vicode.model.design import DecisionGroup, Declaration, Guard, State, Stay
 from vicode.model.diff import describe_changes
 from vicode.model.diff.item_diff import diff_fields
 from vicode.model.words import describe_fields
@@ -23,13 +23,19 @@ def test_a_field_without_words_is_compared() -> None:
 
 
 def test_fields_with_their_defaults_are_not_described() -> None:
-    assert list(describe_fields(Gadget(name="a", spare_parts=3, is_blue=True), ("name",))) == [
+    assert list(describe_fields(Gadget(name="a", spare_parts=3, is_blue=True))) == [
         "spare parts 3",
         "is blue",
     ]
-    assert list(describe_fields(State(name="Kick"), ("name",))) == []
+    assert list(describe_fields(State(name="Kick"))) == []
+
+
+def test_parts_and_empty_lists_are_not_described() -> None:
+    group = DecisionGroup(guard=Guard(when="near"), then=(), otherwise=(Stay(),), id="n1", disabled=True)
+    assert list(describe_fields(group)) == ["disabled"]
+    assert list(describe_fields(Declaration(name="distance_to", arguments=()))) == []
 
 
 def test_words_may_depend_on_the_record() -> None:
     declaration = Declaration(name="speed", initial="2", xabsl_name="v", range=(0, 2.5))
-    assert list(describe_fields(declaration, ("name",))) == ["value 2", "range 0, 2.5", "XABSL name v"]
+    assert list(describe_fields(declaration)) == ["value 2", "range 0, 2.5", "XABSL name v"]

@@ -29,11 +29,10 @@ from vicode.model.words import describe_fields
 
 _PHASES = {"enter": "On entry", "actions": "In each iteration", "leave": "On exit"}
 _SHOWN = (
-    *("name", "id", "doc", "xabsl_name", "at", "color", "requires", "modulates", *_PHASES, "transitions"),
-    *("component", "frequency_hz", "resume", "arithmetic", "time_unit", "uses", "parameters", "outputs", "variables"),
-    *("initial", "module", "members", "common", "states", "frames", "notes"),
+    *("component", "doc", "xabsl_name", "frequency_hz", "resume", "arithmetic", "time_unit", "initial"),
+    *("color", "requires"),
 )
-"""The fields of designs and states that a page shows in another place than the facts and badges, or not."""
+"""The fields of designs and states that a page does not show as a fact or badge."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -196,7 +195,7 @@ def _actions(actions: Sequence[Action], linker: NameLinker) -> Iterator[ActionVi
                 yield ActionView(text=call_text(action, linker))
             case RunCode(code=code):
                 yield ActionView(blocks=code_blocks(code))
-        for fact in describe_fields(action, ("values", "alias", "arguments", "code", "id")):
+        for fact in describe_fields(action, ("values", "alias", "arguments")):
             yield ActionView(text=plain_text(fact))
 
 

@@ -150,8 +150,8 @@ def _pseudocode(
 
 def _facts(decision: Decision) -> tuple[str, ...]:
     """What is said of a decision besides its guard, target and description."""
-    shown = ("to", "guard", "doc", "id", "disabled", "label_at", "then", "otherwise")
-    return (*describe_fields(decision.guard, ("when", "after", "code")), *describe_fields(decision, shown))
+    fields = describe_fields(decision, ("to", "doc", "disabled"))
+    return (*describe_fields(decision.guard, ("when", "after")), *fields)
 
 
 def _ends_evaluation(item: Decision) -> bool:

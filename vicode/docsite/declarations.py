@@ -14,7 +14,7 @@ from vicode.model.words import describe_fields
 
 _SECTIONS = {"parameters": "Default", "outputs": "Initial value", "variables": "Initial value"}
 """The sections with the titles of their values."""
-_SHOWN = ("name", "type", "initial", "unit", "range", "doc", "xabsl_name", "arguments")
+_SHOWN = ("type", "initial", "unit", "range", "doc", "xabsl_name")
 _COLUMNS = ("type", "initial", "unit", "range", "doc_html", "arguments", "read_in", "set_in")
 
 

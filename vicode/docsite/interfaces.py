@@ -215,7 +215,7 @@ def _facts_of_type(enumeration: Enumeration, *, is_xabsl: bool) -> Iterator[Rich
         yield plain_text("internal" if is_xabsl else "stored by vicode")
     if enumeration.xabsl_name and not is_xabsl:
         yield (TextSpan(text="in XABSL "), TextSpan(text=enumeration.xabsl_name, css_class="code"))
-    shown = ("name", "elements", "doc", "internal", "xabsl_name", "xabsl_elements")
+    shown = ("elements", "doc", "internal", "xabsl_name", "xabsl_elements")
     yield from map(plain_text, describe_fields(enumeration, shown))
 
 
@@ -233,8 +233,5 @@ def _facts(interface: Interface, *, is_xabsl: bool) -> Iterator[RichText]:
     yield from map(plain_text, describe_fields(interface, _SHOWN))
 
 
-_SHOWN = (
-    *("component", "title", "doc", "xabsl_name", "implementation", "frequency_hz"),
-    *("parameters", "outputs", "variables", "remote"),
-)
+_SHOWN = ("component", "title", "doc", "xabsl_name", "implementation", "frequency_hz")
 _ORIGINS = {WORLD: "provided by the world", INTERNAL: "stored by vicode", MISSING: "not implemented yet"}

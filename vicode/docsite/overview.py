@@ -94,7 +94,7 @@ def agent_rows(project: Project, addresses: SiteUrls) -> Iterator[AgentRow]:
             name=agent.name,
             root=linker.component(agent.root),
             state_machine_count=len(_reachable_designs(project, agent)),
-            doc_html=render_facts(agent.doc, describe_fields(agent, ("name", "root", "title", "doc", "xabsl_name"))),
+            doc_html=render_facts(agent.doc, describe_fields(agent, ("root", "title", "doc", "xabsl_name"))),
         )
 
 

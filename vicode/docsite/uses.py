@@ -22,7 +22,7 @@ def use_rows(design: Design, linker: NameLinker) -> Iterator[UseRow]:
             alias=use.alias,
             required_in=required_in(design, use.alias, linker),
             modulated_in=modulated_in(design, use.alias, linker),
-            doc_html=render_facts(component.title, describe_fields(use, ("alias", "component", "at"))),
+            doc_html=render_facts(component.title, describe_fields(use, ("alias", "component"))),
         )
 
 

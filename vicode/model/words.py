@@ -4,7 +4,7 @@ A field of a record needs no words of its own: without an entry, its name is its
 """
 
 from collections.abc import Collection, Iterator
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, fields, is_dataclass
 from typing import Any
 
 from vicode.model.design import Action, Assign, Call, Code, Declaration, Guard, RunCode
@@ -38,14 +38,22 @@ def field_word(owner: type, name: str) -> str:
     return _WORDS.get(f"{owner.__name__}.{name}") or _WORDS.get(name) or name.replace("_", " ")
 
 
+_NOT_IN_WORDS = ("name", "id", "at", "label_at")
+
+
 def describe_fields(record: Any, apart: Collection[str] = ()) -> Iterator[str]:
-    """The fields that have another value than their default, such as "capacity 2"; of a flag, only its word."""
+    """The fields that have another value than their default, such as "capacity 2"; of a flag, only its word.
+
+    Names, ids, positions, the parts of a record, and the fields that the caller shows `apart` are left out.
+    """
     for field in fields(record):
         value = getattr(record, field.name)
         default = field.default_factory() if field.default_factory is not MISSING else field.default
-        if field.name not in apart and value != default:
+        is_left_out = field.name in apart or field.name in _NOT_IN_WORDS or any(map(is_dataclass, _as_tuple(value)))
+        text = describe_value(value)
+        if text and value != default and not is_left_out:
             word = field_word(type(record), field.name)
-            yield word if value is True else f"{word} {describe_value(value)}"
+            yield word if value is True else f"{word} {text}"
 
 
 def describe_guard(guard: Guard) -> str:
@@ -106,6 +114,10 @@ def describe_value(value: object) -> str:
 def describe_number(value: float) -> str:
     """The shortest text that is read as this number."""
     return repr(float(value)).removesuffix(".0")
+
+
+def _as_tuple(value: object) -> tuple[object, ...]:
+    return value if isinstance(value, tuple) else (value,)
 
 
 def _is_pair(value: object) -> bool:

@@ -11,11 +11,7 @@ from vicode.model.words import describe_fields
 Sections = list[dict[str, str]]
 _MAX_LINES = 12
 _MAX_LINE_LENGTH = 90
-_ACTIONS = ("requires", "modulates", "enter", "actions", "leave", "transitions")
-_DRAWN = (
-    *("name", "id", "at", "color", "final", "disabled", "alias", "component", "states"),
-    *("to", "guard", "label_at", "then", "otherwise"),
-)
+_DRAWN = ("color", "final", "disabled", "requires", "to", "alias", "component", "states")
 
 
 def tooltip_sections(design: Design, item: ItemRef, languages: Sequence[str]) -> Sections:
@@ -31,17 +27,17 @@ def _sections(design: Design, item: ItemRef, languages: Sequence[str]) -> Iterat
             if located is not None:
                 guard = located.decision.guard
                 yield "holds when", (_text(guard.code, languages),) if guard.code else ()
-                fields = describe_fields(guard, ("when", "after", "code"))
+                fields = describe_fields(guard, ("when", "after"))
                 yield "more", (*fields, *describe_fields(located.decision, ("doc", *_DRAWN)))
         case "states":
             state = design.state(item.id)
             if state is not None:
                 phases = (("enter", state.enter), ("do", state.all_actions), ("leave", state.leave))
                 yield from ((name, _lines(actions, languages)) for name, actions in phases)
-                yield "more", describe_fields(state, ("doc", *_DRAWN, *_ACTIONS))
+                yield "more", describe_fields(state, ("doc", *_DRAWN))
         case "common":
             yield "do", _lines(design.common.actions, languages)
-            yield "more", describe_fields(design.common, (*_DRAWN, *_ACTIONS))
+            yield "more", describe_fields(design.common, _DRAWN)
         case "frames" | "components":
             owner = design.frame(item.id) if item.kind == "frames" else design.use(item.id)
             yield "more", describe_fields(owner, _DRAWN) if owner is not None else ()
@@ -56,7 +52,7 @@ def _lines(actions: Iterable[Action], languages: Sequence[str]) -> Iterator[str]
                 yield f"{alias}({', '.join(f'{name}={text}' for name, text in arguments)})"
             case RunCode(code=code):
                 yield _text(code, languages)
-        yield from describe_fields(action, ("values", "alias", "arguments", "code", "id"))
+        yield from describe_fields(action, ("values", "alias", "arguments"))
 
 
 def _text(code: Code, languages: Sequence[str]) -> str:

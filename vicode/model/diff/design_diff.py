@@ -9,10 +9,8 @@ from vicode.model.design import (
     CommonSection,
     Design,
     DiagramFrame,
-    DiagramNote,
     RunCode,
     State,
-    Use,
 )
 from vicode.model.diff.changes import Change, ChangeKind
 from vicode.model.diff.decision_diff import diff_decisions
@@ -21,7 +19,6 @@ from vicode.model.diff.item_diff import (
     diff_fields,
     diff_keyed,
     diff_ordered,
-    diff_positions,
     diff_values,
 )
 from vicode.model.edits import rename_state, rename_use
@@ -32,8 +29,8 @@ _SECTIONS = ("parameters", "outputs", "variables")
 _PHASES = {"enter": "enter action", "actions": "action", "leave": "leave action"}
 _APART = {
     Design: ("component", "uses", *_SECTIONS, "common", "states", "frames", "notes"),
-    State: ("name", "at", "requires", "modulates", *_PHASES, "transitions"),
-    CommonSection: ("at", "actions", "transitions"),
+    State: ("name", "requires", "modulates", *_PHASES, "transitions"),
+    CommonSection: ("actions", "transitions"),
 }
 """The fields that are not compared as one value."""
 
@@ -84,7 +81,7 @@ def _diff_content(old: Design, new: Design) -> Iterator[Change]:
         new.uses,
         subject=lambda use: f"use {use.alias}",
         content=lambda use: str(use.component),
-        compare=_diff_use,
+        compare=lambda here, before, after: diff_fields(here, f"use {after.alias}", before, after, ("alias",)),
     )
     for section in _SECTIONS:
         before, after = getattr(old, section), getattr(new, section)
@@ -112,13 +109,8 @@ def _diff_content(old: Design, new: Design) -> Iterator[Change]:
         new.notes,
         subject=lambda note: f"note {note.name}",
         content=lambda note: str(note.text),
-        compare=_diff_note,
+        compare=lambda here, before, after: diff_fields(here, f"note {after.name}", before, after),
     )
-
-
-def _diff_use(path: DesignPath, old: Use, new: Use) -> Iterator[Change]:
-    yield from diff_fields(path, f"use {new.alias}", old, new, ("alias", "at"))
-    yield from diff_positions(path, f"use {new.alias}", old.at, new.at)
 
 
 def _diff_frame(path: DesignPath, old: DiagramFrame, new: DiagramFrame) -> Iterator[Change]:
@@ -127,14 +119,8 @@ def _diff_frame(path: DesignPath, old: DiagramFrame, new: DiagramFrame) -> Itera
     yield from diff_values((*path, "states"), subject, old.states, new.states, ", ".join)
 
 
-def _diff_note(path: DesignPath, old: DiagramNote, new: DiagramNote) -> Iterator[Change]:
-    yield from diff_fields(path, f"note {new.name}", old, new, ("name", "at"))
-    yield from diff_positions(path, f"note {new.name}", old.at, new.at)
-
-
 def _diff_common(old: CommonSection, new: CommonSection) -> Iterator[Change]:
     yield from diff_fields(("common",), "common section", old, new, _APART[CommonSection])
-    yield from diff_positions(("common",), "common section", old.at, new.at)
     yield from _diff_actions(("common", "actions"), "action", "common section", old.actions, new.actions)
     yield from diff_decisions(("common", "transitions"), "common", old.transitions, new.transitions)
 
@@ -148,7 +134,6 @@ def _describe_state(state: State) -> str:
 def _diff_state(path: DesignPath, old: State, new: State) -> Iterator[Change]:
     owner = f"state {new.name}"
     yield from diff_fields(path, owner, old, new, _APART[State])
-    yield from diff_positions(path, owner, old.at, new.at)
     yield from diff_keyed(
         (*path, "requires"),
         old.requires,

@@ -29,9 +29,10 @@ def diff_fields(
 ) -> Iterator[Change]:
     """Compare all fields of two records of one class, except those that the caller compares apart."""
     for field in fields(new):
-        if field.compare and field.name not in apart:
+        if field.compare and field.name not in ("at", *apart):
             before, after, word = getattr(old, field.name), getattr(new, field.name), field_word(type(new), field.name)
             yield from diff_values((*path, field.name), subject, before, after, describe_value, attribute=word)
+    yield from diff_positions(path, subject, getattr(old, "at", None), getattr(new, "at", None))
 
 
 def diff_values(

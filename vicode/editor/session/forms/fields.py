@@ -335,8 +335,8 @@ def other_nodes(
 ) -> tuple[Node, ...]:
     """The fields of an owner at `base` that its form has not placed; `noun` is the name of its record in the format."""
     kind: Any = type(owner)
-    names = (".".join(map(str, path)) for path in _other_fields(kind, noun))
-    return tuple(field_node(owner, name, base, is_committed=is_committed) for name in names)
+    wanted = (".".join(map(str, path)) for path in _other_fields(kind, noun))
+    return tuple(field_node(owner, name, base, is_committed=is_committed) for name in wanted)
 
 
 _IN_NO_FORM = ("id", "alias", "component", "clock", "generated", "xabsl_encoding")
