@@ -6,7 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from vicode.editor.session.forms.decision_form import code_texts
-from vicode.editor.session.forms.fields import known_field, other_nodes, replace_text
+from vicode.editor.session.forms.fields import known_field, other_nodes
+from vicode.editor.session.forms.form_field import replace_text
 from vicode.editor.session.forms.nodes import Adder, AdderList, Card, Cards, CodeText, Node, form_json
 from vicode.editor.session.forms.pairs import find_error, parse_pairs
 from vicode.findings import DesignPath

@@ -1,16 +1,16 @@
-"""The values that forms show and change: how each is read from its owner, validated and written.
+"""The fields of all forms.
 
 A key of the format needs no entry: without one, its field is derived from its schema and stands below the others.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
 from vicode.editor.session import texts
+from vicode.editor.session.forms.form_field import FormField, attribute, code, count, names, number, pairs, part
 from vicode.editor.session.forms.nodes import Check, Node, TextField
-from vicode.editor.session.forms.pairs import find_error, find_lost_pairs, format_pairs, parse_pairs
 from vicode.editor.session.gestures import number_text
 from vicode.findings import DesignPath
 from vicode.languages import LANGUAGES
@@ -18,7 +18,6 @@ from vicode.model.design import (
     STATE_COLORS,
     Assign,
     Call,
-    Code,
     CommonSection,
     DecisionGroup,
     Declaration,
@@ -38,127 +37,15 @@ from vicode.store.format import DESIGN_RECORDS, NAMES
 from vicode.store.project_format import PROJECT_RECORDS
 from vicode.store.schema_types import KeySchema, ListSchema, RecordSchema, ScalarSchema, ScalarType
 
-
-def _accept(_value: Any) -> str:
-    return ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FormField:
-    """A value of an owner (a state, a transition), as a form shows it: a text, a bool, or several texts.
-
-    `write` returns the changed owner; `validate` returns an error message, or "" for a value that can be written.
-    `find_loss` says why the value of an owner cannot be edited without a loss, or "". Texts for humans are `is_prose`.
-    """
-
-    label: str
-    read: Callable[[Any], Any]
-    write: Callable[[Any, Any], Any]
-    hint: str = ""
-    help: str = ""
-    is_prose: bool = False
-    validate: Callable[[Any], str] = _accept
-    find_loss: Callable[[Any], str] = lambda _owner: ""
-
-
-def attribute(name: str, label: str, *, hint: str = "", parse: Callable[[Any], Any] = lambda value: value) -> FormField:
-    """The field of an attribute that has the type of the field."""
-    return FormField(
-        label=label,
-        hint=hint,
-        read=lambda owner: getattr(owner, name),
-        write=lambda owner, value: replace(owner, **{name: parse(value)}),
-    )
-
-
-def part(name: str, field: FormField) -> FormField:
-    """The field of a part of the owner, such as the guard of a transition."""
-    return replace(
-        field,
-        read=lambda owner: field.read(getattr(owner, name)),
-        write=lambda owner, value: replace(owner, **{name: field.write(getattr(owner, name), value)}),
-    )
-
-
-def code(name: str, language: str, label: str, hint: str = "") -> FormField:
-    """The field of a code in one language."""
-    return FormField(
-        label=label,
-        hint=hint,
-        read=lambda owner: (written.in_language(language) if (written := getattr(owner, name)) else "") or "",
-        write=lambda owner, text: replace(owner, **{name: replace_text(getattr(owner, name), language, text)}),
-    )
-
-
-def replace_text(written: Code | None, language: str, text: str) -> Code:
-    """Replace the text in one language; texts in other languages stay. Without any text, the Python text is empty."""
-    # A YAML block of several lines ends with a newline; a single line does not.
-    ended = text + "\n" if "\n" in text and not text.endswith("\n") else text
-    texts = dict(written.texts if written else ())
-    if text.strip():
-        python = {"python": ended} if language == "python" else {}
-        return Code(texts=tuple({**python, **texts, language: ended}.items()))
-    texts.pop(language, None)
-    return Code(texts=tuple((texts or {"python": text if language == "python" else ""}).items()))
-
-
-def count(name: str, label: str, hint: str = "") -> FormField:
-    """The field of a number of robots, or None."""
-    return FormField(
-        label=label,
-        hint=hint,
-        read=lambda owner: number_text.format_number(getattr(owner, name)),
-        write=lambda owner, text: replace(owner, **{name: number_text.parse_count(text)}),
-        validate=number_text.validate_count,
-    )
-
-
-def number(name: str, label: str, hint: str = "") -> FormField:
-    """The field of a number above 0, or None."""
-    return FormField(
-        label=label,
-        hint=hint,
-        read=lambda owner: number_text.format_number(getattr(owner, name)),
-        write=lambda owner, text: replace(owner, **{name: number_text.parse_frequency(text)}),
-        validate=number_text.validate_frequency,
-    )
-
-
-def names(name: str, label: str, hint: str = "") -> FormField:
-    """The field of several names, separated by commas or blanks."""
-    return FormField(
-        label=label,
-        hint=hint,
-        read=lambda owner: ", ".join(getattr(owner, name)),
-        write=lambda owner, text: replace(owner, **{name: tuple(text.replace(",", " ").split())}),
-    )
-
-
-def pairs(name: str, label: str, *, is_required: bool = False) -> FormField:
-    """The field of assignments or arguments: lines `name = expression`."""
-
-    def validate(text: str) -> str:
-        is_missing = is_required and not text.strip()
-        return "write a line such as count = 0, or remove this action" if is_missing else find_error(text)
-
-    return FormField(
-        label=label,
-        read=lambda owner: format_pairs(getattr(owner, name)),
-        write=lambda owner, text: replace(owner, **{name: parse_pairs(text)}),
-        validate=validate,
-        find_loss=lambda owner: find_lost_pairs(getattr(owner, name)),
-    )
-
-
 FROM_VALUE = "from value"
 """The type of a declaration without one: that of its value."""
-DESCRIPTION = replace(attribute("doc", "Description"), is_prose=True)
+_DESCRIPTION = replace(attribute("doc", "Description"), is_prose=True)
 _PREDICATE = "Predicate (body of a function that returns a bool)"
 _GUARD: Mapping[DesignPath, FormField] = {
     ("guard", "when"): part("guard", attribute("when", "When", hint="always")),
     ("guard", "after"): part("guard", attribute("after", "After")),
     **{("guard", "code", language): part("guard", code("code", language, _PREDICATE)) for language in LANGUAGES},
-    ("doc",): DESCRIPTION,
+    ("doc",): _DESCRIPTION,
     ("disabled",): attribute("disabled", "Disabled (never tested)"),
 }
 _XABSL_NAME = attribute("xabsl_name", "Name in XABSL", parse=str.strip)
@@ -168,7 +55,7 @@ _COLOR = replace(
 )
 _STATE: Mapping[DesignPath, FormField] = {
     ("name",): attribute("name", "State"),
-    ("doc",): DESCRIPTION,
+    ("doc",): _DESCRIPTION,
     ("final",): attribute("final", "Final", hint="The component is done in this state"),
     ("disabled",): attribute("disabled", "Disabled", hint="Not generated"),
     ("color",): _COLOR,
@@ -192,7 +79,7 @@ _DECLARATION: Mapping[DesignPath, FormField] = {
     ),
     ("initial",): attribute("initial", "Value", parse=str.strip),
     ("unit",): attribute("unit", "Unit", parse=str.strip),
-    ("doc",): DESCRIPTION,
+    ("doc",): _DESCRIPTION,
     ("range",): FormField(
         label="Range",
         hint="minimum, maximum: 0, 9000",
@@ -204,7 +91,7 @@ _DECLARATION: Mapping[DesignPath, FormField] = {
     ("tunable",): attribute("tunable", "Tune in running robots"),
 }
 _DESIGN: Mapping[DesignPath, FormField] = {
-    ("doc",): DESCRIPTION,
+    ("doc",): _DESCRIPTION,
     ("initial",): attribute("initial", "Initial state"),
     ("frequency_hz",): _FREQUENCY,
     ("resume",): attribute("resume", "Resume where it left off"),
@@ -223,12 +110,12 @@ def _validate_name(text: str) -> str:
 
 _PROJECT: Mapping[DesignPath, FormField] = {
     ("name",): replace(attribute("name", "Project name"), validate=_validate_name),
-    ("doc",): replace(DESCRIPTION, label="Project description"),
+    ("doc",): replace(_DESCRIPTION, label="Project description"),
     ("languages",): names("languages", "Languages", "python"),
     ("world",): attribute("world", "World", hint="module:Class"),
 }
 _SHARED: Mapping[DesignPath, FormField] = {
-    ("doc",): DESCRIPTION,
+    ("doc",): _DESCRIPTION,
     ("xabsl_name",): _XABSL_NAME,
     ("title",): replace(attribute("title", "Title"), is_prose=True),
 }
@@ -250,7 +137,7 @@ _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     Stay: _GUARD,
     DecisionGroup: _GUARD,
     State: _STATE,
-    CommonSection: {("doc",): replace(DESCRIPTION, label="Description (all states)")},
+    CommonSection: {("doc",): replace(_DESCRIPTION, label="Description (all states)")},
     Design: _DESIGN,
     Project: _PROJECT,
     Interface: _INTERFACE,
@@ -324,7 +211,7 @@ def field_node(
         help=field.help,
         is_code=not field.is_prose,
         is_long=name in ("doc", "text") and not isinstance(owner, Declaration | tuple),
-        is_checked=field.validate is not _accept,
+        is_checked=field.is_checked,
         is_committed=is_committed,
         is_wide=is_wide,
     )
