@@ -129,8 +129,10 @@ def _pseudocode(
         here = (*path, index)
         guard = guard_text(item.guard, linker)
         blocks = code_blocks(item.guard.code) if item.guard.code else ()
-        doc = "; ".join(part for part in (" ".join(item.doc.split()), *_facts(item)) if part)
         is_group = isinstance(item, DecisionGroup)
+        text = " ".join(item.doc.split())
+        text = text if guard or is_group else summarize(text)
+        doc = "; ".join(part for part in (text, *_facts(item)) if part)
         deeper = depth + (bool(guard) or is_group)
         before = "else " if index and _ends_evaluation(items[index - 1]) else ""
         if guard or is_group:
@@ -144,7 +146,7 @@ def _pseudocode(
                 yield (), PseudocodeLine(depth=depth, parts=parts, is_disabled=item.disabled)
                 yield from _pseudocode(item.otherwise, linker, (*here, "else"), deeper)
         else:
-            parts, doc = _outcome(item, linker, "" if guard else before), "" if guard else summarize(doc)
+            parts, doc = _outcome(item, linker, "" if guard else before), "" if guard else doc
             yield () if guard else here, PseudocodeLine(depth=deeper, parts=parts, doc=doc, is_disabled=item.disabled)
 
 
