@@ -106,6 +106,21 @@ def test_languages_that_the_project_did_not_ask_for_are_shown(tmp_path: Path) ->
     assert not find_broken_links(files)
 
 
+def test_properties_without_a_column_are_badges() -> None:
+    design = Design(
+        component="Team",
+        initial="Wait",
+        parameters=(Declaration(name="speed", initial="1", doc="How fast.", tunable=True),),
+        states=(State(name="Wait", final=True, capacity=2), State(name="Go", disabled=True)),
+    )
+    text = page(build_site(SiteInput(project=Project(name="p", designs=(design,)))), "component-Team.html")
+    assert 'How fast. <span class="badge">tunable</span>' in text
+    badges = [
+        set(re.findall(r'<span class="badge">([^<]+)</span>', line)) for line in text.splitlines() if "<h3 " in line
+    ]
+    assert badges[:2] == [{"initial", "final", "capacity 2"}, {"disabled"}]
+
+
 def test_an_agent_has_a_page_with_what_it_may_activate(behavior: tuple[OutputFile, ...]) -> None:
     agents = page(behavior, "agents.html")
     assert "<svg" not in agents

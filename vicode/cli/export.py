@@ -1,4 +1,4 @@
-"""Export the diagram of a design as an image or as Mermaid, PlantUML, or Graphviz text, or the design as SCXML."""
+"""Export a design as a picture of its diagram, or as a text for other tools."""
 
 import argparse
 import sys

@@ -25,8 +25,14 @@ from vicode.docsite.views import (
     UseRow,
 )
 from vicode.model.design import COMMON, Action, Assign, Call, Design, RunCode, State, Transition
+from vicode.model.words import describe_fields
 
 _PHASES = {"enter": "On entry", "actions": "In each iteration", "leave": "On exit"}
+_SHOWN = (
+    *("component", "doc", "xabsl_name", "frequency_hz", "resume", "arithmetic", "time_unit", "initial"),
+    *("color", "requires"),
+)
+"""The fields of designs and states that a page does not show as a fact or badge."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,14 +101,12 @@ def _facts(design: Design, inputs: ComponentInputs) -> Iterator[RichText]:
         yield plain_text("resumes where it left off")
     if design.xabsl_name and not is_xabsl:
         yield (TextSpan(text="in XABSL "), TextSpan(text=design.xabsl_name, css_class="code"))
+    yield from map(plain_text, describe_fields(design, _SHOWN))
 
 
 def _state(machine: MachineAnalysis, state: State, linker: NameLinker, made: ComponentInputs) -> StateView:
-    design, words = machine.design, []
-    if state.name == design.initial:
-        words.append("initial")
-    words += [word for word in ("final", "disabled") if getattr(state, word)]
-    words += [f"{word} {getattr(state, word):g}" for word in ("capacity", "synchronized") if getattr(state, word)]
+    design = machine.design
+    words = ("initial",) if state.name == design.initial else ()
     tree_svg, is_folded = draw_decision_tree(
         state.transitions, ("states", state.name, "transitions"), design, made.urls
     )
@@ -116,7 +120,7 @@ def _state(machine: MachineAnalysis, state: State, linker: NameLinker, made: Com
     return StateView(
         anchor=state_anchor(state.name),
         name=linker.state_name(state),
-        badges=tuple(words),
+        badges=(*words, *describe_fields(state, _SHOWN)),
         doc_html=render_doc(state.doc, parent_level=3),
         facts=tuple((title, parts) for title, parts in _state_facts(machine, state, linker) if parts),
         phases=tuple(phase for phase in phases if phase.actions),
@@ -184,7 +188,7 @@ def _common(design: Design, linker: NameLinker, made: ComponentInputs) -> StateV
     return StateView(
         anchor=path_anchor(("common",)),
         name="Every state",
-        badges=("common",),
+        badges=("common", *describe_fields(design.common, _SHOWN)),
         doc_html=render_doc(design.common.doc, parent_level=3),
         facts=(),
         phases=(ActionPhaseView(title=title, actions=actions),) if actions else (),
@@ -206,6 +210,8 @@ def _actions(actions: Sequence[Action], linker: NameLinker) -> Iterator[ActionVi
                 yield ActionView(text=call_text(action, linker))
             case RunCode(code=code):
                 yield ActionView(blocks=code_blocks(code))
+        for fact in describe_fields(action, ("values", "alias", "arguments")):
+            yield ActionView(text=plain_text(fact))
 
 
 def call_text(call: Call, linker: NameLinker) -> RichText:

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from vicode.docsite.doc_text import render_inline_doc, summarize
+from vicode.docsite.doc_text import render_facts, summarize
 from vicode.docsite.name_linker import NameLinker
 from vicode.docsite.syntax_highlighting import highlight_block
 from vicode.docsite.urls import SiteUrls, path_anchor
@@ -14,6 +14,7 @@ from vicode.languages import language_title
 from vicode.model.design import COMMON, Code, Decision, DecisionGroup, Design, Guard, Transition
 from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.traversal import LocatedDecision, is_exhaustive, iter_decisions
+from vicode.model.words import describe_fields
 
 CodeLinks = Mapping[DesignPath, tuple[TextSpan, ...]]
 """Links into the code pages of a component, by the path of the node."""
@@ -68,7 +69,7 @@ def transition_rows(design: Design, linker: NameLinker, addresses: SiteUrls) -> 
             guards=_guard_texts(located, linker),
             timer=timer,
             target=_target(located.decision, linker),
-            doc_html=render_inline_doc(located.decision.doc),
+            doc_html=render_facts(located.decision.doc, _facts(located.decision)),
             is_disabled=not is_enabled(located, off),
         )
 
@@ -128,8 +129,10 @@ def _pseudocode(
         here = (*path, index)
         guard = guard_text(item.guard, linker)
         blocks = code_blocks(item.guard.code) if item.guard.code else ()
-        doc = " ".join(item.doc.split())
         is_group = isinstance(item, DecisionGroup)
+        text = " ".join(item.doc.split())
+        text = text if guard or is_group else summarize(text)
+        doc = "; ".join(part for part in (text, *_facts(item)) if part)
         deeper = depth + (bool(guard) or is_group)
         before = "else " if index and _ends_evaluation(items[index - 1]) else ""
         if guard or is_group:
@@ -143,8 +146,14 @@ def _pseudocode(
                 yield (), PseudocodeLine(depth=depth, parts=parts, is_disabled=item.disabled)
                 yield from _pseudocode(item.otherwise, linker, (*here, "else"), deeper)
         else:
-            parts, doc = _outcome(item, linker, "" if guard else before), "" if guard else summarize(doc)
+            parts, doc = _outcome(item, linker, "" if guard else before), "" if guard else doc
             yield () if guard else here, PseudocodeLine(depth=deeper, parts=parts, doc=doc, is_disabled=item.disabled)
+
+
+def _facts(decision: Decision) -> tuple[str, ...]:
+    """What is said of a decision besides its guard, target and description."""
+    fields = describe_fields(decision, ("to", "doc", "disabled"))
+    return (*describe_fields(decision.guard, ("when", "after")), *fields)
 
 
 def _ends_evaluation(item: Decision) -> bool:

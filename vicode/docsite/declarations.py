@@ -3,16 +3,18 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from vicode.docsite.doc_text import render_inline_doc
+from vicode.docsite.doc_text import render_facts
 from vicode.docsite.name_linker import NameLinker
 from vicode.docsite.reference_lists import ReferenceIndex
 from vicode.docsite.urls import slug
 from vicode.docsite.views import DeclarationRow, DeclarationTable, RichText, TextSpan
 from vicode.model.design import Declaration, Design
 from vicode.model.project import Interface
+from vicode.model.words import describe_fields
 
 _SECTIONS = {"parameters": "Default", "outputs": "Initial value", "variables": "Initial value"}
 """The sections with the titles of their values."""
+_SHOWN = ("type", "initial", "unit", "range", "doc", "xabsl_name")
 _COLUMNS = ("type", "initial", "unit", "range", "doc_html", "arguments", "read_in", "set_in")
 
 
@@ -63,12 +65,13 @@ def _row(declaration: Declaration, name: str, prefix: str, linker: NameLinker) -
         initial=linker.expression(declaration.initial, declaration.type),
         unit=declaration.unit,
         range=f"{declaration.range[0]:g} … {declaration.range[1]:g}" if declaration.range else "",
-        doc_html=render_inline_doc(declaration.doc),
+        doc_html=render_facts(declaration.doc, describe_fields(declaration, _SHOWN)),
     )
 
 
 def _argument(argument: Declaration, linker: NameLinker) -> RichText:
     words = [argument.unit, f"{argument.range[0]:g} … {argument.range[1]:g}" if argument.range else "", argument.doc]
+    words += describe_fields(argument, _SHOWN)
     about = ", ".join(word for word in words if word)
     type_ = linker.declared_type(argument)
     line = (

@@ -1,7 +1,9 @@
 """Renders descriptions as HTML. They are untrusted Markdown: HTML, images and unusual URL schemes are disabled."""
 
 import re
+from collections.abc import Iterable
 from functools import lru_cache
+from html import escape
 
 from markdown_it import MarkdownIt
 
@@ -24,6 +26,12 @@ def render_doc(text: str, parent_level: int = 1) -> str:
 def render_inline_doc(text: str) -> str:
     """Render Markdown for a line or a table cell."""
     return str(_markdown().renderInline(text))
+
+
+def render_facts(text: str, facts: Iterable[str]) -> str:
+    """Render Markdown for a table cell, followed by facts as badges."""
+    badges = (f'<span class="badge">{escape(fact)}</span>' for fact in facts)
+    return " ".join(part for part in (render_inline_doc(text), *badges) if part)
 
 
 def summarize(text: str) -> str:

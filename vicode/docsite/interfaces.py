@@ -32,6 +32,7 @@ from vicode.docsite.views import (
 )
 from vicode.model.design import COMMON, Declaration, Design
 from vicode.model.project import INTERNAL, MISSING, WORLD, Enumeration, Interface, Project
+from vicode.model.words import describe_fields
 from vicode.model.xabsl.names import is_basic_behavior, symbol_declarations
 
 
@@ -214,6 +215,8 @@ def _facts_of_type(enumeration: Enumeration, *, is_xabsl: bool) -> Iterator[Rich
         yield plain_text("internal" if is_xabsl else "stored by vicode")
     if enumeration.xabsl_name and not is_xabsl:
         yield (TextSpan(text="in XABSL "), TextSpan(text=enumeration.xabsl_name, css_class="code"))
+    shown = ("elements", "doc", "internal", "xabsl_name", "xabsl_elements")
+    yield from map(plain_text, describe_fields(enumeration, shown))
 
 
 def _facts(interface: Interface, *, is_xabsl: bool) -> Iterator[RichText]:
@@ -227,6 +230,8 @@ def _facts(interface: Interface, *, is_xabsl: bool) -> Iterator[RichText]:
         yield plain_text(f"runs at {interface.frequency_hz:g} Hz")
     if interface.xabsl_name and not is_xabsl:
         yield (TextSpan(text="in XABSL "), TextSpan(text=interface.xabsl_name, css_class="code"))
+    yield from map(plain_text, describe_fields(interface, _SHOWN))
 
 
+_SHOWN = ("component", "title", "doc", "xabsl_name", "implementation", "frequency_hz")
 _ORIGINS = {WORLD: "provided by the world", INTERNAL: "stored by vicode", MISSING: "not implemented yet"}

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from vicode.diagram.dependency_graph import has_omitted_uses
 from vicode.docsite.diagrams import draw_dependencies, draw_folders
-from vicode.docsite.doc_text import render_doc, render_inline_doc, summarize
+from vicode.docsite.doc_text import render_doc, render_facts, summarize
 from vicode.docsite.findings import finding_groups, finding_rows
 from vicode.docsite.interfaces import symbol_count
 from vicode.docsite.menu import DesignFolder
@@ -27,6 +27,7 @@ from vicode.generators import collect_components
 from vicode.model.design import Design
 from vicode.model.project import Agent, Project
 from vicode.model.traversal import iter_transitions
+from vicode.model.words import describe_fields
 
 _MAX_UNGROUPED = 40
 _TOP_FOLDER = "(top folder)"
@@ -93,7 +94,7 @@ def agent_rows(project: Project, addresses: SiteUrls) -> Iterator[AgentRow]:
             name=agent.name,
             root=linker.component(agent.root),
             state_machine_count=len(_reachable_designs(project, agent)),
-            doc_html=render_inline_doc(agent.doc),
+            doc_html=render_facts(agent.doc, describe_fields(agent, ("root", "title", "doc", "xabsl_name"))),
         )
 
 

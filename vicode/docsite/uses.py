@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from vicode.docsite.doc_text import render_inline_doc, summarize
+from vicode.docsite.doc_text import render_facts, summarize
 from vicode.docsite.name_linker import NameLinker, join_spans
 from vicode.docsite.reference_lists import ReferenceIndex
 from vicode.docsite.urls import SiteUrls
@@ -10,6 +10,7 @@ from vicode.docsite.views import RichText, TextSpan, UseRow
 from vicode.model.design import COMMON, Call, Design
 from vicode.model.project import Project
 from vicode.model.traversal import iter_actions
+from vicode.model.words import describe_fields
 
 
 def use_rows(design: Design, linker: NameLinker) -> Iterator[UseRow]:
@@ -21,7 +22,7 @@ def use_rows(design: Design, linker: NameLinker) -> Iterator[UseRow]:
             alias=use.alias,
             required_in=required_in(design, use.alias, linker),
             modulated_in=modulated_in(design, use.alias, linker),
-            doc_html=render_inline_doc(component.title),
+            doc_html=render_facts(component.title, describe_fields(use, ("alias", "component"))),
         )
 
 

@@ -1,5 +1,7 @@
 """The tooltip of an item."""
 
+from dataclasses import replace
+
 from vicode.editor.view import ItemRef, tooltip_sections
 from vicode.model.design import Assign, Call, Code, CommonSection, Design, Guard, RunCode, State, Transition
 
@@ -35,6 +37,15 @@ def test_a_transition_shows_its_predicate() -> None:
     (section,) = tooltip_sections(DESIGN, ItemRef(kind="transitions", id="Kick/0"), ("cpp",))
     assert section == {"name": "holds when", "text": "go();"}
     assert tooltip_sections(DESIGN, ItemRef(kind="transitions", id="Kick/1"), ("cpp",)) == []
+
+
+def test_what_the_drawing_does_not_show_is_named() -> None:
+    design = replace(DESIGN, states=(State(name="Kick", capacity=2, xabsl_name="kick", color="red"),))
+    (more,) = tooltip_sections(design, ItemRef(kind="states", id="Kick"), ("python",))
+    assert more == {"name": "more", "text": "XABSL name kick\ncapacity 2"}
+    described = replace(DESIGN, common=CommonSection(doc="For all."))
+    (more,) = tooltip_sections(described, ItemRef(kind="common", id="@common"), ("python",))
+    assert more == {"name": "more", "text": "description For all."}
 
 
 def test_a_missing_item_has_no_tooltip() -> None:

@@ -188,6 +188,10 @@ def invalid_frequency(text: str) -> str:
     return f"'{text[:20]}' is not a number: enter Hz, such as 10 or 0.5"
 
 
+def expected(values: str) -> str:
+    return f"this is not a valid value; expected: {values}"
+
+
 # Undo and redo.
 
 

@@ -1,39 +1,49 @@
-"""The tooltip of an item: its code, which the drawing does not show."""
+"""The tooltip of an item: its code, and all else that the drawing does not show."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from vicode.editor.view.selection import ItemRef
 from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Action, Assign, Call, Code, Design, RunCode
 from vicode.model.traversal import find_decision
+from vicode.model.words import describe_fields
 
 Sections = list[dict[str, str]]
 _MAX_LINES = 12
 _MAX_LINE_LENGTH = 90
+_DRAWN = ("color", "final", "disabled", "requires", "to", "alias", "component", "states")
 
 
 def tooltip_sections(design: Design, item: ItemRef, languages: Sequence[str]) -> Sections:
-    """The code of a state, a transition or the common section, as shortened sections {"name", "text"}."""
-    if item.kind == "transitions":
-        return _guard(design, item.id, languages)
-    texts = ((name, "\n".join(_lines(actions, languages))) for name, actions in _phases(design, item))
+    """The code of an item, and what the drawing does not show of it, as shortened sections {"name", "text"}."""
+    texts = [(name, "\n".join(lines)) for name, lines in _sections(design, item, languages)]
     return [{"name": name, "text": _cut(text)} for name, text in texts if text]
 
 
-def _phases(design: Design, item: ItemRef) -> tuple[tuple[str, tuple[Action, ...]], ...]:
-    state = design.state(item.id) if item.kind == "states" else None
-    if state is not None:
-        return (("enter", state.enter), ("do", state.all_actions), ("leave", state.leave))
-    return (("do", design.common.actions),) if item.kind == "common" else ()
+def _sections(design: Design, item: ItemRef, languages: Sequence[str]) -> Iterator[tuple[str, Iterable[str]]]:
+    match item.kind:
+        case "transitions":
+            located = find_decision(design, parse_transition_key(item.id))
+            if located is not None:
+                guard = located.decision.guard
+                yield "holds when", (_text(guard.code, languages),) if guard.code else ()
+                fields = describe_fields(guard, ("when", "after"))
+                yield "more", (*fields, *describe_fields(located.decision, ("doc", *_DRAWN)))
+        case "states":
+            state = design.state(item.id)
+            if state is not None:
+                phases = (("enter", state.enter), ("do", state.all_actions), ("leave", state.leave))
+                yield from ((name, _lines(actions, languages)) for name, actions in phases)
+                yield "more", describe_fields(state, ("doc", *_DRAWN))
+        case "common":
+            yield "do", _lines(design.common.actions, languages)
+            yield "more", describe_fields(design.common, _DRAWN)
+        case "frames" | "components":
+            owner = design.frame(item.id) if item.kind == "frames" else design.use(item.id)
+            yield "more", describe_fields(owner, _DRAWN) if owner is not None else ()
 
 
-def _guard(design: Design, key: str, languages: Sequence[str]) -> Sections:
-    located = find_decision(design, parse_transition_key(key))
-    code = located.decision.guard.code if located else None
-    return [{"name": "holds when", "text": _cut(_text(code, languages))}] if code else []
-
-
-def _lines(actions: Iterable[Action], languages: Sequence[str]) -> Iterable[str]:
+def _lines(actions: Iterable[Action], languages: Sequence[str]) -> Iterator[str]:
     for action in actions:
         match action:
             case Assign(values=values):
@@ -42,6 +52,7 @@ def _lines(actions: Iterable[Action], languages: Sequence[str]) -> Iterable[str]
                 yield f"{alias}({', '.join(f'{name}={text}' for name, text in arguments)})"
             case RunCode(code=code):
                 yield _text(code, languages)
+        yield from describe_fields(action, ("values", "alias", "arguments"))
 
 
 def _text(code: Code, languages: Sequence[str]) -> str:

@@ -8,7 +8,7 @@ from enum import StrEnum
 from typing import Any
 
 from vicode.findings import DesignPath
-from vicode.model.design import Action, Assign, Call, Code, Decision, Declaration, Guard, RunCode, Stay, Transition
+from vicode.model.design import Decision, Stay, Transition
 
 _MAX_LENGTH = 100
 _CONTEXT_LENGTH = 30
@@ -106,82 +106,10 @@ def describe_decision(source: str, decision: Decision) -> str:
             return f"decision of {source}"
 
 
-def describe_guard(guard: Guard) -> str:
-    """The parts of a guard, as in the file; empty if it always holds."""
-    parts = (("when ", guard.when), ("after ", guard.after), ("", "code" if guard.code is not None else ""))
-    return ", ".join(f"{word}{text}" for word, text in parts if text)
-
-
-def describe_action(action: Action) -> str:
-    match action:
-        case Assign(values=values):
-            return f"set {_describe_pairs(values)}"
-        case Call(alias=alias, arguments=arguments):
-            return f"call {alias}{f' with {_describe_pairs(arguments)}' if arguments else ''}"
-        case RunCode(code=code):
-            return describe_code(code)
-
-
-def describe_code(code: Code | None) -> str:
-    """The text of code; with several languages or another one than Python, each with its name."""
-    texts = code.texts if code is not None else ()
-    if [language for language, _text in texts] == ["python"]:
-        return texts[0][1].rstrip("\n")
-    return "\n".join(f"{language}: {text}".rstrip("\n") for language, text in texts)
-
-
-def describe_declaration(declaration: Declaration) -> str:
-    """Type, value, unit and range of a declaration."""
-    arguments = declaration.arguments
-    listed = "" if arguments is None else f"({', '.join(_describe_argument(each) for each in arguments)})"
-    low_high = " to ".join(map(describe_number, declaration.range or ()))
-    return " ".join(
-        part for part in (listed, declaration.type, declaration.initial, declaration.unit, low_high) if part
-    )
-
-
-def describe_value(value: object) -> str:
-    """A plain value as text; empty for a missing one."""
-    match value:
-        case None | "" | () | False:
-            return ""
-        case True:
-            return "yes"
-        case float():
-            return describe_number(value)
-        case Code():
-            return describe_code(value)
-        case tuple():
-            return ", ".join(
-                ": ".join(map(describe_value, each)) if _is_pair(each) else describe_value(each) for each in value
-            )
-        case Declaration():
-            return f"{value.name} {describe_declaration(value)}".rstrip()
-        case _:
-            return str(value)
-
-
-def describe_number(value: float) -> str:
-    """The shortest text that is read as this number."""
-    return repr(float(value)).removesuffix(".0")
-
-
 def describe_values(old: object, new: object, describe: Callable[[Any], str]) -> tuple[str, str]:
     """Both values as texts that differ, also where the values have the same description."""
     before, after = describe(old), describe(new)
     return (before, after) if before != after else (repr(old), repr(new))
-
-
-def _is_pair(value: object) -> bool:
-    return isinstance(value, tuple) and len(value) == 2
-
-
-def _describe_argument(argument: Declaration) -> str:
-    return f"{argument.name} {describe_declaration(argument)}".rstrip()
-
-
-def _describe_pairs(pairs: tuple[tuple[str, str], ...]) -> str:
-    return ", ".join(f"{name}: {text}" for name, text in pairs)
 
 
 def _attribute_of(change: Change) -> str:

@@ -4,11 +4,12 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from vicode.findings import DesignPath
-from vicode.model.design import Decision, DecisionGroup, Guard, Stay, Transition
-from vicode.model.diff.changes import Change, ChangeKind, describe_code, describe_decision, describe_guard
-from vicode.model.diff.item_diff import diff_attributes, diff_ordered, diff_positions, diff_values
+from vicode.model.design import Decision, DecisionGroup, Stay, Transition
+from vicode.model.diff.changes import Change, ChangeKind, describe_decision
+from vicode.model.diff.item_diff import diff_fields, diff_ordered, diff_positions
+from vicode.model.words import describe_guard
 
-_ATTRIBUTES = {"doc": "description", "id": "id", "disabled": "disabled"}
+_APART = ("guard", "label_at", "then", "otherwise")
 _Decisions = tuple[Decision, ...]
 
 
@@ -49,11 +50,10 @@ def _diff_list(there: DesignPath, here: DesignPath, source: str, old: _Decisions
 
 def _diff_decision(there: DesignPath, here: DesignPath, source: str, before: Any, after: Any) -> Iterator[Change]:
     name = describe_decision(source, after)
+    yield from diff_fields(here, name, before, after, _APART)
     if isinstance(after, Transition):
-        yield from diff_attributes(here, name, before, after, {"to": "target"})
         yield from diff_positions((*here, "label_at"), f"label of {name}", before.label_at, after.label_at)
-    yield from _diff_guard(here, name, before.guard, after.guard)
-    yield from diff_attributes(here, name, before, after, _ATTRIBUTES)
+    yield from diff_fields(here, name, before.guard, after.guard)
     if isinstance(after, DecisionGroup):
         yield from _diff_list((*there, "then"), (*here, "then"), source, before.then, after.then)
         yield from _diff_list((*there, "else"), (*here, "else"), source, before.otherwise, after.otherwise)
@@ -121,8 +121,3 @@ def _describe_content(decision: Decision) -> str:
         f"→ {each.to}" if isinstance(each, Transition) else "stay" if isinstance(each, Stay) else "…" for each in inner
     ]
     return f"{guard}{': ' if guard else ''}{', '.join(targets)}"
-
-
-def _diff_guard(path: DesignPath, subject: str, old: Guard, new: Guard) -> Iterator[Change]:
-    yield from diff_attributes(path, subject, old, new, {"when": "guard", "after": "time"})
-    yield from diff_values((*path, "code"), subject, old.code, new.code, describe_code, attribute="guard code")

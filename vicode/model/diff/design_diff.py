@@ -9,52 +9,30 @@ from vicode.model.design import (
     CommonSection,
     Design,
     DiagramFrame,
-    DiagramNote,
     RunCode,
     State,
-    Use,
 )
-from vicode.model.diff.changes import (
-    Change,
-    ChangeKind,
-    describe_action,
-    describe_code,
-)
+from vicode.model.diff.changes import Change, ChangeKind
 from vicode.model.diff.decision_diff import diff_decisions
 from vicode.model.diff.item_diff import (
-    diff_attributes,
     diff_declarations,
+    diff_fields,
     diff_keyed,
     diff_ordered,
-    diff_positions,
     diff_values,
 )
 from vicode.model.edits import rename_state, rename_use
 from vicode.model.merge.matching import find_renamed_states, find_renamed_uses
+from vicode.model.words import describe_action, describe_value
 
-_DESIGN_ATTRIBUTES = {
-    "xabsl_name": "XABSL name",
-    "doc": "description",
-    "frequency_hz": "frequency",
-    "resume": "resume",
-    "arithmetic": "arithmetic",
-    "time_unit": "time unit",
-    "initial": "initial state",
-    "module": "module code",
-    "members": "class code",
-}
-_STATE_ATTRIBUTES = {
-    "id": "id",
-    "xabsl_name": "XABSL name",
-    "doc": "description",
-    "color": "color",
-    "final": "final",
-    "capacity": "capacity",
-    "synchronized": "synchronized",
-    "disabled": "disabled",
-}
-_DECISION_ATTRIBUTES = {"doc": "description", "id": "id", "disabled": "disabled"}
+_SECTIONS = ("parameters", "outputs", "variables")
 _PHASES = {"enter": "enter action", "actions": "action", "leave": "leave action"}
+_APART = {
+    Design: ("component", "uses", *_SECTIONS, "common", "states", "frames", "notes"),
+    State: ("name", "requires", "modulates", *_PHASES, "transitions"),
+    CommonSection: ("actions", "transitions"),
+}
+"""The fields that are not compared as one value."""
 
 
 def diff_designs(old: Design, new: Design) -> tuple[Change, ...]:
@@ -96,16 +74,16 @@ def _apply_renames(old: Design, new: Design) -> tuple[Design, list[Change]]:
 
 
 def _diff_content(old: Design, new: Design) -> Iterator[Change]:
-    yield from diff_attributes((), "", old, new, _DESIGN_ATTRIBUTES)
+    yield from diff_fields((), "", old, new, _APART[Design])
     yield from diff_keyed(
         ("uses",),
         old.uses,
         new.uses,
         subject=lambda use: f"use {use.alias}",
         content=lambda use: str(use.component),
-        compare=_diff_use,
+        compare=lambda here, before, after: diff_fields(here, f"use {after.alias}", before, after, ("alias",)),
     )
-    for section in ("parameters", "outputs", "variables"):
+    for section in _SECTIONS:
         before, after = getattr(old, section), getattr(new, section)
         yield from diff_declarations((section,), before, after, section.removesuffix("s"))
     yield from _diff_common(old.common, new.common)
@@ -131,29 +109,18 @@ def _diff_content(old: Design, new: Design) -> Iterator[Change]:
         new.notes,
         subject=lambda note: f"note {note.name}",
         content=lambda note: str(note.text),
-        compare=_diff_note,
+        compare=lambda here, before, after: diff_fields(here, f"note {after.name}", before, after),
     )
-
-
-def _diff_use(path: DesignPath, old: Use, new: Use) -> Iterator[Change]:
-    yield from diff_attributes(path, f"use {new.alias}", old, new, {"component": "component"})
-    yield from diff_positions(path, f"use {new.alias}", old.at, new.at)
 
 
 def _diff_frame(path: DesignPath, old: DiagramFrame, new: DiagramFrame) -> Iterator[Change]:
     subject = f"frame {new.name}"
-    yield from diff_attributes(path, subject, old, new, {"color": "color"})
+    yield from diff_fields(path, subject, old, new, ("name", "states"))
     yield from diff_values((*path, "states"), subject, old.states, new.states, ", ".join)
 
 
-def _diff_note(path: DesignPath, old: DiagramNote, new: DiagramNote) -> Iterator[Change]:
-    yield from diff_attributes(path, f"note {new.name}", old, new, {"text": "text"})
-    yield from diff_positions(path, f"note {new.name}", old.at, new.at)
-
-
 def _diff_common(old: CommonSection, new: CommonSection) -> Iterator[Change]:
-    yield from diff_attributes(("common",), "common section", old, new, {"doc": "description"})
-    yield from diff_positions(("common",), "common section", old.at, new.at)
+    yield from diff_fields(("common",), "common section", old, new, _APART[CommonSection])
     yield from _diff_actions(("common", "actions"), "action", "common section", old.actions, new.actions)
     yield from diff_decisions(("common", "transitions"), "common", old.transitions, new.transitions)
 
@@ -166,8 +133,7 @@ def _describe_state(state: State) -> str:
 
 def _diff_state(path: DesignPath, old: State, new: State) -> Iterator[Change]:
     owner = f"state {new.name}"
-    yield from diff_attributes(path, owner, old, new, _STATE_ATTRIBUTES)
-    yield from diff_positions(path, owner, old.at, new.at)
+    yield from diff_fields(path, owner, old, new, _APART[State])
     yield from diff_keyed(
         (*path, "requires"),
         old.requires,
@@ -207,8 +173,8 @@ def _diff_actions(
 
 def _diff_action(path: DesignPath, subject: str, old: Action, new: Action) -> Iterator[Change]:
     if isinstance(old, RunCode) and isinstance(new, RunCode):
-        yield from diff_attributes(path, subject, old, new, {"id": "id"})
-        yield from diff_values(path, subject, old.code, new.code, describe_code)
+        yield from diff_fields(path, subject, old, new, ("code",))
+        yield from diff_values(path, subject, old.code, new.code, describe_value)
     else:
         yield from diff_values(path, subject, old, new, describe_action)
 

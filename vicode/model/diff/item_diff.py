@@ -1,38 +1,21 @@
 """Compares attributes and lists of items; shared by designs and projects."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import fields
 from typing import Any, Protocol
 
 from vicode.findings import DesignPath
 from vicode.matching import find_unmoved
 from vicode.model.design import Declaration, Point
-from vicode.model.diff.changes import (
-    Change,
-    ChangeKind,
-    describe_declaration,
-    describe_number,
-    describe_value,
-    describe_values,
-)
+from vicode.model.diff.changes import Change, ChangeKind, describe_values
 from vicode.model.merge.matching import Matches, item_key, match_items
+from vicode.model.words import describe_declaration, describe_number, describe_value, field_word
 
 Subject = Callable[[Any], str]
 Content = Callable[[Any], str]
 Compare = Callable[[DesignPath, Any, Any], Iterator[Change]]
 CompareAt = Callable[[DesignPath, DesignPath, Any, Any], Iterator[Change]]
 """Compares items at paths in the old and in the new version."""
-
-_DECLARATION_ATTRIBUTES = {
-    "type": "type",
-    "initial": "value",
-    "unit": "unit",
-    "range": "range",
-    "doc": "description",
-    "xabsl_name": "XABSL name",
-    "tunable": "tunable",
-    "arguments": "arguments",
-}
 
 
 class PathOf(Protocol):
@@ -41,13 +24,15 @@ class PathOf(Protocol):
     def __call__(self, item: Any, index: int, /, *, is_old: bool) -> DesignPath: ...
 
 
-def diff_attributes(
-    path: DesignPath, subject: str, old: Any, new: Any, attributes: Mapping[str, str]
+def diff_fields(
+    path: DesignPath, subject: str, old: Any, new: Any, apart: Collection[str] = ("name",)
 ) -> Iterator[Change]:
-    """Compare fields; `attributes` maps their names to words."""
-    for field, word in attributes.items():
-        before, after = getattr(old, field), getattr(new, field)
-        yield from diff_values((*path, field), subject, before, after, describe_value, attribute=word)
+    """Compare all fields of two records of one class, except those that the caller compares apart."""
+    for field in fields(new):
+        if field.compare and field.name not in ("at", *apart):
+            before, after, word = getattr(old, field.name), getattr(new, field.name), field_word(type(new), field.name)
+            yield from diff_values((*path, field.name), subject, before, after, describe_value, attribute=word)
+    yield from diff_positions(path, subject, getattr(old, "at", None), getattr(new, "at", None))
 
 
 def diff_values(
@@ -125,7 +110,7 @@ def diff_declarations(
         return f"{kind} {declaration.name}{owner}"
 
     def compare(here: DesignPath, before: Declaration, after: Declaration) -> Iterator[Change]:
-        return diff_attributes(here, subject(after), before, after, _DECLARATION_ATTRIBUTES)
+        return diff_fields(here, subject(after), before, after)
 
     return diff_keyed(path, old, new, subject=subject, content=describe_declaration, compare=compare)
 

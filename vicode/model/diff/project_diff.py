@@ -3,39 +3,20 @@
 from collections.abc import Iterator
 
 from vicode.findings import DesignPath
-from vicode.model.diff.changes import Change, ChangeKind, describe_value
-from vicode.model.diff.item_diff import diff_attributes, diff_declarations, diff_keyed
-from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, Project, RemoteReference
+from vicode.model.diff.changes import Change, ChangeKind
+from vicode.model.diff.item_diff import diff_declarations, diff_fields, diff_keyed, diff_values
+from vicode.model.project import Enumeration, Interface, Profile, ProfileClass, Project, RemoteReference
+from vicode.model.words import describe_value
 
-_PROJECT_ATTRIBUTES = {
-    "name": "project name",
-    "doc": "description",
-    "languages": "languages",
-    "world": "world",
-    "clock": "clock",
-    "generated": "output folder",
-    "xabsl_encoding": "encoding of XABSL files",
+_SECTIONS = ("parameters", "outputs", "variables")
+_APART = {
+    Project: ("enumerations", "constants", "components", "agents", "profiles", "bridge", "designs", "unreadable"),
+    Enumeration: ("name", "elements"),
+    # A profile sets `remote` in the components of a run, no file does.
+    Interface: ("component", *_SECTIONS, "remote"),
+    Profile: ("name", "components"),
 }
-_ENUMERATION_ATTRIBUTES = {
-    "doc": "description",
-    "internal": "internal",
-    "xabsl_name": "XABSL name",
-    "xabsl_elements": "XABSL names of elements",
-}
-_INTERFACE_ATTRIBUTES = {
-    "title": "title",
-    "doc": "description",
-    "xabsl_name": "XABSL name",
-    "implementation": "implementation",
-    "frequency_hz": "frequency",
-}
-_BRIDGE_ATTRIBUTES = {"world": "world", "tick_ms": "tick", "port": "port"}
-_REMOTE_ATTRIBUTES = {
-    "remote": "remote component",
-    "reliable": "reliable",
-    "max_age": "longest age",
-}
-_AGENT_ATTRIBUTES = {"root": "root", "title": "title", "doc": "description", "xabsl_name": "XABSL name"}
+"""The fields that are not compared as one value."""
 
 
 def diff_projects(old: Project, new: Project) -> tuple[Change, ...]:
@@ -44,7 +25,7 @@ def diff_projects(old: Project, new: Project) -> tuple[Change, ...]:
 
 
 def _diff_content(old: Project, new: Project) -> Iterator[Change]:
-    yield from diff_attributes((), "", old, new, _PROJECT_ATTRIBUTES)
+    yield from diff_fields((), "", old, new, _APART[Project])
     yield from diff_keyed(
         ("enumerations",),
         old.enumerations,
@@ -68,7 +49,7 @@ def _diff_content(old: Project, new: Project) -> Iterator[Change]:
         new.agents,
         subject=lambda agent: f"agent {agent.name}",
         content=lambda agent: str(agent.root),
-        compare=_diff_agent,
+        compare=lambda here, before, after: diff_fields(here, f"agent {after.name}", before, after),
     )
     yield from diff_keyed(
         ("profiles",),
@@ -78,7 +59,7 @@ def _diff_content(old: Project, new: Project) -> Iterator[Change]:
         content=lambda profile: str(profile.world),
         compare=_diff_profile,
     )
-    yield from diff_attributes(("bridge",), "bridge", old.bridge, new.bridge, _BRIDGE_ATTRIBUTES)
+    yield from diff_fields(("bridge",), "bridge", old.bridge, new.bridge)
 
 
 def _enumeration_subject(enumeration: Enumeration) -> str:
@@ -90,41 +71,29 @@ def _describe_elements(enumeration: Enumeration) -> str:
 
 
 def _diff_elements(path: DesignPath, old: Enumeration, new: Enumeration) -> Iterator[Change]:
-    yield from diff_attributes(path, _enumeration_subject(new), old, new, _ENUMERATION_ATTRIBUTES)
+    yield from diff_fields(path, _enumeration_subject(new), old, new, _APART[Enumeration])
     yield from diff_keyed(
         (*path, "elements"),
         old.elements,
         new.elements,
         subject=lambda element: f"element {new.name}.{element[0]}",
         content=lambda _element: "",
-        compare=lambda here, before, after: _diff_element_doc(
-            here, f"element {new.name}.{after[0]}", before[1], after[1]
+        compare=lambda here, before, after: diff_values(
+            here, f"element {new.name}.{after[0]}", before[1], after[1], describe_value, attribute="description"
         ),
     )
 
 
-def _diff_element_doc(path: DesignPath, subject: str, old: str, new: str) -> Iterator[Change]:
-    if old != new:
-        texts = describe_value(old), describe_value(new)
-        yield Change(
-            kind=ChangeKind.CHANGED, subject=subject, path=path, attribute="description", old=texts[0], new=texts[1]
-        )
-
-
 def _diff_interface(path: DesignPath, old: Interface, new: Interface) -> Iterator[Change]:
-    yield from diff_attributes(path, f"component {new.component}", old, new, _INTERFACE_ATTRIBUTES)
-    for section in ("parameters", "outputs", "variables"):
+    yield from diff_fields(path, f"component {new.component}", old, new, _APART[Interface])
+    for section in _SECTIONS:
         before, after = getattr(old, section), getattr(new, section)
         owner = f" of {new.component}"
         yield from diff_declarations((*path, section), before, after, section.removesuffix("s"), owner)
 
 
-def _diff_agent(path: DesignPath, old: Agent, new: Agent) -> Iterator[Change]:
-    return diff_attributes(path, f"agent {new.name}", old, new, _AGENT_ATTRIBUTES)
-
-
 def _diff_profile(path: DesignPath, old: Profile, new: Profile) -> Iterator[Change]:
-    yield from diff_attributes(path, f"profile {new.name}", old, new, {"world": "world", "clock": "clock"})
+    yield from diff_fields(path, f"profile {new.name}", old, new, _APART[Profile])
     yield from diff_keyed(
         (*path, "components"),
         old.components,
@@ -151,7 +120,5 @@ def _diff_replacement(
             old=_describe_replacement(old),
             new=_describe_replacement(new),
         )
-    elif isinstance(new, ProfileClass):
-        yield from diff_attributes(path, subject, old, new, {"implementation": "class"})
     else:
-        yield from diff_attributes(path, subject, old, new, _REMOTE_ATTRIBUTES)
+        yield from diff_fields(path, subject, old, new, ("component",))

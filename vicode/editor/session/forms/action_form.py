@@ -6,7 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from vicode.editor.session.forms.decision_form import code_texts
-from vicode.editor.session.forms.fields import known_field, replace_text
+from vicode.editor.session.forms.fields import known_field, other_nodes
+from vicode.editor.session.forms.form_field import replace_text
 from vicode.editor.session.forms.nodes import Adder, AdderList, Card, Cards, CodeText, Node, form_json
 from vicode.editor.session.forms.pairs import find_error, parse_pairs
 from vicode.findings import DesignPath
@@ -29,11 +30,11 @@ def action_cards(
     return Cards(path=path, cards=cards, adders="actions" if calls else "effects", is_ordered=True)
 
 
-def modulation_cards(calls: tuple[Call, ...]) -> Cards:
+def modulation_cards(project: Project, calls: tuple[Call, ...]) -> Cards:
     """The components that a state modulates, with their parameters."""
     path = ("modulates",)
     cards = tuple(
-        Card(id=call.alias, title=call.alias, nodes=(_pairs(call, "arguments", (*path, call.alias)),)) for call in calls
+        Card(id=call.alias, title=call.alias, nodes=_nodes(project, call, (*path, call.alias))) for call in calls
     )
     return Cards(path=path, cards=cards, adders="modulates")
 
@@ -128,11 +129,12 @@ def _title(action: Action) -> str:
 def _nodes(project: Project, action: Action, path: DesignPath) -> tuple[Node, ...]:
     match action:
         case RunCode():
-            return (code_texts(project, action, ("code",), path),)
+            text = code_texts(project, action, ("code",), path)
         case Assign():
-            return (_pairs(action, "values", path),)
+            text = _pairs(action, "values", path)
         case Call():
-            return (_pairs(action, "arguments", path),)
+            text = _pairs(action, "arguments", path)
+    return (text, *other_nodes(action, path))
 
 
 def _pairs(owner: Assign | Call, name: str, path: DesignPath) -> CodeText:

@@ -1,9 +1,8 @@
 """The form of a transition, stay or group."""
 
-from vicode.editor.session.forms.fields import DESCRIPTION, known_field
+from vicode.editor.session.forms.fields import field_node, known_field, other_nodes
 from vicode.editor.session.forms.nodes import (
     Button,
-    Check,
     Choice,
     CodeText,
     DecisionRow,
@@ -43,8 +42,7 @@ def decision_form(project: Project, design: Design, source: str, decision: Decis
         nodes.append(Button(label="Code predicate", icon="add", action="add-code"))
     else:
         nodes += [code_texts(project, decision, ("guard", "code")), Button(label="Remove code", action="remove-code")]
-    nodes.append(TextField(path=("doc",), label=DESCRIPTION.label, value=decision.doc, is_long=True))
-    nodes.append(Check(path=("disabled",), label=known_field(decision, ("disabled",)).label, value=decision.disabled))
+    nodes += [field_node(decision, "doc"), field_node(decision, "disabled"), *other_nodes(decision)]
     if isinstance(decision, DecisionGroup):
         for path, title, items in (("then", "Then", decision.then), ("else", "Else", decision.otherwise)):
             nodes += [Heading(text=title), decisions_list(design, (path,), items)]

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
-from vicode.editor.session.forms.fields import known_field
+from vicode.editor.session.forms.fields import field_node, known_field, other_nodes
 from vicode.editor.session.forms.form_paths import parse_path, resolve
 from vicode.editor.session.forms.item_place import ItemPlace
 from vicode.editor.session.forms.list_ids import ListIds
@@ -15,7 +15,6 @@ from vicode.editor.session.forms.nodes import (
     Button,
     Card,
     Cards,
-    Check,
     Choice,
     DeclarationList,
     Group,
@@ -104,8 +103,8 @@ def declaration_group(place: ItemPlace, declaration: Declaration, *, is_shared: 
             options="types",
         ),
         value,
-        text_field(place, declaration, "unit", is_committed=is_shared),
-        text_field(place, declaration, "doc", is_committed=is_shared),
+        field_node(declaration, "unit", place.path, is_committed=is_shared),
+        field_node(declaration, "doc", place.path, is_committed=is_shared),
         _more(place, declaration, is_shared=is_shared),
     )
     return Group(
@@ -119,33 +118,15 @@ def declaration_group(place: ItemPlace, declaration: Declaration, *, is_shared: 
 
 def _more(place: ItemPlace, declaration: Declaration, *, is_shared: bool) -> Section:
     nodes: list[Node] = [
-        text_field(place, declaration, name, is_committed=is_shared) for name in ("range", "xabsl_name")
+        field_node(declaration, name, place.path, is_committed=is_shared) for name in ("range", "xabsl_name")
     ]
     if place.section == "outputs":
         nodes += _arguments(place, declaration, is_shared=is_shared)
     if place.section == ("constants" if is_shared else "parameters"):
-        tunable = known_field(declaration, ("tunable",))
-        nodes.append(Check(path=place.within("tunable"), label=tunable.label, value=declaration.tunable))
+        nodes.append(field_node(declaration, "tunable", place.path))
+    nodes += other_nodes(declaration, place.path, noun=place.noun, is_committed=is_shared)
     caption = declaration_caption(declaration, place.section)
     return Section(key=place.key, title="More", caption=caption, nodes=tuple(nodes), look="more")
-
-
-def text_field(
-    place: ItemPlace, owner: object, name: str, *, is_committed: bool = False, is_wide: bool = False
-) -> TextField:
-    """The field of a text or number of an item."""
-    field = known_field(owner, (name,))
-    return TextField(
-        path=place.within(name),
-        label=field.label,
-        value=field.read(owner),
-        hint=field.hint,
-        is_code=name not in ("doc", "title"),
-        is_long=name == "doc" and not isinstance(owner, Declaration | tuple),
-        is_checked=name in ("range", "frequency_hz"),
-        is_committed=is_committed,
-        is_wide=is_wide,
-    )
 
 
 def _arguments(place: ItemPlace, output: Declaration, *, is_shared: bool) -> list[Node]:

@@ -2,12 +2,11 @@
 
 from vicode.editor.session.forms.decision_form import code_texts
 from vicode.editor.session.forms.declaration_form import declaration_cards
-from vicode.editor.session.forms.fields import known_field
+from vicode.editor.session.forms.fields import field_node, known_field, other_nodes
 from vicode.editor.session.forms.interface_form import interface_lists
 from vicode.editor.session.forms.item_place import ItemPlace
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import (
-    Check,
     Choice,
     DeclarationList,
     Heading,
@@ -16,7 +15,6 @@ from vicode.editor.session.forms.nodes import (
     OptionList,
     Row,
     Section,
-    TextField,
     Title,
     UseLine,
     Uses,
@@ -39,21 +37,21 @@ _XABSL_CHOICES: tuple[tuple[str, OptionList, str], ...] = (
 
 def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, ...]:
     """The form of the design, shown while nothing is selected."""
-    resume = known_field(design, ("resume",))
     declared: list[Node] = []
     for section, title, hint in _SECTIONS:
         declared.append(Heading(text=title, hint=hint))
         declared.append(declaration_cards(ItemPlace(ids=ids), section, getattr(design, section)))
     return (
         Title(text="Component", name=design.component),
-        TextField(path=("doc",), label="Description", value=design.doc, is_long=True),
+        field_node(design, "doc"),
         Row(
             nodes=(
                 Choice(path=("initial",), label="Initial state", value=design.initial, options="states"),
-                _text(design, "frequency_hz"),
+                field_node(design, "frequency_hz"),
             )
         ),
-        Check(path=("resume",), label=resume.label, value=design.resume),
+        field_node(design, "resume"),
+        *other_nodes(design),
         *interface_lists(project, design, ids.of_project(project)),
         *((_xabsl(design),) if uses_xabsl(project, design) or design.time_unit else ()),
         Heading(text="Uses", hint="components this design requires or modulates"),
@@ -63,18 +61,6 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
         ItemLink(label="Common transitions and actions", caption=_describe_common(design), opens=("common", COMMON)),
         _code(project, design),
         project_section(project),
-    )
-
-
-def _text(design: Design, name: str) -> TextField:
-    field = known_field(design, (name,))
-    return TextField(
-        path=(name,),
-        label=field.label,
-        value=field.read(design),
-        hint=field.hint,
-        is_code=True,
-        is_checked=name == "frequency_hz",
     )
 
 
@@ -97,7 +83,7 @@ def _xabsl(design: Design) -> Section:
         key="xabsl",
         title="XABSL",
         caption="; ".join(parts) or "name, arithmetic, time unit",
-        nodes=(_text(design, "xabsl_name"), *choices),
+        nodes=(field_node(design, "xabsl_name"), *choices),
     )
 
 

@@ -1,7 +1,7 @@
 """The forms of what only the diagram shows: frames and notes."""
 
-from vicode.editor.session.forms.fields import known_field
-from vicode.editor.session.forms.nodes import Button, Colors, ItemName, MultiChoice, Node, TextField, Title
+from vicode.editor.session.forms.fields import field_node, other_nodes
+from vicode.editor.session.forms.nodes import Button, Colors, ItemName, MultiChoice, Node, Title
 from vicode.model.design import STATE_COLORS, DiagramFrame, DiagramNote
 
 _REMOVE = Button(label="Remove", icon="delete", action="remove", is_danger=True)
@@ -13,14 +13,15 @@ def frame_form(frame: DiagramFrame) -> tuple[Node, ...]:
         ItemName(path=("name",), label="Title", value=frame.name),
         Colors(path=("color",), label="Color", value=frame.color, options=STATE_COLORS),
         MultiChoice(path=("states",), label="States", value=frame.states, options="states"),
+        *other_nodes(frame),
         _REMOVE,
     )
 
 
 def note_form(note: DiagramNote) -> tuple[Node, ...]:
-    text = known_field(note, ("text",))
     return (
         Title(text="Note"),
-        TextField(path=("text",), label=text.label, value=note.text, is_long=True),
+        field_node(note, "text"),
+        *other_nodes(note),
         _REMOVE,
     )

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.forms.fields import FormField, field_of, initial_field
+from vicode.editor.session.forms.fields import field_of, initial_field
+from vicode.editor.session.forms.form_field import FormField
 from vicode.editor.session.forms.form_paths import file_path, is_in_list, item_path, parse_path, resolve, split_path
 from vicode.editor.session.gestures.item_paths import change_item, item_at, rebase_path
 from vicode.editor.view import ItemRef

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from vicode.editor.session.forms.declaration_form import describe_value
+from vicode.editor.session.forms.fields import other_nodes
 from vicode.editor.session.forms.item_place import ItemPlace
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import (
@@ -79,6 +80,7 @@ def use_form(project: Project, use: Use, ids: ListIds) -> tuple[Node, ...]:
     head = (
         Title(text="Component", name=use.component),
         ItemName(path=("name",), label="Alias", value=use.alias),
+        *other_nodes(use),
     )
     if interface is None:
         return (*head, Paragraph(text="Not declared in the project.", look="field-finding"))

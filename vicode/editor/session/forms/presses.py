@@ -7,7 +7,7 @@ from typing import Any, Literal, Protocol
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.forms.action_form import new_action
-from vicode.editor.session.forms.fields import replace_text
+from vicode.editor.session.forms.form_field import replace_text
 from vicode.editor.session.forms.form_paths import item_path, parse_path, resolve
 from vicode.editor.session.forms.form_places import FormResult, rebase_owner
 from vicode.editor.session.forms.list_ids import ACTION_LISTS

@@ -7,16 +7,14 @@ from vicode.editor.session.forms.declaration_form import (
     adder_json,
     declaration_group,
     describe_declaration,
-    text_field,
 )
-from vicode.editor.session.forms.fields import known_field
+from vicode.editor.session.forms.fields import field_node, other_nodes
 from vicode.editor.session.forms.item_place import ItemPlace
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import (
     AdderList,
     Card,
     Cards,
-    Check,
     Choice,
     FormPart,
     Group,
@@ -72,7 +70,7 @@ def project_parts(project: Project, ids: ListIds) -> dict[str, tuple[Node, ...]]
 
 
 def _project_nodes(here: ItemPlace, project: Project) -> tuple[Node, ...]:
-    fields = (text_field(here, project, name, is_committed=True) for name in ("name", "doc", "languages", "world"))
+    fields = (field_node(project, name, here.path, is_committed=True) for name in ("name", "doc", "languages", "world"))
     enumerations = [
         (place, _enumeration(place, each)) for place, each in here.items("enumerations", project.enumerations)
     ]
@@ -88,6 +86,7 @@ def _project_nodes(here: ItemPlace, project: Project) -> tuple[Node, ...]:
     return (
         SCOPE,
         *fields,
+        *other_nodes(project, here.path, is_committed=True),
         Heading(text="Enumerations", hint="types with named values"),
         _cards(here, "enumerations", enumerations, "the project"),
         Heading(text="Constants", hint="values available in all designs"),
@@ -143,7 +142,8 @@ def component_nodes(place: ItemPlace, component: Interface) -> tuple[Node, ...]:
     names = ("frequency_hz", "implementation", "title", "doc", "xabsl_name")
     fields: tuple[Node, ...] = (
         ItemName(path=place.within("name"), label="Name", value=component.component),
-        *(text_field(place, component, name, is_committed=True, is_wide=name != names[0]) for name in names),
+        *(field_node(component, name, place.path, is_committed=True, is_wide=name != names[0]) for name in names),
+        *other_nodes(component, place.path, is_committed=True),
     )
     group = Group(path=place.path, noun="component", title=component.component, look="shared", nodes=fields)
     return (group, *lists)
@@ -159,21 +159,22 @@ def _agent(place: ItemPlace, agent: Agent) -> Group:
     nodes = (
         ItemName(path=place.within("name"), label="Agent", value=agent.name),
         Choice(path=place.within("root"), label="Root", value=agent.root, options="components"),
-        text_field(place, agent, "title", is_committed=True),
-        text_field(place, agent, "xabsl_name", is_committed=True),
-        text_field(place, agent, "doc", is_committed=True, is_wide=True),
+        field_node(agent, "title", place.path, is_committed=True),
+        field_node(agent, "xabsl_name", place.path, is_committed=True),
+        field_node(agent, "doc", place.path, is_committed=True, is_wide=True),
+        *other_nodes(agent, place.path, is_committed=True),
     )
     return Group(path=place.path, noun="agent", title=agent.name, look="shared", nodes=nodes)
 
 
 def _enumeration(place: ItemPlace, enumeration: Enumeration) -> Group:
-    internal = known_field(enumeration, ("internal",))
     elements = list(place.items("elements", enumeration.elements))
     nodes = (
         ItemName(path=place.within("name"), label="Enumeration", value=enumeration.name),
-        text_field(place, enumeration, "xabsl_name", is_committed=True),
-        text_field(place, enumeration, "doc", is_committed=True, is_wide=True),
-        Check(path=place.within("internal"), label=internal.label, value=enumeration.internal, is_wide=True),
+        field_node(enumeration, "xabsl_name", place.path, is_committed=True),
+        field_node(enumeration, "doc", place.path, is_committed=True, is_wide=True),
+        field_node(enumeration, "internal", place.path, is_wide=True),
+        *other_nodes(enumeration, place.path, is_committed=True),
         _cards(place, "elements", [(each, _element(each, element)) for each, element in elements], enumeration.name),
         _names_in_xabsl(place, enumeration, [each for each, _element in elements]),
     )
@@ -184,7 +185,7 @@ def _element(place: ItemPlace, element: tuple[str, str]) -> Group:
     number = f" {int(place.at[-1]) + 1}" if place.at else ""
     nodes = (
         ItemName(path=place.within("name"), label=f"Element{number}", value=element[0]),
-        text_field(place, element, "doc", is_committed=True),
+        field_node(element, "doc", place.path, is_committed=True),
     )
     return Group(
         path=place.path, noun="element", title=element[0], look="element", nodes=nodes, can_move_up=not place.is_first

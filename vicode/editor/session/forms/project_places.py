@@ -3,7 +3,8 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from vicode.editor.session.forms.fields import FormField, field_of, xabsl_field
+from vicode.editor.session.forms.fields import field_of, xabsl_field
+from vicode.editor.session.forms.form_field import FormField
 from vicode.editor.session.forms.form_paths import resolve
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import CodeText, Field, Node, iter_fields

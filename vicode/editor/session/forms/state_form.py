@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from vicode.editor.session.forms.action_form import action_cards, modulation_cards
 from vicode.editor.session.forms.decision_form import decisions_list
-from vicode.editor.session.forms.fields import initial_field, known_field
+from vicode.editor.session.forms.fields import field_node, initial_field, other_nodes
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.nodes import (
     Check,
@@ -16,7 +16,6 @@ from vicode.editor.session.forms.nodes import (
     Notice,
     Row,
     Section,
-    TextField,
     Title,
 )
 from vicode.findings import DesignPath
@@ -25,8 +24,6 @@ from vicode.model.project import Project
 
 OUTSIDE: DesignPath = ("outside",)
 """The path of the notice about code that was changed outside."""
-_CAPACITY_HELP = "A robot waits in its current state until there is room."
-_SYNCHRONIZED_HELP = "Robots wait in their current state until this many are ready."
 
 
 def state_form(project: Project, design: Design, state: State, ids: ListIds) -> tuple[Node, ...]:
@@ -36,43 +33,39 @@ def state_form(project: Project, design: Design, state: State, ids: ListIds) -> 
         Title(text="State", name=state.name, is_hidden=True),
         ItemName(path=("name",), label="State", value=state.name),
         Notice(path=OUTSIDE),
-        TextField(path=("doc",), label="Description", value=state.doc, is_long=True),
-        Row(nodes=(_initial(design, state), _check(state, "final"))),
+        field_node(state, "doc"),
+        Row(nodes=(_initial(design, state), field_node(state, "final"))),
         Heading(text="Actions", hint="run in order in each iteration"),
         action_cards(project, ("actions",), state.actions, ids.ids((*owner, "actions"), state.actions)),
         Heading(text="Modulates", hint="components this state runs, with parameters"),
-        modulation_cards(state.modulates),
+        modulation_cards(project, state.modulates),
         Heading(text="Transitions", hint="the first whose guard holds is taken"),
         decisions_list(design, ("transitions",), state.transitions),
         Heading(text="Requires", hint="components that run before this state, in each step"),
         MultiChoice(path=("requires",), label="Components", value=state.requires, options="uses"),
         _enter_and_leave(project, state, ids),
         _more(project, design, state),
+        *other_nodes(state),
     )
 
 
 def common_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, ...]:
     """The form of the transitions and actions of all states."""
     common = design.common
-    field = known_field(common, ("doc",))
     return (
         Title(text="Every state"),
-        TextField(path=("doc",), label=field.label, value=common.doc, is_long=True),
+        field_node(common, "doc"),
         Heading(text="Transitions", hint="tested in every state before its own"),
         decisions_list(design, ("transitions",), common.transitions),
         Heading(text="Actions", hint="run in every state before its own"),
         action_cards(project, ("actions",), common.actions, ids.ids(("common", "actions"), common.actions)),
+        *other_nodes(common),
     )
 
 
 def uses_xabsl(project: Project, design: Design) -> bool:
     """Whether names in XABSL matter to this design."""
     return "xabsl" in project.languages or bool(design.xabsl_name or design.arithmetic)
-
-
-def _check(state: State, name: str) -> Check:
-    field = known_field(state, (name,))
-    return Check(path=(name,), label=field.label, value=field.read(state), hint=field.hint)
 
 
 def _initial(design: Design, state: State) -> Check:
@@ -101,7 +94,7 @@ def _enter_and_leave(project: Project, state: State, ids: ListIds) -> Section:
 def _more(project: Project, design: Design, state: State) -> Section:
     has_xabsl_name = bool(state.xabsl_name) or uses_xabsl(project, design)
     names = ["capacity", "synchronized", *(["xabsl_name"] if has_xabsl_name else [])]
-    fields = Row(nodes=tuple(_text(state, name) for name in names))
+    fields = Row(nodes=tuple(field_node(state, name) for name in names))
     set_parts = [
         *(["disabled"] if state.disabled else []),
         *([state.color] if state.color else []),
@@ -113,24 +106,11 @@ def _more(project: Project, design: Design, state: State) -> Section:
         title="More",
         caption=_caption(set_parts, "disabled, color, team" + (", XABSL" if len(names) > 2 else "")),
         nodes=(
-            _check(state, "disabled"),
+            field_node(state, "disabled"),
             Colors(path=("color",), label="Color", value=state.color, options=STATE_COLORS),
             fields,
         ),
         is_set=bool(set_parts),
-    )
-
-
-def _text(state: State, name: str) -> TextField:
-    field = known_field(state, (name,))
-    return TextField(
-        path=(name,),
-        label=field.label,
-        value=field.read(state),
-        hint=field.hint,
-        help={"capacity": _CAPACITY_HELP, "synchronized": _SYNCHRONIZED_HELP}.get(name, ""),
-        is_code=True,
-        is_checked=name != "xabsl_name",
     )
 
 

@@ -1,0 +1,132 @@
+"""The parts of a design in words: for differences, tooltips and the documentation site.
+
+A field of a record needs no words of its own: without an entry, its name is its word.
+"""
+
+from collections.abc import Collection, Iterator
+from dataclasses import MISSING, fields, is_dataclass
+from typing import Any
+
+from vicode.model.design import Action, Assign, Call, Code, Declaration, Guard, RunCode
+
+_WORDS = {
+    "doc": "description",
+    "frequency_hz": "frequency",
+    "xabsl_name": "XABSL name",
+    "BridgeSettings.tick_ms": "tick",
+    "Declaration.initial": "value",
+    "Design.initial": "initial state",
+    "Design.members": "class code",
+    "Design.module": "module code",
+    "Enumeration.xabsl_elements": "XABSL names of elements",
+    "Guard.after": "time",
+    "Guard.code": "guard code",
+    "Guard.when": "guard",
+    "ProfileClass.implementation": "class",
+    "Project.generated": "output folder",
+    "Project.name": "project name",
+    "Project.xabsl_encoding": "encoding of XABSL files",
+    "RemoteReference.max_age": "longest age",
+    "RemoteReference.remote": "remote component",
+    "Transition.to": "target",
+}
+"""Words for fields of all records, or of one record."""
+
+
+def field_word(owner: type, name: str) -> str:
+    """The word for a field, such as "description"."""
+    return _WORDS.get(f"{owner.__name__}.{name}") or _WORDS.get(name) or name.replace("_", " ")
+
+
+_NOT_IN_WORDS = ("name", "id", "at", "label_at")
+
+
+def describe_fields(record: Any, apart: Collection[str] = ()) -> Iterator[str]:
+    """The fields that have another value than their default, such as "capacity 2"; of a flag, only its word.
+
+    Names, ids, positions, the parts of a record, and the fields that the caller shows `apart` are left out.
+    """
+    for field in fields(record):
+        value = getattr(record, field.name)
+        default = field.default_factory() if field.default_factory is not MISSING else field.default
+        is_left_out = field.name in apart or field.name in _NOT_IN_WORDS or any(map(is_dataclass, _as_tuple(value)))
+        text = describe_value(value)
+        if text and value != default and not is_left_out:
+            word = field_word(type(record), field.name)
+            yield word if value is True else f"{word} {text}"
+
+
+def describe_guard(guard: Guard) -> str:
+    """The parts of a guard, as in the file; empty if it always holds."""
+    parts = (("when ", guard.when), ("after ", guard.after), ("", "code" if guard.code is not None else ""))
+    return ", ".join(f"{word}{text}" for word, text in parts if text)
+
+
+def describe_action(action: Action) -> str:
+    match action:
+        case Assign(values=values):
+            return f"set {_describe_pairs(values)}"
+        case Call(alias=alias, arguments=arguments):
+            return f"call {alias}{f' with {_describe_pairs(arguments)}' if arguments else ''}"
+        case RunCode(code=code):
+            return describe_code(code)
+
+
+def describe_code(code: Code | None) -> str:
+    """The text of code; with several languages or another one than Python, each with its name."""
+    texts = code.texts if code is not None else ()
+    if [language for language, _text in texts] == ["python"]:
+        return texts[0][1].rstrip("\n")
+    return "\n".join(f"{language}: {text}".rstrip("\n") for language, text in texts)
+
+
+def describe_declaration(declaration: Declaration) -> str:
+    """Type, value, unit and range of a declaration."""
+    arguments = declaration.arguments
+    listed = "" if arguments is None else f"({', '.join(_describe_argument(each) for each in arguments)})"
+    low_high = " to ".join(map(describe_number, declaration.range or ()))
+    return " ".join(
+        part for part in (listed, declaration.type, declaration.initial, declaration.unit, low_high) if part
+    )
+
+
+def describe_value(value: object) -> str:
+    """A plain value as text; empty for a missing one."""
+    match value:
+        case None | "" | () | False:
+            return ""
+        case True:
+            return "yes"
+        case float():
+            return describe_number(value)
+        case Code():
+            return describe_code(value)
+        case tuple():
+            return ", ".join(
+                ": ".join(map(describe_value, each)) if _is_pair(each) else describe_value(each) for each in value
+            )
+        case Declaration():
+            return f"{value.name} {describe_declaration(value)}".rstrip()
+        case _:
+            return str(value)
+
+
+def describe_number(value: float) -> str:
+    """The shortest text that is read as this number."""
+    return repr(float(value)).removesuffix(".0")
+
+
+def _as_tuple(value: object) -> tuple[object, ...]:
+    return value if isinstance(value, tuple) else (value,)
+
+
+def _is_pair(value: object) -> bool:
+    return isinstance(value, tuple) and len(value) == 2
+
+
+def _describe_argument(argument: Declaration) -> str:
+    return f"{argument.name} {describe_declaration(argument)}".rstrip()
+
+
+def _describe_pairs(pairs: tuple[tuple[str, str], ...]) -> str:
+    return ", ".join(f"{name}: {text}" for name, text in pairs)
