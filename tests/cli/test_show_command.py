@@ -8,7 +8,7 @@ import pytest
 
 from tests.cli.command_runner import LAMP, lamps, vicode
 from tests.cli.git_folder import commit, git, init
-from vicode.simulation.trace import read_trace
+from vicode.traces.reader import read_trace
 
 __all__ = ["lamps"]
 

@@ -11,7 +11,7 @@ from vicode.model.traversal import iter_transitions
 from vicode.runs.inputs import SimulationInput
 from vicode.runs.recording import MAX_ITERATIONS
 from vicode.simulation import Inputs, IterationResult
-from vicode.simulation.trace import TraceError, read_trace
+from vicode.traces.reader import TraceError, read_trace
 
 MAX_BYTES = 50_000_000
 

@@ -14,7 +14,7 @@ from vicode.bica import Component, Observer, Root, SimulatedClock
 from vicode.bica.observer import TRACE_HEADER
 from vicode.cli import main
 from vicode.simulation.messages import IterationResult, decode_iteration, encode_response
-from vicode.simulation.trace import TraceError, read_trace, trace_schema
+from vicode.traces.reader import TraceError, read_trace, trace_schema
 from vicode.xabsl.engine.code_reader import read_code
 from vicode.xabsl.engine.replay import read_rows, replay, replay_team
 from vicode.xabsl.engine.symbols import read_symbols
