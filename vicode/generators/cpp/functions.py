@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 
-from vicode.generators.cpp.expressions import ExpressionPrinter
+from vicode.generators.cpp.expression_printer import ExpressionPrinter
 from vicode.generators.cpp.names import member_name, state_names
 from vicode.generators.cpp.text import LINE_WIDTH, comment, doc_comment, quoted
 from vicode.generators.cpp.views import FunctionView

@@ -1,7 +1,6 @@
 """The language-neutral plan of a project: names, order and typed expression trees."""
 
 from vicode.generators.plan.component import INTERFACES_MODULE, plan_component
-from vicode.generators.plan.expressions import UnsoundDesignError, literal_value, typed_tree
 from vicode.generators.plan.int_ranges import IntRanges
 from vicode.generators.plan.interfaces import plan_interface
 from vicode.generators.plan.plan_types import (
@@ -28,6 +27,7 @@ from vicode.generators.plan.plan_types import (
     ValuePlan,
 )
 from vicode.generators.plan.project import collect_components, plan_package, plan_project
+from vicode.generators.plan.typed_expressions import UnsoundDesignError, literal_value, typed_tree
 
 __all__ = [
     "INTERFACES_MODULE",

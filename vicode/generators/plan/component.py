@@ -5,14 +5,7 @@ from dataclasses import replace
 
 from vicode.findings import DesignPath
 from vicode.generators.plan.code import CodePlanner
-from vicode.generators.plan.expressions import (
-    UnsoundDesignError,
-    initial_value,
-    literal_nanoseconds,
-    typed_tree,
-)
 from vicode.generators.plan.int_growth import plan_int_ranges
-from vicode.generators.plan.names import NameAllocator
 from vicode.generators.plan.plan_types import (
     ActionStep,
     AssignStep,
@@ -32,6 +25,13 @@ from vicode.generators.plan.plan_types import (
     UsedComponent,
     ValuePlan,
 )
+from vicode.generators.plan.typed_expressions import (
+    UnsoundDesignError,
+    initial_value,
+    literal_nanoseconds,
+    typed_tree,
+)
+from vicode.generators.plan.unique_identifiers import NameAllocator
 from vicode.model.design import (
     COMMON,
     Action,

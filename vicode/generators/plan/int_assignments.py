@@ -3,7 +3,6 @@
 import re
 from collections.abc import Collection, Iterable, Iterator
 
-from vicode.generators.plan.expressions import typed_tree
 from vicode.generators.plan.plan_types import (
     ActionStep,
     AssignStep,
@@ -14,6 +13,7 @@ from vicode.generators.plan.plan_types import (
     ComponentPlan,
     DecisionPlan,
 )
+from vicode.generators.plan.typed_expressions import typed_tree
 from vicode.model.expressions import INT, Expr, Scope, ScopeSymbolKind, Variable
 from vicode.model.portable_code import PortableAssign, PortableIf, PortableStatement, Role, parse_portable
 
