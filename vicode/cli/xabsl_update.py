@@ -83,7 +83,6 @@ def _update(
         find_faulty_designs,
         list_errors,
         list_files,
-        list_paths,
         write_update,
     )
 
@@ -93,7 +92,7 @@ def _update(
     if left_out is None:
         print(f"nothing written: {count_findings(errors)}", file=sys.stderr)
         return 1
-    paths, has_comments = list_paths(opened), record is not None and record.has_comments
+    paths, has_comments = opened.design_paths, record is not None and record.has_comments
     edited = EditedProject(
         project=opened.project,
         files=list_files(opened) if has_comments else {},

@@ -26,6 +26,7 @@ from vicode.store import (
     find_design_files,
     open_project,
     read_design,
+    relative_design_paths,
     replace_text,
     save_design,
     write_text,
@@ -158,9 +159,7 @@ class Workspace:
     @property
     def source_paths(self) -> dict[str, str]:
         """The design files by component, relative to the project folder."""
-        folder = self.folder.resolve()
-        inside = ((name, file.resolve()) for name, file in self.files.items() if name)
-        return {name: file.relative_to(folder).as_posix() for name, file in inside if file.is_relative_to(folder)}
+        return relative_design_paths(self.files, self.folder)
 
     def save(self, document: DocumentSession, *, overwrite: bool = False) -> None:
         """Save a design by patching the text of its file, merging changes of other programs.

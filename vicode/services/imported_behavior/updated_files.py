@@ -46,13 +46,6 @@ def _unreadable(opened: OpenProject) -> Iterator[tuple[str, Path]]:
             yield names[file.name], file
 
 
-def list_paths(opened: OpenProject) -> dict[str, str]:
-    """The path of each design relative to the project."""
-    folder = opened.folder.resolve()
-    found = {name: file.resolve() for name, file in opened.files.items() if name}
-    return {name: file.relative_to(folder).as_posix() for name, file in found.items() if file.is_relative_to(folder)}
-
-
 def list_files(opened: OpenProject) -> dict[str, DesignFile]:
     return {name: DesignFile(path=file.name, text=opened.texts[name]) for name, file in opened.files.items()}
 
