@@ -215,13 +215,13 @@ class Workspace:
             self._write(document, None, document.shared.disk_text)
             return
         merged = merge_designs(document.shared.saved, document.design, disk.design, theirs_at=theirs_at)
-        document.adopt_disk_version(disk, texts.RESOLVE_CONFLICT, merged.design)
+        document.adopt_disk_version(disk, "resolve conflict with disk", merged.design)
 
     def reload(self, document: DocumentSession) -> str:
         """Replace a design by the version on disk; returns an error message or an empty string."""
         disk = _disk_version(document, _read(document.file))
         if disk.design is None:
-            return texts.design_gone(document.file.name, document.design.component)
+            return f"{document.file.name} no longer contains a design of {document.design.component}"
         document.adopt_disk_version(disk, texts.RELOAD)
         return ""
 
@@ -306,7 +306,7 @@ class Workspace:
             replace_text(document.file, text, new)
         findings = read_design(new, document.file.name).findings
         written = DiskVersion(text=new, design=document.design, parse_findings=findings)
-        document.adopt_disk_version(written, texts.SAVE)
+        document.adopt_disk_version(written, "save")
 
     def _file_for(self, component: str) -> Path:
         return self.folder / f"{snake_case(component)}.yaml"
@@ -361,7 +361,7 @@ class Workspace:
                 shared.disk_conflict = disk
                 shared.changes.notify(session)
             else:
-                session.adopt_disk_version(disk, texts.MERGE, merged.design)
+                session.adopt_disk_version(disk, "merge from disk", merged.design)
 
     def _check(self, design: Design) -> tuple[Finding, ...]:
         designs = (design if other.component == design.component else other for other in self.project.designs)

@@ -284,7 +284,9 @@ class SimulationController:
 
     async def _may_run(self) -> bool:
         is_allowed = self.is_replay or await ask_for_trust(self.context)
-        self.start_error = "" if is_allowed else texts.NOT_TRUSTED
+        self.start_error = (
+            "" if is_allowed else "The folder is not trusted, so its code does not run. Restart to be asked again."
+        )
         self.sandbox_problem = "" if self.is_replay else await run.io_bound(isolation_problem) or ""
         return is_allowed
 
