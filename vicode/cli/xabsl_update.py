@@ -82,7 +82,6 @@ def _update(
     from vicode.services.imported_behavior.updated_files import (
         find_faulty_designs,
         list_errors,
-        list_files,
         write_update,
     )
 
@@ -95,7 +94,7 @@ def _update(
     paths, has_comments = opened.design_paths, record is not None and record.has_comments
     edited = EditedProject(
         project=opened.project,
-        files=list_files(opened) if has_comments else {},
+        files=opened.texts if has_comments else {},
         paths=paths,
         known_paths=record.designs if record else {},
         left_out=left_out,

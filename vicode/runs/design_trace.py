@@ -24,7 +24,7 @@ def read_iterations(text: str, design: Design) -> tuple[IterationResult, ...]:
     """
     if len(text) > MAX_BYTES:
         raise TraceError(f"the trace is longer than {MAX_BYTES // 1_000_000} MB")
-    iterations = read_trace(text, MAX_ITERATIONS).iterations
+    iterations = read_trace(text, MAX_ITERATIONS)
     require_root(iterations, design)
     return tuple(map(TransitionKeys(design).complete, iterations))
 

@@ -58,10 +58,6 @@ class OpenProject:
     is_project_file_broken: bool = False
 
     @property
-    def project_file(self) -> Path | None:
-        return self.files.get("")
-
-    @property
     def design_paths(self) -> dict[str, str]:
         return relative_design_paths(self.files, self.folder)
 

@@ -12,7 +12,6 @@ _COLUMNS = {"name": "target", "when": "guard", "doc": "description"}
 
 # Labels of the undo history.
 
-RELOAD = "reload from disk"
 REORDER_TRANSITIONS = "reorder transitions"
 ALIGNMENTS = {
     "align-left": "align left edges",

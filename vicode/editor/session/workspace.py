@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.check import check_design, check_project
-from vicode.editor.session import texts
 from vicode.editor.session.code import code_sync
 from vicode.editor.session.document import DiskVersion, DocumentSession, FileTransaction, SharedDocument
 from vicode.editor.session.presence import DISK_USER, UserDirectory
@@ -217,14 +216,6 @@ class Workspace:
         merged = merge_designs(document.shared.saved, document.design, disk.design, theirs_at=theirs_at)
         document.adopt_disk_version(disk, "resolve conflict with disk", merged.design)
 
-    def reload(self, document: DocumentSession) -> str:
-        """Replace a design by the version on disk; returns an error message or an empty string."""
-        disk = _disk_version(document, _read(document.file))
-        if disk.design is None:
-            return f"{document.file.name} no longer contains a design of {document.design.component}"
-        document.adopt_disk_version(disk, texts.RELOAD)
-        return ""
-
     def can_create(self, component: str) -> bool:
         """Whether the file name of a new component is free."""
         return not self._file_for(component).exists()
@@ -354,7 +345,7 @@ class Workspace:
             shared.mark_saved(disk)
             session.apply_transaction(transaction, disk.design)
         elif session.is_saved:
-            session.adopt_disk_version(disk, texts.RELOAD)
+            session.adopt_disk_version(disk, "reload from disk")
         else:
             merged = merge_designs(shared.saved, session.design, disk.design)
             if merged.conflicts:

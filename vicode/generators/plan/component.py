@@ -157,7 +157,7 @@ class _ComponentPlanner:
     """Plans one design; its parts share a scope and a set of names."""
 
     def __init__(self, project: Project, design: Design) -> None:
-        self.project, self.design = project, design
+        self.design = design
         self.scope, self.project_scope = build_scope(project, design), build_scope(project, None)
         self.code = CodePlanner(design)
         self.design_aliases = {use.alias for use in design.uses if _has_design(project, use.component)}
