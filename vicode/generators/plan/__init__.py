@@ -25,6 +25,7 @@ from vicode.generators.plan.plan_types import (
     TimerCondition,
     UsedComponent,
     ValuePlan,
+    iter_guard_code,
 )
 from vicode.generators.plan.project import collect_components, plan_package, plan_project
 from vicode.generators.plan.typed_expressions import UnsoundDesignError, literal_value, typed_tree
@@ -55,6 +56,7 @@ __all__ = [
     "UsedComponent",
     "ValuePlan",
     "collect_components",
+    "iter_guard_code",
     "literal_value",
     "plan_component",
     "plan_interface",
