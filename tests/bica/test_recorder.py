@@ -16,7 +16,7 @@ from jsonschema import Draft202012Validator
 from tests.bica.sample_player import Player
 from vicode.bica import Component, Root, SimulatedClock
 from vicode.bica.recorder import Recorder, find_segments
-from vicode.simulation.trace import trace_schema
+from vicode.traces.reader import trace_schema
 
 HOME = Path(__file__).parents[2]
 

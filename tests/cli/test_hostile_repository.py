@@ -33,7 +33,8 @@ COMMANDS = {
         ("hook", "pre-merge-commit"),
         ("hook", "post-merge"),
     ),
-    "vicode/cli/hook.py": (("hook", "install"), ("hook", "install", "--uninstall")),
+    "vicode/cli/hook.py": (("hook", "install"),),
+    "vicode/services/git_hooks.py": (("hook", "install"), ("hook", "install", "--uninstall")),
     "vicode/sync/history.py": (("gen", "lamps"), ("sync", "lamps")),
 }
 """Commands for each module that reads repositories; the editor has a test of its own."""

@@ -11,8 +11,9 @@ from typing import Any
 import pytest
 
 from tests.cli.command_runner import LAMP, lamps, vicode
-from vicode.cli import trace_output
-from vicode.cli.trace_output import PlainTracePrinter, follow_process
+from vicode.cli.run import PlainTracePrinter
+from vicode.runs import foreground
+from vicode.runs.foreground import follow_process
 
 __all__ = ["lamps"]
 
@@ -34,13 +35,13 @@ class InterruptingPrinter(PlainTracePrinter):
 
 def follow_unresponsive_program(times: int) -> int:
     child = subprocess.Popen([sys.executable, "-c", DEAF], stdout=subprocess.PIPE, text=True, start_new_session=True)
-    return follow_process(child, InterruptingPrinter(times))
+    return follow_process(child, InterruptingPrinter(times)).exit_code
 
 
 def test_a_program_that_does_not_answer_is_ended(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(trace_output, "_INTERRUPT_TIMEOUT_S", 0.1)
+    monkeypatch.setattr(foreground, "_INTERRUPT_TIMEOUT_S", 0.1)
     assert follow_unresponsive_program(1) == 130
     assert capsys.readouterr().err == AGAIN + "the program did not stop and was killed\n"
 
@@ -48,7 +49,7 @@ def test_a_program_that_does_not_answer_is_ended(
 def test_the_third_interrupt_ends_it_at_once(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(trace_output, "_INTERRUPT_TIMEOUT_S", 30.0)
+    monkeypatch.setattr(foreground, "_INTERRUPT_TIMEOUT_S", 30.0)
     assert follow_unresponsive_program(3) == 130
     assert "Traceback" not in capsys.readouterr().err
 

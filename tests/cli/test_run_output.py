@@ -12,9 +12,8 @@ from pathlib import Path
 import pytest
 
 from tests.cli.command_runner import lamps
-from vicode.cli import trace_output
-from vicode.cli.trace_output import describe_summary
 from vicode.editor.malformed_messages import shorten_record
+from vicode.traces.descriptions import describe_summary
 
 __all__ = ["lamps"]
 
@@ -86,12 +85,10 @@ def test_a_closed_standard_stream_is_like_the_null_device(arguments: str, code: 
     assert done.returncode == code
 
 
-def test_the_world_line_is_wrapped_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_world_line_is_wrapped_at_a_width() -> None:
     world = {f"value{number}": number for number in range(20)}
     assert max(map(len, describe_summary({**SUMMARY, "world": world}).splitlines())) > 100
-    monkeypatch.setenv("COLUMNS", "60")
-    monkeypatch.setattr(trace_output.sys.stdout, "isatty", lambda: True, raising=False)
-    lines = describe_summary({**SUMMARY, "world": world}).splitlines()
+    lines = describe_summary({**SUMMARY, "world": world}, 60).splitlines()
     assert max(map(len, lines)) <= 60
     assert "value19" in lines[-2]
 

@@ -5,7 +5,7 @@ import io
 from rich.console import Console
 
 from vicode.cli.live_view import LiveTracePrinter, render_iteration
-from vicode.cli.trace_output import StateChangeTracker, TraceRecord, describe_summary, describe_world
+from vicode.traces.descriptions import StateChangeTracker, TraceRecord, describe_summary, describe_world
 
 
 def step(component: str, state: str, by: str | None = None, **more: object) -> dict[str, object]:

@@ -30,7 +30,7 @@ from pypdf import PdfReader
 from tests.cli.command_runner import vicode
 from tests.commands.projects import CPP, PYTHON, XABSL, TableProject
 from tests.cpp_tools import STANDARD, WARNINGS, find_gpp, outputs, start, write_unit
-from vicode.simulation.trace import trace_schema
+from vicode.traces.reader import trace_schema
 
 LIMIT_S = 60.0
 SECONDS = "3"

@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 from vicode.conformance.inputs import ConformanceRun, RunStep, list_inputs
-from vicode.importers.names import to_design_name
+from vicode.importers.design_names import to_design_name
 from vicode.importers.scxml import import_scxml
 
 DOCUMENTS = sorted((Path(__file__).parent / "scxml").glob("*.scxml"))

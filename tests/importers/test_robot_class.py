@@ -10,7 +10,7 @@ from tests.importers.differential_harness import GeneratedPythonRun, import_chec
 from tests.importers.test_imported_designs import texts
 from tests.xabsl.xabsl_cases import CASES, PROGRAMS, load_texts
 from vicode.importers import render_robot_class
-from vicode.importers.names import to_design_name
+from vicode.importers.design_names import to_design_name
 from vicode.xabsl.compiler import declared_symbols
 from vicode.xabsl.engine import Engine
 from vicode.xabsl.source_loader import ProgramSource, load_source

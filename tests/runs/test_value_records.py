@@ -12,8 +12,8 @@ from vicode.runs.changed_values import ChangedValue
 from vicode.runs.value_records import LIVE, RecordReplays, RecordResult
 from vicode.runs.value_replay import bridge_gaps
 from vicode.simulation import IterationResult
-from vicode.simulation.trace import open_trace
 from vicode.store import open_project
+from vicode.traces.reader import open_trace
 
 cars = test_replay_command.cars
 

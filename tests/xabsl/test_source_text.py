@@ -23,7 +23,6 @@ ELSEWHERE = {
 }
 OTHERS = (
     "cli/bridge_behaviors.py",
-    "cli/export.py",
     "cli/import_command.py",
     "cli/source_encoding.py",
     "cli/xabsl*.py",

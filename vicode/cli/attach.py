@@ -3,10 +3,8 @@
 import argparse
 import asyncio
 import os
-import socket
 import sys
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from vicode.cli.ports import port_number
 from vicode.findings import escape_text
@@ -34,13 +32,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Connect once, so that mistakes are reported here; then print, or serve the editor."""
     from vicode.robots import TOKEN_VARIABLE, parse_address
+    from vicode.services.robot_search import find_address
 
     if args.find:
         return _print_robots()
     if args.address is None:
         print("vicode: give the address of a robot, or --find to list the robots", file=sys.stderr)
         return 2
-    address = parse_address(_find_address(args.address))
+    address = parse_address(find_address(args.address))
     token = args.token if args.token is not None else os.environ.get(TOKEN_VARIABLE, "")
     if args.print:
         return asyncio.run(_print_changes(address, token))
@@ -50,46 +49,14 @@ def run(args: argparse.Namespace) -> int:
 
 def _print_robots() -> int:
     from vicode.bica.net_session import find_watched
+    from vicode.services.robot_search import is_reachable
 
     robots = find_watched()
     for robot, host, address in robots:
-        print(escape_text(f"{robot}  {address}") + ("" if _is_reachable(host, address) else f"  (only on {host})"))
+        print(escape_text(f"{robot}  {address}") + ("" if is_reachable(host, address) else f"  (only on {host})"))
     if not robots:
         print("vicode: no robot was found; connect robots with --net NAME --watch ADDRESS", file=sys.stderr)
     return 0 if robots else 1
-
-
-def _find_address(text: str) -> str:
-    """The address of a robot that is given by its name; another text is returned as it is.
-
-    Raises:
-        OSError: There is no such robot or several, it is watched on its machine only, or there is no network.
-    """
-    if ":" in text or text.isdecimal():
-        return text
-    from vicode.bica.errors import NetworkError
-    from vicode.bica.net_session import check_name, find_watched
-
-    try:
-        robots = find_watched() if check_name(text) else []
-    except NetworkError as error:
-        raise OSError(f"'{text}' is no address (PORT, HOST:PORT or unix:PATH), and by name: {error}") from error
-    found = [(host, address) for robot, host, address in robots if robot == text]
-    if len(found) != 1:
-        names = ", ".join(sorted({robot for robot, _host, _address in robots}))
-        remedy = f"the robots are {names}" if robots else "write PORT, HOST:PORT or unix:PATH"
-        reason = f"{len(found)} robots have the name '{text}'; attach to an address" if found else ""
-        raise OSError(reason or f"there is no robot '{text}'; {remedy}")
-    host, address = found[0]
-    if not _is_reachable(host, address):
-        port = address.rpartition(":")[2]
-        raise OSError(f"{text} listens on {host} only: ssh -L {port}:{address} {host}, then attach to {port}")
-    return address
-
-
-def _is_reachable(host: str, address: str) -> bool:
-    """Whether an address is here, or one that other machines reach."""
-    return host == socket.gethostname() or not address.startswith(("127.", "localhost:", "unix:"))
 
 
 async def _try(address: "RobotAddress", token: str) -> None:
@@ -131,6 +98,7 @@ async def _print_changes(address: "RobotAddress", token: str) -> int:
 
 async def _print_lines(transport: "SocketTransport", hello: "Hello") -> None:
     from vicode.robots import decode_line
+    from vicode.traces.descriptions import describe_message
 
     is_alone = len(hello.robots) == 1
     seen: set[str] = set()
@@ -138,33 +106,10 @@ async def _print_lines(transport: "SocketTransport", hello: "Hello") -> None:
         message = decode_line(line)
         if "tree" in message:
             robot = escape_text(str(message.get("robot")))
-            lines = _lines(message, is_first=robot not in seen)
+            lines = describe_message(message, is_first=robot not in seen)
             seen.add(robot)
             for each in lines:
                 print(each if is_alone and len(seen) == 1 else f"{robot}  {each}", flush=True)
-
-
-def _lines(message: Mapping[str, Any], *, is_first: bool) -> list[str]:
-    """The active states at first, then the changes since the last message, and errors."""
-    lines = []
-    if is_first:
-        lines = [
-            _line(message["time_ns"], f"{step['component']}: {step['state']}")
-            for step in message["tree"]
-            if step["state"]
-        ]
-    else:
-        for change in message.get("changes", ()):
-            cause = f"  ({change['transition']})" if change["transition"] else ""
-            words = f"{change['component']}: {change['source']} → {change['target']}{cause}"
-            lines.append(_line(change["time_ns"], words))
-    for error in message.get("errors", ()):
-        lines.append(_line(message["time_ns"], f"error in {error.get('component')}: {error.get('message')}"))
-    return lines
-
-
-def _line(time_ns: int, words: str) -> str:
-    return f"{time_ns / 1e9:8.2f} s  {escape_text(words)}"
 
 
 def _describe(address: "RobotAddress", hello: "Hello") -> str:

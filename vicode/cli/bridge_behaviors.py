@@ -123,7 +123,7 @@ def _load_designs(args: argparse.Namespace, folder: Path) -> LoadedBehaviors | i
     roots = _list_roots(loaded)
     project = loaded.open_project.project
     used = sorted(set(roots.values()))
-    files = generate(project, components=used, languages=["python"], sources=loaded.design_paths)
+    files = generate(project, components=used, languages=["python"], sources=loaded.open_project.design_paths)
     apply_diffs(compare_files(files, folder), folder)
     _add_import_path(args.import_path or loaded.open_project.folder)
     _add_import_path(folder / "python")

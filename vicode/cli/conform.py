@@ -81,7 +81,7 @@ def _make_runs(args: argparse.Namespace, project: "Project", component: str) -> 
 
     from vicode.conformance.comparison import choose_inputs
     from vicode.conformance.recorded_inputs import recorded_run
-    from vicode.simulation.trace import TraceError, open_trace
+    from vicode.traces.reader import TraceError, open_trace
 
     if args.inputs == "chosen":
         return choose_inputs(project, component, iterations=min(args.iterations, _MAX_ITERATIONS), seed=args.seed)

@@ -2,14 +2,12 @@
 
 import argparse
 import sys
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.console import print_findings
 from vicode.cli.source_encoding import add_encoding_argument
 from vicode.diagram.export_formats import EXPORT_FORMATS, ExportFormat, ExportOptions, NotExportableError
-from vicode.services.xabsl_encoding import find_encoding
 
 if TYPE_CHECKING:
     from vicode.model.design import Design
@@ -75,31 +73,14 @@ def _read(file: Path, encoding: str) -> "Design | None":
 
 
 def _read_option(file: Path, encoding: str) -> "Design | None":
-    """The option of an XABSL file as a design; its behavior is searched in the folders above."""
-    from vicode.cli.xabsl_behavior import print_behavior_findings, print_encoding_doubts
-    from vicode.findings import Severity
-    from vicode.importers import import_behavior
-    from vicode.xabsl.compiler import compile_source
-    from vicode.xabsl.source_loader import find_main_file, load_source
-    from vicode.xabsl.source_text import read_source
+    from vicode.services.imported_behavior.option_design import read_option
 
-    shown, file = file, file.resolve(strict=True)
-    main = find_main_file(file)
-    encoding = find_encoding(main, encoding)
-    source = load_source(main, partial(read_source, encoding=encoding))
-    if not source.has_agents and any(each.file.body for each in source.files.values()):
-        raise OSError(f"no file with agents in the folder of {shown}, or in those above it, includes it")
-    compiled = compile_source(source)
-    if compiled.program is None:
-        print_behavior_findings([each for each in compiled.findings if each.severity is Severity.ERROR], main, encoding)
-        return None
-    print_encoding_doubts(source, main)
-    imported = import_behavior(source, compiled, "behavior")
-    component = next((about.component for about in imported.designs if about.file == file), None)
-    design = imported.project.design(component) if component else None
-    if design is None:
-        print(f"vicode: {shown} defines no option", file=sys.stderr)
-    return design
+    read = read_option(file, encoding)
+    print_findings(read.errors, to_stderr=True, encoding=read.encoding)
+    print_findings(read.doubts, to_stderr=True)
+    if read.design is None and not read.errors:
+        print(f"vicode: {file} defines no option", file=sys.stderr)
+    return read.design
 
 
 def _states(text: str | None) -> frozenset[str] | None:

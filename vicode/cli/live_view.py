@@ -5,7 +5,7 @@ from rich.live import Live
 from rich.text import Text
 from rich.tree import Tree
 
-from vicode.cli.trace_output import TraceRecord, describe_world
+from vicode.traces.descriptions import TraceRecord, describe_world
 
 _LINKS = {"root": "", "requires": "requires ", "modulates": "modulates "}
 

@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
     from vicode.runs.recorded_inputs import MissingValuesError
     from vicode.services.root_component import find_unsynced_edits
     from vicode.services.trace_replay import find_design, replay_design
-    from vicode.simulation.trace import TraceError, open_trace
+    from vicode.traces.reader import TraceError, open_trace
 
     if args.set and args.tolerance:
         raise OSError("--tolerance has no effect with --set; leave it out")

@@ -3,6 +3,7 @@
 import argparse
 import contextlib
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -15,7 +16,8 @@ from vicode.output import temporary_folder
 from vicode.services.project_loader import LoadedProject
 
 if TYPE_CHECKING:
-    from vicode.cli.trace_output import TracePrinter
+    from vicode.runs.foreground import TracePrinter
+    from vicode.traces.descriptions import TraceRecord
 
 _DEFAULT_SECONDS = 60.0
 
@@ -183,8 +185,9 @@ def _origin(opened: LoadedProject, component: str) -> list[str]:
 
 
 def _run_process(command: list[str], *, is_plain: bool, kept: tuple[int, ...] = ()) -> int:
-    from vicode.cli.trace_output import PlainTracePrinter, follow_process
+    from vicode.runs.foreground import follow_process
     from vicode.simulation.environment import fresh_environment
+    from vicode.traces.descriptions import describe_summary
 
     is_live = sys.stdout.isatty() and not is_plain
     # In a separate session, the child does not receive Ctrl-C from the terminal; it is forwarded once.
@@ -200,9 +203,34 @@ def _run_process(command: list[str], *, is_plain: bool, kept: tuple[int, ...] = 
         start_new_session=True,
         pass_fds=kept,
     )
-    watcher: TracePrinter = PlainTracePrinter()
+    printer: TracePrinter = PlainTracePrinter()
     if is_live:
         from vicode.cli.live_view import LiveTracePrinter
 
-        watcher = LiveTracePrinter()
-    return follow_process(child, watcher)
+        printer = LiveTracePrinter()
+    end = follow_process(child, printer)
+    if end.summary is not None:
+        width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+        print(describe_summary(end.summary, width), end="", flush=True)
+    if end.problem:
+        print(end.problem, file=sys.stderr)
+    return end.exit_code
+
+
+class PlainTracePrinter:
+    """Prints one line per state change."""
+
+    def show_iteration(self, _record: "TraceRecord", changes: list[str], /) -> None:
+        for change in changes:
+            print(change, flush=True)
+
+    def show_text(self, text: str) -> None:
+        """Print it to stdout."""
+        print(text, flush=True)
+
+    def show_notice(self, text: str) -> None:
+        """Print it to stderr: a program may read stdout."""
+        print(text, file=sys.stderr, flush=True)
+
+    def close(self) -> None:
+        """Do nothing."""

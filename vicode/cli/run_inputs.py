@@ -33,7 +33,9 @@ def generate_with_inputs(
     design = project.design(component)
     assert design is not None
     try:
-        prepared = prepare_run(project, design, RunConfig(), opened.design_paths, opened.open_project.folder)
+        prepared = prepare_run(
+            project, design, RunConfig(), opened.open_project.design_paths, opened.open_project.folder
+        )
     except (NotReadyError, UnsoundDesignError) as error:
         raise RunInputsError(str(error)) from error
     timed: list[TimedInput] = []

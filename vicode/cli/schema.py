@@ -11,8 +11,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    from vicode.simulation.trace import trace_schema
     from vicode.store import design_schema, project_schema
+    from vicode.traces.reader import trace_schema
 
     schema = project_schema() if args.project else trace_schema() if args.trace else design_schema()
     print(json.dumps(schema, indent=2, ensure_ascii=False))

@@ -11,7 +11,7 @@ from vicode.findings import escape_text
 
 if TYPE_CHECKING:
     from vicode.model.design import Design
-    from vicode.simulation.trace_statistics import RunHistory, StateStatistics
+    from vicode.traces.statistics import RunHistory, StateStatistics
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -62,7 +62,7 @@ def _add_export(parser: argparse.ArgumentParser) -> None:
 
 def _stats(args: argparse.Namespace) -> int:
     """Count how often states and transitions occurred, and how long states were active."""
-    from vicode.simulation.trace_statistics import sum_states
+    from vicode.traces.statistics import sum_states
 
     if args.svg and not args.design:
         raise OSError("--svg draws on the diagram of a design; give it with --design")
@@ -85,7 +85,7 @@ def _stats(args: argparse.Namespace) -> int:
 
 def _diff(args: argparse.Namespace) -> int:
     """Compare the states of two runs by time."""
-    from vicode.simulation.trace_statistics import StateStatistics, find_difference, sum_states
+    from vicode.traces.statistics import StateStatistics, find_difference, sum_states
 
     first, second = _read(args.first), _read(args.second)
     sums = sum_states([first]), sum_states([second])
@@ -108,8 +108,8 @@ def _diff(args: argparse.Namespace) -> int:
 
 def _export(args: argparse.Namespace) -> int:
     """Write a trace as MCAP, for viewers such as Foxglove."""
-    from vicode.simulation.mcap_export import export_mcap
-    from vicode.simulation.trace import TraceError, open_trace
+    from vicode.traces.mcap_export import export_mcap
+    from vicode.traces.reader import TraceError, open_trace
 
     try:
         count = export_mcap(open_trace(Path(args.trace)).iterations(), Path(args.mcap))
@@ -120,8 +120,8 @@ def _export(args: argparse.Namespace) -> int:
 
 
 def _read(path: str) -> "RunHistory":
-    from vicode.simulation.trace import TraceError, open_trace
-    from vicode.simulation.trace_statistics import read_history
+    from vicode.traces.reader import TraceError, open_trace
+    from vicode.traces.statistics import read_history
 
     try:
         return read_history(open_trace(Path(path)).iterations())
@@ -130,8 +130,8 @@ def _read(path: str) -> "RunHistory":
 
 
 def _read_runs(paths: Sequence[str]) -> "list[RunHistory]":
-    from vicode.simulation.trace import TraceError, open_runs
-    from vicode.simulation.trace_statistics import read_history
+    from vicode.traces.reader import TraceError, open_runs
+    from vicode.traces.statistics import read_history
 
     try:
         return [read_history(run.iterations()) for run in open_runs(map(Path, paths))]

@@ -82,8 +82,6 @@ def _update(
     from vicode.services.imported_behavior.updated_files import (
         find_faulty_designs,
         list_errors,
-        list_files,
-        list_paths,
         write_update,
     )
 
@@ -93,10 +91,10 @@ def _update(
     if left_out is None:
         print(f"nothing written: {count_findings(errors)}", file=sys.stderr)
         return 1
-    paths, has_comments = list_paths(opened), record is not None and record.has_comments
+    paths, has_comments = opened.design_paths, record is not None and record.has_comments
     edited = EditedProject(
         project=opened.project,
-        files=list_files(opened) if has_comments else {},
+        files=opened.texts if has_comments else {},
         paths=paths,
         known_paths=record.designs if record else {},
         left_out=left_out,

@@ -92,10 +92,9 @@ class _Condition:
 
 @dataclass(frozen=True, slots=True)
 class _Parts:
-    """What a decision shows: its place, the operands of its guard and its comparisons."""
+    """What a decision shows: its path, the operands of its guard and its comparisons."""
 
     path: DesignPath
-    source: str
     operands: tuple[tuple[int, Expr], ...]
     limits: tuple[_Condition, ...]
 
@@ -180,7 +179,7 @@ class DesignGoals:
                 goal = Goal(GoalKind.LIMIT, subject, "at the limit", number, text=words)
                 limits.append(_Condition(left, right, goal))
                 yield goal
-        self._parts[id(item)] = _Parts(path, source, tuple(operands), tuple(limits))
+        self._parts[id(item)] = _Parts(path, tuple(operands), tuple(limits))
 
 
 def _guard_outcomes(machine: Machine, guard: Guard) -> tuple[str, ...]:

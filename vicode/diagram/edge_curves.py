@@ -139,14 +139,15 @@ def _bent_curve(
         return (*_border_point(source, start, near), *near, *far, *_border_point(target, end, far))
     control = along(0.5, apex * 2)
     p, q = _border_point(source, start, control), _border_point(target, end, control)
-    return (*p, *_quadratic_to_cubic(p, control), *_quadratic_to_cubic(q, control), *q)
+    return (*p, *quadratic_to_cubic(p, control), *quadratic_to_cubic(q, control), *q)
 
 
 def _translated(at: Point, by: Point, times: float) -> Point:
     return (at[0] + by[0] * times, at[1] + by[1] * times)
 
 
-def _quadratic_to_cubic(end: Point, control: Point) -> Point:
+def quadratic_to_cubic(end: Point, control: Point) -> Point:
+    """The control point next to an end of the cubic curve that equals a quadratic one."""
     return (end[0] + 2 / 3 * (control[0] - end[0]), end[1] + 2 / 3 * (control[1] - end[1]))
 
 

@@ -5,7 +5,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from types import MappingProxyType
 
 from vicode.diagram.diagram_model import FRAME_TITLE_INSET, Diagram, DiagramEdge, DiagramNode, FrameBox, build_diagram
-from vicode.diagram.edge_curves import HEX_SLANT, point_on_curve
+from vicode.diagram.edge_curves import HEX_SLANT, point_on_curve, quadratic_to_cubic
 from vicode.diagram.edge_labels import PADDING, EdgeLabel
 from vicode.diagram.edge_routing import EdgeRoute, route_edges
 from vicode.diagram.frames import TITLE_HEIGHT
@@ -237,7 +237,7 @@ class _DiagramRenderer:
         tip = (x + across * (size.width / 2 - 22), y + down * (size.height / 2 + 1))
         end = (tip[0], tip[1] + down * 6)
         control = (tip[0], dot[1])
-        bow = [value for ends in (dot, end) for value in _quadratic_to_cubic(ends, control)]
+        bow = [value for ends in (dot, end) for value in quadratic_to_cubic(ends, control)]
         yield PathShape(commands=curve_path((*dot, *bow, *end)), stroke=pal.start, width=1.6)
         yield PathShape(
             commands=polyline_path(
@@ -318,10 +318,6 @@ def _icon(kind: GuardKind, at: Point) -> Iterable[tuple[tuple[str, tuple[float, 
     yield polylines_path(*_ICONS[kind], at=at)
     if kind is GuardKind.TIMER:
         yield circle_path((at[0] + 5, at[1]), 5)
-
-
-def _quadratic_to_cubic(end: Point, control: Point) -> Point:
-    return (end[0] + 2 / 3 * (control[0] - end[0]), end[1] + 2 / 3 * (control[1] - end[1]))
 
 
 def _arrowhead(of: CubicBezier) -> tuple[tuple[tuple[str, tuple[float, ...]], ...], Point]:

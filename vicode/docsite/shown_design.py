@@ -9,11 +9,10 @@ from vicode.model.design import Action, Call, Decision, DecisionGroup, Design, S
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ShownDesign:
-    """A design with shown names; `states` and `aliases` map them to the names in the design."""
+    """A design with shown names; `states` maps them to the names in the design."""
 
     design: Design
     states: Mapping[str, str]
-    aliases: Mapping[str, str]
 
 
 def with_shown_names(design: Design, names: SiteNames) -> ShownDesign:
@@ -25,7 +24,6 @@ def with_shown_names(design: Design, names: SiteNames) -> ShownDesign:
     return ShownDesign(
         design=design if is_same else _rename(design, states, aliases),
         states={new: old for old, new in states.items()},
-        aliases={new: old for old, new in aliases.items()},
     )
 
 

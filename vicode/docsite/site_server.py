@@ -7,17 +7,16 @@ import json
 import posixpath
 import secrets
 import threading
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from http import HTTPStatus
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from urllib.parse import parse_qs, unquote, urlsplit
 
 from vicode.docsite.not_found import not_found_page
+from vicode.local_server import NOT_FOUND, HttpAnswer, LocalServer
 from vicode.templating import read_asset
 
-HOST = "127.0.0.1"
 _INTERNAL_PREFIX = "/-/"
 _TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -64,11 +63,18 @@ class ReloadBroadcaster:
         changed = [path for path, at in self._changed.items() if at > int(number)] if is_known else ["*"]
         return json.dumps({"changed": sorted(changed), "errors": self.errors})
 
-    def wait(self, number: int) -> int | None:
-        """Wait for a new build, up to a timeout; return its number, or None after `close`."""
+    def follow(self, build: str) -> Iterator[str]:
+        """The changes since a build, now and after each new build, or after a timeout; ends after `close`."""
+        number = -1
+        while not self._is_closed:
+            yield self.message_since(build)
+            number = self._wait(number)
+
+    def _wait(self, number: int) -> int:
+        """Wait for another build than this one, up to a timeout, and return its number."""
         with self._condition:
             self._condition.wait_for(lambda: self._is_closed or self._build_number != number, timeout=_PING_S)
-            return None if self._is_closed else self._build_number
+            return self._build_number
 
 
 class SiteServer:
@@ -80,20 +86,13 @@ class SiteServer:
         Raises:
             OSError: The port is taken.
         """
-        self._broadcaster = broadcaster
-        self._server = _HttpServer(folder.resolve(), broadcaster, port)
-        self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
-        self._thread.start()
-
-    @property
-    def url(self) -> str:
-        return f"http://{HOST}:{self._server.server_port}/"
+        self._folder, self._broadcaster = folder.resolve(), broadcaster
+        self._server = LocalServer(self._answer, port)
+        self.url = self._server.url
 
     def close(self) -> None:
         self._broadcaster.close()
-        self._server.shutdown()
-        self._server.server_close()
-        self._thread.join()
+        self._server.close()
 
     def __enter__(self) -> "SiteServer":
         return self
@@ -101,88 +100,35 @@ class SiteServer:
     def __exit__(self, *_exception: object) -> None:
         self.close()
 
+    def _answer(self, request: str) -> HttpAnswer | Iterator[str]:
+        """A file of the site, or the event stream."""
+        address = urlsplit(request)
+        if address.path == f"{_INTERNAL_PREFIX}events":
+            return self._broadcaster.follow(parse_qs(address.query).get("since", [""])[0])
+        if not address.path.startswith(_INTERNAL_PREFIX):
+            return self._read_file(unquote(address.path))
+        name = address.path.removeprefix(_INTERNAL_PREFIX)
+        if name not in ("live_reload.js", "live_reload.css"):
+            return NOT_FOUND
+        return HttpAnswer(content=read_asset(f"docsite/{name}").encode(), kind=_TYPES[Path(name).suffix])
+
+    def _read_file(self, path: str) -> HttpAnswer:
+        content = _read_site_file(self._folder, path)
+        kind = _TYPES.get(posixpath.splitext(path)[1], _TYPES[".html"])
+        if content is not None and kind != _TYPES[".html"]:
+            return HttpAnswer(content=content, kind=kind)
+        html = not_found_page("/") if content is None else content.decode("utf-8", "replace")
+        return HttpAnswer(
+            content=add_reload_script(html, self._broadcaster.build_id).encode(),
+            kind=_TYPES[".html"],
+            status=HTTPStatus.NOT_FOUND if content is None else HTTPStatus.OK,
+        )
+
 
 def add_reload_script(html: str, build_id: str) -> str:
     style = f'<link rel="stylesheet" href="{_INTERNAL_PREFIX}live_reload.css">'
     script = f'<script src="{_INTERNAL_PREFIX}live_reload.js" data-build="{build_id}" defer></script>'
     return html.replace("</head>", f"{style}\n{script}\n</head>", 1)
-
-
-class _HttpServer(ThreadingHTTPServer):
-    daemon_threads = True
-
-    def __init__(self, folder: Path, news: ReloadBroadcaster, port: int) -> None:
-        self.folder, self.broadcaster = folder, news
-        super().__init__((HOST, port), _RequestHandler)
-
-
-class _RequestHandler(BaseHTTPRequestHandler):
-    protocol_version = "HTTP/1.1"
-    server: _HttpServer
-
-    def do_GET(self) -> None:
-        """Send a file of the site, or the event stream."""
-        address = urlsplit(self.path)
-        if not self._has_local_host():
-            self._send(HTTPStatus.FORBIDDEN, b"This server answers to 127.0.0.1 and localhost alone.\n", "text/plain")
-        elif address.path == f"{_INTERNAL_PREFIX}events":
-            self._send_events(parse_qs(address.query).get("since", [""])[0])
-        elif address.path.startswith(_INTERNAL_PREFIX):
-            self._send_internal(address.path.removeprefix(_INTERNAL_PREFIX))
-        else:
-            self._send_file(unquote(address.path))
-
-    def _has_local_host(self) -> bool:
-        """Check the host name against DNS rebinding: a foreign page sends its own name as the host."""
-        port = self.server.server_port
-        return self.headers.get("Host") in (f"{HOST}:{port}", f"localhost:{port}")
-
-    def _send_internal(self, name: str) -> None:
-        if name not in ("live_reload.js", "live_reload.css"):
-            self._send(HTTPStatus.NOT_FOUND, b"", "text/plain")
-            return
-        self._send(HTTPStatus.OK, read_asset(f"docsite/{name}").encode(), _TYPES[Path(name).suffix])
-
-    def _send_file(self, path: str) -> None:
-        content = _read_site_file(self.server.folder, path)
-        status = HTTPStatus.NOT_FOUND if content is None else HTTPStatus.OK
-        kind = _TYPES.get(posixpath.splitext(path)[1], _TYPES[".html"])
-        if content is None or kind == _TYPES[".html"]:
-            html = not_found_page("/") if content is None else content.decode("utf-8", "replace")
-            content, kind = add_reload_script(html, self.server.broadcaster.build_id).encode(), _TYPES[".html"]
-        self._send(status, content, kind)
-
-    def _send_events(self, build: str) -> None:
-        self.send_response(HTTPStatus.OK)
-        self.send_header("Content-Type", "text/event-stream")
-        self.send_header("Cache-Control", "no-store")
-        self.send_header("Connection", "close")
-        self.end_headers()
-        self.close_connection = True
-        number: int | None = None
-        try:
-            while True:
-                text = f"data: {self.server.broadcaster.message_since(build)}\n\n"
-                self.wfile.write(text.encode())
-                self.wfile.flush()
-                number = self.server.broadcaster.wait(-1 if number is None else number)
-                if number is None:
-                    return
-        except OSError:
-            # The browser disconnected.
-            return
-
-    def _send(self, status: HTTPStatus, content: bytes, kind: str) -> None:
-        self.send_response(status)
-        self.send_header("Content-Type", kind)
-        self.send_header("Content-Length", str(len(content)))
-        self.send_header("Cache-Control", "no-store")
-        self.send_header("X-Content-Type-Options", "nosniff")
-        self.end_headers()
-        self.wfile.write(content)
-
-    def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - as the library has it
-        """Suppress the request log."""
 
 
 def _read_site_file(folder: Path, path: str) -> bytes | None:

@@ -7,8 +7,8 @@ from functools import partial
 from vicode.docsite.build_cache import BuildCache, compute_digest
 from vicode.docsite.page_inputs import strip_to_interfaces
 from vicode.generators.plan import UnsoundDesignError
-from vicode.generators.plan.expressions import typed_tree
-from vicode.generators.xabsl.expressions import XabslExpressionBuilder
+from vicode.generators.plan.typed_expressions import typed_tree
+from vicode.generators.xabsl.expression_builder import XabslExpressionBuilder
 from vicode.generators.xabsl.name_map import XabslNameMap
 from vicode.model.design import (
     COMMON,

@@ -11,7 +11,6 @@ from vicode.simulated_robot.faults import Fault
 from vicode.simulated_robot.session import BridgeAddress, RobotTrack, SimulationSession
 from vicode.simulated_robot.world_map import WorldMap
 
-Advance = Callable[[float], None]
 """Receives simulated seconds as they pass."""
 
 _AT_ONCE = 6

@@ -7,7 +7,7 @@ from pathlib import Path
 from vicode.findings import DesignPath
 from vicode.importers.comments import Anchor, CommentPlaces, PlacedComment, place_comments, place_header
 from vicode.importers.declarations import ImportedDeclarations, import_declarations
-from vicode.importers.names import DesignNames, xabsl_name_or_empty
+from vicode.importers.design_names import DesignNames, xabsl_name_or_empty
 from vicode.importers.notes import ImportNote, TokenNote, list_notes
 from vicode.importers.options import OptionImporter
 from vicode.importers.robot_class import render_robot_class

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 
 from vicode.findings import DesignPath
 from vicode.importers.comments import PlacedComment
-from vicode.importers.names import DesignNames, to_design_number, xabsl_name_or_empty
+from vicode.importers.design_names import DesignNames, to_design_number, xabsl_name_or_empty
 from vicode.model.design import Declaration
 from vicode.model.project import INTERNAL, WORLD, Enumeration, Interface
 from vicode.model.xabsl.names import symbol_name

@@ -16,9 +16,9 @@ from vicode.importers.comments import (
     plain_text,
 )
 from vicode.importers.declarations import ImportedDeclarations, convert_declaration
-from vicode.importers.expressions import ExpressionTranslator
-from vicode.importers.names import DesignNames, xabsl_name_or_empty
+from vicode.importers.design_names import DesignNames, xabsl_name_or_empty
 from vicode.importers.notes import TokenNote
+from vicode.importers.xabsl_expressions import ExpressionTranslator
 from vicode.model.design import (
     Action,
     Assign,

@@ -66,7 +66,6 @@ class LocatedCode:
     role: str
     code: Code
     state: str = ""
-    id: str = ""
 
 
 def iter_decisions(design: Design) -> Iterator[LocatedDecision]:
@@ -167,14 +166,12 @@ def iter_code(design: Design) -> Iterator[LocatedCode]:
     for placed in iter_actions(design):
         if isinstance(placed.action, RunCode):
             path = (*placed.path, "code")
-            yield LocatedCode(
-                path=path, role="action", code=placed.action.code, state=placed.state, id=placed.action.id
-            )
+            yield LocatedCode(path=path, role="action", code=placed.action.code, state=placed.state)
     for located in iter_decisions(design):
         code = located.decision.guard.code
         if code is not None:
             path = (*located.path, "code")
-            yield LocatedCode(path=path, role="predicate", code=code, state=located.source, id=located.decision.id)
+            yield LocatedCode(path=path, role="predicate", code=code, state=located.source)
 
 
 def has_code(state: State) -> bool:

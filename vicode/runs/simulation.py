@@ -135,11 +135,6 @@ class Simulation:
         return failed or (self.status is RunStatus.ENDED and not self.is_past)
 
     @property
-    def time_s(self) -> float:
-        """The simulated time of the shown iteration."""
-        return self.recording.times_ns[self.cursor - 1] / 1e9 if self.cursor else 0.0
-
-    @property
     def inputs(self) -> dict[str, dict[str, Any]]:
         """The inputs at the cursor, including those set for the next iteration."""
         known = self.recording.inputs_at(self.cursor)

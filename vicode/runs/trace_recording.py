@@ -10,11 +10,11 @@ from itertools import islice
 from pathlib import Path
 
 from vicode.model.design import Design
+from vicode.runs.design_trace import TransitionKeys, require_root
 from vicode.runs.recording import MAX_ITERATIONS, Recording
-from vicode.runs.traces import TransitionKeys, require_root
 from vicode.simulation import IterationResult
-from vicode.simulation.trace import TraceError, open_trace
-from vicode.simulation.trace_index import TraceIndex, load_index
+from vicode.traces.index import TraceIndex, load_index
+from vicode.traces.reader import TraceError, open_trace
 
 _SUFFIXES = (".jsonl", ".trace")
 _SEGMENT = re.compile(r"\.\d+\.\d{6,}\.(?=[^.]+$)")

@@ -17,7 +17,7 @@ from vicode.runs.setup import NotReadyError
 from vicode.runs.trace_recording import find_traces
 from vicode.runs.value_replay import ValueEffect, bridge_gaps, concerns, prepare_value_replay, replay_values
 from vicode.simulation import IterationResult
-from vicode.simulation.trace import TraceError, open_trace
+from vicode.traces.reader import TraceError, open_trace
 
 MAX_TRACES = 10
 LIVE = "This robot, so far"

@@ -6,7 +6,7 @@ docstrings name the rules.
 """
 
 from vicode.semantics.component_step import ComponentStep, Outcome
-from vicode.semantics.expressions import evaluate
+from vicode.semantics.evaluation import evaluate
 from vicode.semantics.interpreter import Interpreter
 from vicode.semantics.machine import Machine, NotInterpretableError, build_machines
 from vicode.semantics.memory import RobotMemory

@@ -24,7 +24,7 @@ from vicode.model.design import (
 )
 from vicode.model.expressions import BOOL, FLOAT, TEAM_SIZE
 from vicode.model.portable_code import PortableAssign, PortableCall, PortableIf, PortableReturn, PortableStatement
-from vicode.semantics.expressions import GivenArguments, evaluate
+from vicode.semantics.evaluation import GivenArguments, evaluate
 from vicode.semantics.machine import Machine
 from vicode.semantics.memory import Arguments, ComponentMemory, RobotMemory
 from vicode.semantics.values import Value, stored

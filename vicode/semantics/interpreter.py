@@ -47,7 +47,6 @@ class Interpreter:
             team=TeamMemory(priority=priority, ticks=team_ticks),
         )
         self._functions: dict[tuple[str, str], InputFunction] = {}
-        self._active: list[str] = []
         self._tree: list[dict[str, Any]] = []
 
     def set_input(self, component: str, name: str, value: Value | InputFunction) -> None:

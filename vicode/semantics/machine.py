@@ -7,7 +7,7 @@ from vicode.model.design import Action, Call, Code, Decision, DecisionGroup, Dec
 from vicode.model.expressions import Expr, Scope, build_scope, is_type_only, parse_expression
 from vicode.model.portable_code import NotPortable, PortableStatement, Role, parse_portable
 from vicode.model.project import INTERNAL, MISSING, REMOTE, Interface, Project
-from vicode.semantics.expressions import evaluate
+from vicode.semantics.evaluation import evaluate
 from vicode.semantics.values import Value, stored, zero
 
 _NS_PER_UNIT = {"": 1e9, "s": 1e9, "ms": 1e6}

@@ -7,8 +7,6 @@ from vicode.model.names import MAX_NAME_LENGTH, name_from_text
 _MAX_QUOTED_LENGTH = 40
 
 NAME_MISSING = "enter a name"
-NAME_UNCHANGED = "the name is unchanged"
-PROJECT_FILE_MISSING = "there is no project.yaml"
 PLAN_OUTDATED = "a file has changed: check the list again"
 
 
@@ -57,10 +55,6 @@ def changed_on_disk(file: str) -> str:
     return f"another program has just changed {file}: check it and try again"
 
 
-def changed_or_unreadable(file: str) -> str:
-    return f"another program has just changed {file}, or it cannot be read: check it and try again"
-
-
 def file_exists(file: str) -> str:
     return f"there is already a file {file}"
 
@@ -69,20 +63,8 @@ def no_design(component: str) -> str:
     return f"there is no design of {component}"
 
 
-def symbol_gone(symbol: str) -> str:
-    return f"{symbol} no longer exists"
-
-
 def name_used_in_code(component: str, expression: str) -> str:
     return f"the code of {component} already uses {expression} for something else"
-
-
-def class_keeps_name(implementation: str) -> str:
-    return f"The hand-written class {implementation} keeps its name."
-
-
-def rename_in_class(implementation: str) -> str:
-    return f"Rename it in the hand-written class {implementation}, too."
 
 
 def component_summary(old: str, new: str) -> str:
@@ -95,10 +77,6 @@ def file_summary(old: str, new: str) -> str:
 
 def user_summary(component: str, used: str, aliases: Collection[str]) -> str:
     return f"{component} uses {used} as {', '.join(aliases)}" if aliases else f"{component} refers to {used}"
-
-
-def agent_summary(agents: Collection[str], root: str) -> str:
-    return f"agent {', '.join(agents)} starts with {root}"
 
 
 def line_summary(what: str, count: int) -> str:
@@ -115,10 +93,6 @@ def nothing_generated(reason: str, languages: Collection[str] = ()) -> str:
 
 def generated(files: Sequence[str], folder: object) -> str:
     return f"Generated {', '.join(files[:4])}{', …' if len(files) > 4 else ''} in {folder}"
-
-
-def up_to_date(folder: str) -> str:
-    return f"Generated code in {folder} is up to date"
 
 
 def _example(name: str) -> str:

@@ -46,11 +46,6 @@ class LoadedProject:
         """The errors that prevent generating code in a language."""
         return tuple(each for each in self.findings if each.severity is Severity.ERROR and each.applies_to(language))
 
-    @property
-    def design_paths(self) -> dict[str, str]:
-        """The design files by component, relative to the project's folder."""
-        return self.open_project.design_paths
-
 
 def load_projects(
     paths: Sequence[str], profile: str = "", *, with_warnings: bool = False, deep: bool = False

@@ -26,7 +26,7 @@ def find_unsynced_edits(opened: LoadedProject, component: str, language: str = "
         project=opened.open_project.project,
         folder=folder,
         generate=lambda project: generate(
-            project, components=[component], languages=[language], sources=opened.design_paths
+            project, components=[component], languages=[language], sources=opened.open_project.design_paths
         ),
         may_delete=False,
         history=GeneratedHistory(folder=folder, project_folder=opened.open_project.folder),

@@ -17,6 +17,7 @@ from vicode.store.projects import (
     looks_like_design,
     open_project,
     read_python_module,
+    relative_design_paths,
 )
 from vicode.store.source_map import SourceMap
 from vicode.store.unread import UnreadContentError
@@ -62,6 +63,7 @@ __all__ = [
     "read_design",
     "read_project_file",
     "read_python_module",
+    "relative_design_paths",
     "replace_text",
     "resolve_conflicts",
     "save_design",

@@ -58,23 +58,28 @@ class OpenProject:
     is_project_file_broken: bool = False
 
     @property
-    def project_file(self) -> Path | None:
-        return self.files.get("")
-
-    @property
     def design_paths(self) -> dict[str, str]:
-        """The design files by component, relative to the folder of the project."""
-        folder = self.folder.resolve()
-        files = {name: path.resolve() for name, path in self.files.items() if name}
-        return {
-            name: path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
-            for name, path in files.items()
-        }
+        return relative_design_paths(self.files, self.folder)
 
     def find_component(self, path: Path) -> str | None:
         """The component with this design file, None if the project has no such file."""
         resolved = path.resolve()
         return next((name for name, file in self.files.items() if name and file.resolve() == resolved), None)
+
+
+def relative_design_paths(files: Mapping[str, Path], folder: Path) -> dict[str, str]:
+    """The paths of designs by component, relative to the folder of their project; the name of a file that is outside.
+
+    Args:
+        files: Files by component, with "" for project.yaml.
+        folder: The folder of the project.
+    """
+    folder = folder.resolve()
+    resolved = {name: path.resolve() for name, path in files.items() if name}
+    return {
+        name: path.relative_to(folder).as_posix() if path.is_relative_to(folder) else path.name
+        for name, path in resolved.items()
+    }
 
 
 def open_project(path: Path | str) -> OpenProject:

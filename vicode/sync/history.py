@@ -94,7 +94,6 @@ def _check_out(repository: Repository, revision: str, path: str, folder: Path) -
 
 def _generate_sound(opened: OpenProject) -> Mapping[str, str]:
     """The generated texts by path; empty if a design has errors."""
-    sources = {name: file.relative_to(opened.folder).as_posix() for name, file in opened.files.items() if name}
     with contextlib.suppress(UnsoundDesignError):
-        return {file.path: file.text for file in generate(opened.project, standalone=True, sources=sources)}
+        return {file.path: file.text for file in generate(opened.project, standalone=True, sources=opened.design_paths)}
     return {}

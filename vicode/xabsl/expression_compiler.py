@@ -15,7 +15,6 @@ from vicode.xabsl.ranges import check_range
 from vicode.xabsl.symbol_collector import CompileReport
 from vicode.xabsl.symbol_table import BOOLEAN, DECIMAL, ENUM, KIND_NAMES, Definition, SymbolTable
 
-_NOTHING: Mapping[str, Definition] = {}
 _RELATIONAL = {"<": "<", "<=": "l", ">": ">", ">=": "g"}
 _ARITHMETIC = {"+": "+", "-": "-", "*": "*", "/": "d", "%": "%"}
 _LOGICAL = {"&&": "&", "||": "|"}
@@ -40,7 +39,6 @@ class ExpressionCompiler:
     report: CompileReport
     tokens: Tokens
     parameters: Mapping[str, Definition] = field(default_factory=dict)
-    reads_conflict: bool = False
 
     def compile(self, expression: tree.ExpressionNode, kind: str, enum: str = "") -> Term:
         """Compile an expression where a value of this kind is expected."""

@@ -76,9 +76,6 @@ class TokenFormatter:
         self._count += 1
         self._is_block_start = False
 
-    def has_comments(self) -> bool:
-        return bool(self._comments.get(self._count))
-
     def _start_line(self, text: str) -> None:
         if self._count in self._after_blank_lines and self._lines and self._lines[-1] and not self._is_block_start:
             self._lines.append("")

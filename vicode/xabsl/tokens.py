@@ -7,7 +7,6 @@ from vicode.languages import LANGUAGES
 KEYWORDS = LANGUAGES["xabsl"].keywords
 
 OPERATORS = ("<=", ">=", "==", "!=", "&&", "||")
-PUNCTUATION = "%!<>{}();|+-*/=,?:"
 
 NAME, NUMBER, STRING, RANGE = "name", "number", "string", "range"
 DOC, HEADER, END = "description", "first comment", "end of file"

@@ -151,16 +151,6 @@ def test_overwriting_keeps_independent_changes(workspace: Workspace) -> None:
     assert "  mine\n" in document.file.read_text()
 
 
-def test_undo_of_a_reload_restores_unsaved_edits(workspace: Workspace) -> None:
-    document = opened(workspace, "Player")
-    with_doc(document, "mine")
-    write_doc(document, "theirs")
-    assert workspace.reload(document) == ""
-    assert (document.design.doc, document.is_saved) == ("theirs", True)
-    document.undo()
-    assert (document.design.doc, document.is_saved) == ("mine", False)
-
-
 def test_an_unreadable_file_is_backed_up_before_overwriting(workspace: Workspace) -> None:
     document = opened(workspace, "Player")
     with_doc(document, "mine")
@@ -170,13 +160,6 @@ def test_an_unreadable_file_is_backed_up_before_overwriting(workspace: Workspace
     workspace.save(document, overwrite=True)
     assert document.file.with_name("player.yaml.edited").read_text() == "<<<<<<< HEAD\n"
     assert "mine" in document.file.read_text()
-
-
-def test_a_file_without_a_design_is_not_loaded(workspace: Workspace) -> None:
-    document = opened(workspace, "Player")
-    document.file.write_text("nothing: here\n")
-    assert "no longer contains a design" in workspace.reload(document)
-    assert document.design.states
 
 
 def test_a_new_design_is_written_at_once_and_replaces_no_file(workspace: Workspace) -> None:
@@ -299,7 +282,6 @@ def test_a_design_with_a_missing_file_is_kept(workspace: Workspace) -> None:
     document.file.unlink()
     workspace.sync_from_disk()
     assert workspace.open_document("Turn") is document
-    assert "no longer contains a design" in workspace.reload(document)
     with pytest.raises(DiskConflictError):
         workspace.save(document)
     workspace.save(document, overwrite=True)

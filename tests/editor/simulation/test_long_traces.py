@@ -11,9 +11,9 @@ from tests.editor.simulation.plots import draw_plot
 from vicode.bica.observer import TRACE_HEADER
 from vicode.editor.view.plot import WIDTH, state_runs
 from vicode.runs import Simulation
+from vicode.runs.design_trace import read_iterations
 from vicode.runs.trace_recording import find_traces, read_beginning, read_recording
-from vicode.runs.traces import read_iterations
-from vicode.simulation.trace import TraceError
+from vicode.traces.reader import TraceError
 
 
 @pytest.fixture

@@ -20,8 +20,8 @@ from vicode.editor.view import ItemRef
 from vicode.model.design import Design, State
 from vicode.model.project import Project
 from vicode.runs import Recording, Simulation, prepare_view
+from vicode.runs.design_trace import focus_iteration
 from vicode.runs.guard_values import evaluate_guards
-from vicode.runs.traces import focus_iteration
 from vicode.services.robot_version import find_other_versions
 from vicode.simulation import IterationResult
 from vicode.store import open_project

@@ -12,11 +12,11 @@ from vicode.bica.observer import TRACE_HEADER
 from vicode.editor.session.simulation.trace_overlays import measure_heat
 from vicode.model.design import Design
 from vicode.runs import Recording, RunConfig, Simulation, prepare_run
+from vicode.runs.design_trace import input_script, read_iterations
 from vicode.runs.guard_values import evaluate_guards, latest_steps
-from vicode.runs.traces import input_script, read_iterations
 from vicode.simulation import IterationResult
-from vicode.simulation.trace import TraceError
 from vicode.store import open_project
+from vicode.traces.reader import TraceError
 
 
 @pytest.fixture

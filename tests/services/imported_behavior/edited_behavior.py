@@ -15,7 +15,6 @@ from vicode.findings import Severity
 from vicode.importers import ImportResult
 from vicode.model.project import Project
 from vicode.services.imported_behavior.behavior_update import EditedProject, UpdateProblem, update_behavior
-from vicode.services.imported_behavior.comment_places import DesignFile
 from vicode.store import add_comments, read_design, read_project_file, save_design, save_project_file
 
 ROOT = Path("/behavior")
@@ -43,8 +42,7 @@ class EditedBehavior:
         def read(path: Path) -> str:
             return self.texts[path.relative_to(ROOT).as_posix()]
 
-        files = {name: DesignFile(path=name, text=text) for name, text in self.files.items()}
-        edited = EditedProject(project=self.project, files=files, paths=self.paths, known_paths=self.known_paths)
+        edited = EditedProject(project=self.project, files=self.files, paths=self.paths, known_paths=self.known_paths)
         changed, problems = update_behavior(load_texts(dict(self.texts)), edited, read)
         new = {path.relative_to(ROOT).as_posix(): text for path, text in changed.items()}
         return {name: text for name, text in {**self.texts, **new}.items() if text is not None}, problems

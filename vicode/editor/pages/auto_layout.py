@@ -8,7 +8,6 @@ from nicegui.events import ClickEventArguments, Handler
 
 from vicode.diagram.layered_layout import NodeLayout
 from vicode.diagram.layout import LayoutMethod, LayoutService
-from vicode.editor.pages import texts
 from vicode.editor.pages.canvas_controller import CanvasController
 from vicode.editor.pages.shortcuts import ESCAPE_ATTRIBUTE
 from vicode.editor.panels.commands.command import Command, MenuGroup
@@ -95,7 +94,7 @@ class AutoLayout:
             return
         self.bar.set_visibility(False)
         if self.context.document.rev != rev:
-            self.context.show_toast(texts.LAYOUT_OUTDATED, "info")
+            self.context.show_toast("The design changed. Run the layout again.", "info")
             return
         self.proposal = LayoutProposal(layout=layout.layout, only=only)
         self.canvas_controller.canvas.show_preview(list(_node_positions(design, layout.layout, only)))
@@ -104,7 +103,7 @@ class AutoLayout:
     def _show_progress(self, what: str, limit_s: float) -> None:
         self.bar.clear()
         with self.bar:
-            ui.label(texts.layout_running(what, limit_s)).classes("layout-words").props('role="status"')
+            ui.label(f"Laying out {what} ({limit_s:g} s at most)").classes("layout-words").props('role="status"')
             ui.element("div").classes("layout-progress").style(f"--limit: {limit_s:g}s")
             self._cancel_button(self.cancel)
         self.bar.set_visibility(True)

@@ -5,7 +5,6 @@ import time
 
 from nicegui import app, run
 
-from vicode.editor.pages import texts
 from vicode.editor.panels.code.code_choices import ask_to_resolve_code
 from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.texts import recovered
@@ -79,7 +78,7 @@ class AutosaveControls:
         elif shared.outside.waiting:
             ask_to_resolve_code(self.context)
         else:
-            self.context.show_toast(texts.NO_CONFLICT, "info")
+            self.context.show_toast("No conflict to resolve", "info")
 
     def refresh(self) -> None:
         """Show new notices: merges from disk, jumps in the history."""

@@ -5,7 +5,6 @@ from pathlib import Path
 from nicegui import ui
 
 from vicode.editor.code import CodeAssist
-from vicode.editor.pages import texts
 from vicode.editor.pages.delivery import open_inbox
 from vicode.editor.pages.navigation import HOME
 from vicode.editor.pages.shortcuts import register_shortcuts
@@ -64,10 +63,10 @@ class BrokenPage:
             write_fixed_text(self.file, text, self.disk_text)
             self.workspace.sync_from_disk()
         except FileModifiedError:
-            show_toast(texts.file_changed(self.name), "warning")
+            show_toast(f"{self.name} was changed by another program. Reload the page.", "warning")
             return
         except OSError as error:
-            show_toast(texts.not_saved(error.strerror), "negative")
+            show_toast(f"Could not save: {error.strerror}", "negative")
             return
         self.disk_text = text
         parsed = self._check()
@@ -77,18 +76,18 @@ class BrokenPage:
         elif component and self.workspace.files.get(component, Path()).resolve() == self.file.resolve():
             ui.navigate.to(design_url(self.workspace.key, component))
         else:
-            show_toast(texts.SAVED_WITH_ERRORS, "warning")
+            show_toast("Saved, but the file cannot be opened as a design yet", "warning")
 
     def _open(self) -> None:
         try:
             self.disk_text = read_file_text(self.file)
         except UnicodeDecodeError as error:
             self.editor.disable()
-            self.note.set_text(texts.not_utf8(error.start))
+            self.note.set_text(f"Not valid UTF-8 (byte {error.start}). Convert the file to UTF-8.")
             return
         except OSError as error:
             self.editor.disable()
-            self.note.set_text(texts.unreadable(error.strerror))
+            self.note.set_text(f"Cannot read the file: {error.strerror}")
             return
         self.editor.set_value(self.disk_text)
         self._check()
@@ -103,7 +102,7 @@ class BrokenPage:
         parsed = parse_text(text, self.name)
         self.code_assist.show_marks(text, parsed.marks)
         count = len(parsed.findings)
-        self.note.set_text(pluralize(count, "error") if count else texts.NO_ERRORS_IN_FILE)
+        self.note.set_text(pluralize(count, "error") if count else "No errors. Save to open the design.")
         self.messages.clear()
         with self.messages:
             for mark in parsed.marks[:50]:

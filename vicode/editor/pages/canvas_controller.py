@@ -128,7 +128,10 @@ class CanvasController:
             case UseGesture():
                 self._use(gesture)
             case StateRenamedGesture():
-                self.context.show_toast(texts.renamed_while_typing(gesture.old, gesture.new), "info")
+                self.context.show_toast(
+                    f"{gesture.old} was renamed to {gesture.new} by another user; your text will rename it again",
+                    "info",
+                )
             case PreviewGesture():
                 self.on_preview(accepted=gesture.accepted)
             case _:
@@ -169,7 +172,7 @@ class CanvasController:
 
     def _edit(self, gesture: RequestedEdit, rev: int) -> None:
         rebased = self._rebase(gesture, rev)
-        result = self.apply(rebased) if rebased else EditResult(error=texts.ITEM_MISSING)
+        result = self.apply(rebased) if rebased else EditResult(error="This item no longer exists")
         self.context.is_opening = isinstance(gesture, NoteGesture) and not result.error
         self._show_result(result)
 
@@ -199,7 +202,7 @@ class CanvasController:
         )
         component = next(dropped, None)
         if component is None:
-            self.context.show_toast(texts.ONLY_PROJECT_COMPONENTS, "warning")
+            self.context.show_toast("Only other components of this project can be added", "warning")
         else:
             self._add_use(component, at)
 
@@ -210,7 +213,7 @@ class CanvasController:
             self.context.edit(f"add component {component}", lambda design: add_use(design, component, at))
             alias = self.context.design.uses[-1].alias
         else:
-            self.context.show_toast(texts.already_used(component, alias), "info")
+            self.context.show_toast(f"{component} is already used as {alias}", "info")
         self.context.select(ItemRef(kind="components", id=alias))
         self.canvas.focus()
 

@@ -11,7 +11,6 @@ from vicode.diagram.dependency_graph import dependency_diagram
 from vicode.diagram.palettes import css_variable_palette
 from vicode.diagram.render import render_diagram
 from vicode.diagram.svg import write_svg
-from vicode.editor.pages import texts
 from vicode.editor.pages.delivery import open_inbox
 from vicode.editor.pages.shortcuts import register_shortcuts
 from vicode.editor.pages.theme import Theme, apply_theme
@@ -135,18 +134,22 @@ class HomePage:
 
     def _empty(self) -> None:
         with ui.column().classes("home-empty"):
-            ui.label(texts.NO_DESIGNS_TITLE).classes("home-title").props('role="heading" aria-level="1"')
-            ui.label(texts.NO_DESIGNS_HELP).classes("empty")
+            ui.label("No designs yet").classes("home-title").props('role="heading" aria-level="1"')
+            ui.label("A design is a state machine in a YAML file.").classes("empty")
             with ui.row():
-                primary_button(texts.CREATE_FIRST_DESIGN, self._create_first_design, icon="add")
-                sample = ui.button(texts.OPEN_SAMPLE, icon="sports_soccer", on_click=self._open_sample, color=None)
-                sample.props("outline no-caps").tooltip(texts.SAMPLE_HELP)
+                primary_button("Create your first design", self._create_first_design, icon="add")
+                sample = ui.button(
+                    "Open the sample: a soccer player", icon="sports_soccer", on_click=self._open_sample, color=None
+                )
+                sample.props("outline no-caps").tooltip(
+                    "A soccer player with a simulated field, copied to the folder 'forward'."
+                )
 
     def _open_sample(self) -> None:
         try:
             workspace = self.library.add_sample()
         except OSError as error:
-            show_toast(texts.sample_failed(error_reason(error)), "negative")
+            show_toast(f"The sample was not copied to the folder 'forward': {error_reason(error)}", "negative")
             return
         ui.navigate.to(design_url(workspace.key, workspace.project.agents[0].root))
 
@@ -189,7 +192,9 @@ class HomePage:
                         design_card(workspace, card, self.dialogs)
 
     def _nothing(self, has_designs: bool) -> None:
-        text = texts.no_matching_designs(self.search_text) if has_designs else texts.NO_DESIGNS_IN_PROJECT
+        text = (
+            f"No designs match “{self.search_text}”" if has_designs else "No designs yet. Create one from a template."
+        )
         ui.label(text).classes("empty")
 
     def _uses(self, workspace: Workspace) -> None:

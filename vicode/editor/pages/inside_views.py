@@ -5,7 +5,6 @@ from typing import Any
 
 from vicode.editor.canvas import Canvas
 from vicode.editor.canvas.protocol import InsideGesture
-from vicode.editor.pages import texts
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.view import ItemRef, make_scene
 from vicode.model.design import Call, Design
@@ -23,7 +22,7 @@ class InsideViews:
         item = gesture.item
         designs = self._designs(item) if gesture.shown else {}
         if gesture.shown and not designs:
-            self.context.show_toast(texts.nothing_inside(item.id), "info")
+            self.context.show_toast(f"No component that {item.id} uses has a design", "info")
         self._send(item, designs)
 
     def refresh(self) -> None:

@@ -20,10 +20,10 @@ class LineCommand:
         design = self._context.design
         line = parse_transition_line(text, design.time_unit)
         if isinstance(line, str):
-            return TypedCommand(label=texts.LINE_UNREADABLE, detail=line)
+            return TypedCommand(label="This line cannot be read", detail=line)
         states, transitions = line.missing_states(design), line.missing_transitions(design)
         if not states and not transitions:
-            return TypedCommand(label=texts.LINE_EXISTS, detail=text.strip())
+            return TypedCommand(label="These states and transitions exist already", detail=text.strip())
         label = texts.create_line(states, len(transitions))
         return TypedCommand(label=label, detail=text.strip(), handler=lambda: self._create(line))
 

@@ -5,7 +5,6 @@ from collections.abc import Callable, Sequence
 
 from nicegui import ui
 
-from vicode.editor.pages import texts
 from vicode.editor.pages.canvas_controller import CanvasController
 from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.designs.open_design import open_design
@@ -68,7 +67,7 @@ class Navigator:
     def open_component(self, component: str) -> None:
         workspace, here = self._context.workspace, self._context.design.component
         if workspace.project.design(component) is None:
-            self._context.show_toast(texts.hand_written_component(component), "info")
+            self._context.show_toast(f"{component} is hand-written and has no design", "info")
         else:
             with self._context.client:
                 open_design(design_url(workspace.key, component, trail=extend_trail(self._trail, here)))

@@ -6,7 +6,6 @@ from typing import TypeVar
 
 from nicegui import run
 
-from vicode.editor.pages import texts
 from vicode.editor.pages.canvas_controller import CanvasController
 from vicode.editor.pages.theme import Theme
 from vicode.editor.panels.commands.command import Command, MenuGroup
@@ -126,6 +125,6 @@ class PageCommands:
             ask_to_resolve_conflict(context)
             return None
         except OSError as error:
-            context.show_toast(texts.not_generated(error), "negative")
+            context.show_toast(f"Code generation failed: {error}", "negative")
             return None
         return None if self.canvas_controller.canvas.is_deleted else result

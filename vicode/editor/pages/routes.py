@@ -6,7 +6,6 @@ from nicegui import ui
 from nicegui.translations import translations
 from starlette.requests import Request
 
-from vicode.editor.pages import texts
 from vicode.editor.pages.autosave_ui import run_autosave
 from vicode.editor.pages.design_page import DesignPage, open_design_at
 from vicode.editor.pages.docs_preview import serve_docs_preview
@@ -18,16 +17,21 @@ from vicode.editor.session.recovery.autosave import AutosaveService
 from vicode.editor.session.search.search_index import SearchIndex
 from vicode.editor.view.page_urls import DesignAddress, broken_file_url, parse_selection
 
+_CONNECTION_TEXTS = {
+    "connection_lost": "No connection to the editor",
+    "trying_to_reconnect": (
+        "Trying to reconnect. The editor keeps what you changed so far, saved or not, also if it is restarted. "
+        "What you change now may be lost."
+    ),
+}
+
 
 def register_pages(library: Library, autosave: AutosaveService | None = None, *, tour: bool = False) -> None:
     """Register the pages: `/` is the home page, `/design/PROJECT/COMPONENT` edits a design."""
     index = SearchIndex(library)
     if autosave is not None:
         run_autosave(autosave)
-
-    translations["en-US"].update(
-        connection_lost=texts.CONNECTION_LOST, trying_to_reconnect=texts.CONNECTION_LOST_EFFECT
-    )
+    translations["en-US"].update(_CONNECTION_TEXTS)
     serve_thumbnails(library)
     serve_docs_preview(library)
 
@@ -45,7 +49,8 @@ def register_pages(library: Library, autosave: AutosaveService | None = None, *,
         address = DesignAddress(key=key, component=component, selected=selected, trail=query.get("from", ""))
         opened = open_design_at(library, address)
         if opened is None:
-            _show_not_found(texts.design_not_found(component[:80]), texts.MAYBE_REMOVED, library.workspace(key))
+            title = f"Design {component[:80]} not found"
+            _show_not_found(title, "It may have been renamed or removed.", library.workspace(key))
             return
         ui.on_exception(show_internal_error)
         DesignPage(library, index, autosave, opened, starts_tour=tour)
@@ -61,7 +66,7 @@ def register_pages(library: Library, autosave: AutosaveService | None = None, *,
         # Only files known to be unreadable are opened, so that a URL cannot name any other file.
         path = workspace.broken_files.get(file) if workspace else None
         if workspace is None or path is None:
-            _show_not_found(texts.file_not_found(file[:80]), texts.MAYBE_FIXED)
+            _show_not_found(f"Unreadable file {file[:80]} not found", "It may have been fixed or removed.")
             return
         ui.page_title(f"{file} – vicode")
         ui.on_exception(show_internal_error)
@@ -75,7 +80,7 @@ def _show_not_found(title: str, hint: str, workspace: Workspace | None = None) -
         ui.label(title).classes("dialog-title").props("role=heading aria-level=1")
         ui.label(hint).classes("empty")
         if workspace is not None and workspace.broken_file_names:
-            ui.label(texts.MAYBE_IN_UNREADABLE_FILE).classes("empty")
+            ui.label("It may be in a file that cannot be read:").classes("empty")
             for file in workspace.broken_file_names:
                 ui.link(file, broken_file_url(workspace.key, file))
         ui.link("Show all designs", "/")

@@ -2,7 +2,6 @@
 
 import json
 
-from vicode.editor.panels import texts
 from vicode.editor.panels.window_context import WindowContext
 
 # Also works on pages without HTTPS, which lack the clipboard API.
@@ -22,6 +21,6 @@ def copy_text(context: WindowContext, text: str, confirmation: str) -> None:
         if is_done:
             context.show_toast(confirmation, "positive")
         else:
-            context.show_toast(texts.CLIPBOARD_DENIED, "warning")
+            context.show_toast("Clipboard access denied. Select the text and copy it, or download the file.", "warning")
 
     context.run_in_background(write(), "copy")

@@ -116,7 +116,7 @@ def _show_preview(context: WindowContext, form: ExportFormat, options: ExportOpt
                 image.props["src"] = f"data:image/svg+xml;base64,{base64.b64encode(content).decode()}"
 
     with ui.element("div").style("display: contents") as container:
-        ui.label(texts.RENDERING).classes("empty").props('role="status"')
+        ui.label("Rendering…").classes("empty").props('role="status"')
     # A large diagram takes seconds.
     context.run_in_background(draw(), "preview")
 
@@ -131,7 +131,7 @@ def _copy(context: WindowContext, form: ExportFormat, options: ExportOptions) ->
     except NotExportableError as error:
         context.show_toast(str(error), "warning")
         return
-    copy_text(context, text, texts.copied(context.design.component, form.label))
+    copy_text(context, text, f"Copied {context.design.component} as {form.label}")
 
 
 def _download(context: WindowContext, form: ExportFormat, options: ExportOptions) -> None:

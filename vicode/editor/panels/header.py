@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 from nicegui import ui
 
-from vicode.editor.panels import texts
 from vicode.editor.panels.code.code_choices import ask_to_resolve_code
 from vicode.editor.panels.commands.command import Command
 from vicode.editor.panels.presence_bar import PresenceBar
@@ -56,7 +55,7 @@ class Header:
             return "Conflict: file changed on disk", "is-conflicting"
         if document.shared.outside.conflicts:
             return "Conflict: generated code edited", "is-conflicting"
-        more = texts.ALSO_OPEN_ELSEWHERE if self.context.workspace.has_other_editor else ""
+        more = " · Open in another editor" if self.context.workspace.has_other_editor else ""
         return (f"Saved{more}", "") if document.is_saved else (f"Unsaved changes{more}", "is-unsaved")
 
     def _resolve(self) -> None:

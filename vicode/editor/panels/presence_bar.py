@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.texts import USER_NAME_HELP
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import User
@@ -80,7 +79,7 @@ class PresenceBar:
     def _ask(self) -> None:
         users = self.context.document.shared.users
         with titled_dialog("Your name") as dialog:
-            ui.label(USER_NAME_HELP).classes("small")
+            ui.label("Other users see this name next to your selection and in the history.").classes("small")
             field = ui.input("Name", value=users.name_of(self.context.document.user_id))
             field.props("outlined dense stack-label autofocus maxlength=24")
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels.texts import SELECT_ROW_FIRST, invalid_event
+from vicode.editor.panels.texts import invalid_event
 from vicode.editor.panels.widgets import icon_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.gestures.edits import RequestedEdit, apply_edit
@@ -57,7 +57,7 @@ class TablePanel:
         def run() -> None:
             item = self.context.single_selection
             if item is None:
-                self.context.show_toast(SELECT_ROW_FIRST, "info")
+                self.context.show_toast("Select a row first", "info")
             else:
                 self._on_edit(make_edit(item_row_id(item)))
 

@@ -4,8 +4,6 @@ from typing import Any, cast
 
 from nicegui import ui
 
-from vicode.editor.panels.texts import INTERNAL_ERROR
-
 _SHORT_MS, _LONG_MS = 3500, 8000
 
 
@@ -17,4 +15,4 @@ def show_toast(text: str, kind: str) -> None:
 
 def show_internal_error() -> None:
     """Report an exception of the editor; the server logs it."""
-    show_toast(INTERNAL_ERROR, "negative")
+    show_toast("Internal error; the change may not be saved. See the server log.", "negative")

@@ -230,7 +230,7 @@ class DocumentSession:
         design = keep_positions(self.design, change(self.design))
         reason = self.shared.find_lost_content(design)
         if reason:
-            self.shared.notice = ChangeNotice(texts.edit_refused(reason), DISK_USER, self.shared.notice.rev + 1)
+            self.shared.notice = ChangeNotice(f"Not changed: {reason}", DISK_USER, self.shared.notice.rev + 1)
             self.shared.changes.notify(self)
         else:
             self._append(self._new_entry(label, design, coalesce_key))
@@ -305,13 +305,15 @@ class DocumentSession:
         for number, entry in enumerate((*undone, *redone)):
             error = self._undo_or_redo(entry, is_undo=number < len(undone))
             if error and entry.compound and self._changes_only_other_files(entry):
-                notes.append(texts.edit_kept(entry.compound.label, error))
+                notes.append(f"“{entry.compound.label}” was kept. {error}")
             elif error:
                 if not number:
                     self.shared.set_history(self.history.moved_to(start), self)
                 return error
         target = self.history.moved_to(entry_id)
-        self.post_notice(texts.user_jumped(self.shared.users.name_of(self.user_id), target.current.label))
+        self.post_notice(
+            f"{self.shared.users.name_of(self.user_id)} went to “{target.current.label}” in the undo history"
+        )
         self.shared.set_history(target, self)
         return "; ".join(notes)
 
@@ -335,10 +337,8 @@ class DocumentSession:
         self.shared.mark_saved(disk)
         history = self.history
         if design is not None and design != disk.design:
-            history = history.append_branch(
-                replace(self._new_entry(texts.VERSION_ON_DISK, disk.design), user_id=DISK_USER)
-            )
-            self.post_notice(texts.merged_from_disk(self.file.name))
+            history = history.append_branch(replace(self._new_entry("version on disk", disk.design), user_id=DISK_USER))
+            self.post_notice(f"Merged changes that another program wrote to {self.file.name}")
         self._set_history_or_notify(
             history.append(self._new_entry(label, design if design is not None else disk.design))
         )

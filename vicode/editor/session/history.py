@@ -73,7 +73,7 @@ class UndoHistory:
     @staticmethod
     def begin(design: Design, at_s: float = 0.0) -> "UndoHistory":
         """A history that contains only the opened design."""
-        return UndoHistory(entries={0: HistoryEntry(label=texts.OPEN, design=design, at_s=at_s)})
+        return UndoHistory(entries={0: HistoryEntry(label="open", design=design, at_s=at_s)})
 
     @property
     def current(self) -> HistoryEntry:

@@ -1,7 +1,7 @@
-"""The texts of the session that users read: labels of the undo history, errors and notes.
+"""Texts of the session with several users or a form of their own: labels of the undo history, errors and notes.
 
 Labels are verb phrases in lower case. Errors start in lower case, as findings do; they say what is wrong, then what to
-do. Notes and announcements are sentences. The labels of quick fixes stand next to the edits, in `session/fixes`.
+do. Notes and announcements are sentences.
 """
 
 from collections.abc import Collection, Sequence
@@ -12,18 +12,7 @@ _COLUMNS = {"name": "target", "when": "guard", "doc": "description"}
 
 # Labels of the undo history.
 
-OPEN = "open"
-SAVE = "save"
-RELOAD = "reload from disk"
-MERGE = "merge from disk"
-RESOLVE_CONFLICT = "resolve conflict with disk"
-VERSION_ON_DISK = "version on disk"
-RECOVER = "recover unsaved changes"
-MOVE_LABEL = "move label"
-REORDER_STATES = "reorder states"
 REORDER_TRANSITIONS = "reorder transitions"
-REMOVE_TRANSITION = "remove transition"
-PASTE_TRANSITIONS = "paste transitions"
 ALIGNMENTS = {
     "align-left": "align left edges",
     "align-center": "align centers",
@@ -52,10 +41,6 @@ def add_state(name: str) -> str:
     return f"add state {name}"
 
 
-def remove(name: str) -> str:
-    return f"remove {name}"
-
-
 def move_items(count: int, name: str) -> str:
     return f"move {name}" if count == 1 else f"move {count} items"
 
@@ -77,18 +62,6 @@ def set_disabled(names: Sequence[str], transition_count: int, *, disabled: bool)
 
 def connect(source: str, target: str) -> str:
     return f"connect {source.lstrip('@')} to {target}"
-
-
-def change_target(state: str) -> str:
-    return f"change target to {state}"
-
-
-def change_source(state: str) -> str:
-    return f"change source to {state.lstrip('@')}"
-
-
-def set_initial(state: str) -> str:
-    return f"make {state} the initial state"
 
 
 def set_final(state: str, *, final: bool) -> str:
@@ -116,10 +89,6 @@ def edit_cell(column: str) -> str:
     return f"edit {_COLUMNS.get(column, column)}"
 
 
-def edit_project_file(summary: str) -> str:
-    return f"project.yaml: {summary}"
-
-
 # Names.
 
 
@@ -127,33 +96,13 @@ def invalid_alias(name: str) -> str:
     return f"{invalid_name(name)}: start with a letter, then use letters, digits and underscores"
 
 
-def alias_exists(name: str) -> str:
-    return f"there is already a component with the alias {name}"
-
-
 # Gestures, the clipboard and the table.
 
 INVALID_REQUEST = "the editor cannot read this request: reload the page"
-STATE_NOT_ADDED = "the state was not added"
 ITEM_MISSING = "this item no longer exists"
 TRANSITION_GONE = "this transition no longer exists"
-TREE_SOURCE = "the source of a transition in a decision tree cannot be changed"
-TREE_ORDER = "a transition in a decision tree can only be reordered within its branch"
-SELECT_TO_DISABLE = "select states or transitions to disable"
-SELECT_TO_DUPLICATE = "select states or transitions to duplicate"
-SELECT_TO_FRAME = "select the states to draw a frame around"
-FRAME_WITHOUT_TITLE = "a frame needs a title"
-SELECT_TO_PASTE = "select the states to add these transitions to, then paste"
 NOTHING_TO_PASTE = "the clipboard contains no part of a design"
-CELL_TOO_LONG = "this text is too long for a cell"
-CELL_READ_ONLY = "this cannot be changed here"
-CELL_IN_INSPECTOR = "edit this in the inspector"
 ROW_GONE = "this row no longer exists"
-ROW_NOT_REMOVABLE = "this row cannot be removed"
-ROW_NOT_MOVABLE = "this row cannot be moved"
-NO_TARGET = "only a transition has a target"
-NO_STATE_TO_CONNECT = "there is no state to connect to: add one first"
-INITIAL_REQUIRED = "a design needs an initial state: mark another state instead"
 
 
 def unused_alias(alias: str) -> str:
@@ -168,10 +117,6 @@ def unknown_state(name: str) -> str:
     return f"there is no state '{quoted(name)}'"
 
 
-def cell_changed(value: str) -> str:
-    return f"the cell has changed to '{value[:60]}': press Enter again to overwrite it"
-
-
 def paste_note(added: Collection[str], missing: Collection[str]) -> str:
     parts = {"Also added": added, "Not in this project": missing}.items()
     return ". ".join(f"{what}: {', '.join(names)}" for what, names in parts if names)
@@ -182,10 +127,6 @@ FREQUENCY_TOO_LOW = "enter a frequency above 0 Hz"
 INVALID_RANGE = "enter the minimum and the maximum, such as 0, 9000"
 RANGE_REVERSED = "enter the minimum before the maximum"
 INVALID_COUNT = "enter a whole number of robots, such as 1, or leave this empty"
-
-
-def invalid_frequency(text: str) -> str:
-    return f"'{text[:20]}' is not a number: enter Hz, such as 10 or 0.5"
 
 
 def expected(values: str) -> str:
@@ -203,65 +144,27 @@ def cannot_redo(label: str, user: str, place: str, blocking_label: str) -> str:
     return f"Cannot redo “{label}”: {user} has since changed {place} (“{blocking_label}”)"
 
 
-def edit_kept(label: str, reason: str) -> str:
-    return f"“{label}” was kept. {reason}"
-
-
 def not_done(reason: str) -> str:
     return f"Undo or redo failed: {reason}"
 
 
 # Files.
 
-DESIGN_CHANGED = "these parts of the design have changed in the meantime"
-PROJECT_LINES_CHANGED = "these lines of project.yaml have changed in the meantime"
-NO_READABLE_DESIGN = "the file contains no readable design"
-
-
 OTHER_EDITOR = "Another editor has this folder open; the changes of both are merged when they are saved"
-NO_OTHER_EDITOR = "No other editor has this folder open any more"
-
-
-def cannot_save(file: str, reason: str) -> str:
-    return f"{file} cannot be saved: {reason}"
-
-
-def edit_refused(reason: str) -> str:
-    return f"Not changed: {reason}"
 
 
 def project_file_unreadable(reason: str) -> str:
     return f"project.yaml cannot be read{f': {reason}' if reason else ''}"
 
 
-def design_gone(file: str, component: str) -> str:
-    return f"{file} no longer contains a design of {component}"
-
-
-def cannot_restore(file: str, component: str) -> str:
-    return f"{file} already exists: {component} stays in the trash"
-
-
 # Announcements to the other users of a design.
-
-
-def user_jumped(user: str, label: str) -> str:
-    return f"{user} went to “{label}” in the undo history"
 
 
 def user_renamed(user: str, symbol: str, new: str, file_count: int) -> str:
     return f"{user} renamed {symbol} to {new} in {file_count} file{'s' * (file_count != 1)}"
 
 
-def merged_from_disk(file: str) -> str:
-    return f"Merged changes that another program wrote to {file}"
-
-
 # Code.
-
-
-def no_generator(languages: Collection[str]) -> str:
-    return f"No code: this project generates {', '.join(languages) or 'nothing'}"
 
 
 def no_code(reason: object, language: str) -> str:

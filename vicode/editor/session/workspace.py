@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.check import check_design, check_project
-from vicode.editor.session import texts
 from vicode.editor.session.code import code_sync
 from vicode.editor.session.document import DiskVersion, DocumentSession, FileTransaction, SharedDocument
 from vicode.editor.session.presence import DISK_USER, UserDirectory
@@ -26,6 +25,7 @@ from vicode.store import (
     find_design_files,
     open_project,
     read_design,
+    relative_design_paths,
     replace_text,
     save_design,
     write_text,
@@ -158,9 +158,7 @@ class Workspace:
     @property
     def source_paths(self) -> dict[str, str]:
         """The design files by component, relative to the project folder."""
-        folder = self.folder.resolve()
-        inside = ((name, file.resolve()) for name, file in self.files.items() if name)
-        return {name: file.relative_to(folder).as_posix() for name, file in inside if file.is_relative_to(folder)}
+        return relative_design_paths(self.files, self.folder)
 
     def save(self, document: DocumentSession, *, overwrite: bool = False) -> None:
         """Save a design by patching the text of its file, merging changes of other programs.
@@ -216,15 +214,7 @@ class Workspace:
             self._write(document, None, document.shared.disk_text)
             return
         merged = merge_designs(document.shared.saved, document.design, disk.design, theirs_at=theirs_at)
-        document.adopt_disk_version(disk, texts.RESOLVE_CONFLICT, merged.design)
-
-    def reload(self, document: DocumentSession) -> str:
-        """Replace a design by the version on disk; returns an error message or an empty string."""
-        disk = _disk_version(document, _read(document.file))
-        if disk.design is None:
-            return texts.design_gone(document.file.name, document.design.component)
-        document.adopt_disk_version(disk, texts.RELOAD)
-        return ""
+        document.adopt_disk_version(disk, "resolve conflict with disk", merged.design)
 
     def can_create(self, component: str) -> bool:
         """Whether the file name of a new component is free."""
@@ -307,7 +297,7 @@ class Workspace:
             replace_text(document.file, text, new)
         findings = read_design(new, document.file.name).findings
         written = DiskVersion(text=new, design=document.design, parse_findings=findings)
-        document.adopt_disk_version(written, texts.SAVE)
+        document.adopt_disk_version(written, "save")
 
     def _file_for(self, component: str) -> Path:
         return self.folder / f"{snake_case(component)}.yaml"
@@ -355,14 +345,14 @@ class Workspace:
             shared.mark_saved(disk)
             session.apply_transaction(transaction, disk.design)
         elif session.is_saved:
-            session.adopt_disk_version(disk, texts.RELOAD)
+            session.adopt_disk_version(disk, "reload from disk")
         else:
             merged = merge_designs(shared.saved, session.design, disk.design)
             if merged.conflicts:
                 shared.disk_conflict = disk
                 shared.changes.notify(session)
             else:
-                session.adopt_disk_version(disk, texts.MERGE, merged.design)
+                session.adopt_disk_version(disk, "merge from disk", merged.design)
 
     def _check(self, design: Design) -> tuple[Finding, ...]:
         designs = (design if other.component == design.component else other for other in self.project.designs)

@@ -19,7 +19,6 @@ class PlotSeries:
 
     name: str
     values: Sequence[float]
-    unit: str = ""
 
 
 def render_series(curves: Sequence[PlotSeries], states: Sequence[str]) -> str:

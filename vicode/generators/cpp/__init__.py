@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from vicode.generators.cpp.component import CppComponentWriter
-from vicode.generators.cpp.functions import action_code, guard_code
 from vicode.generators.cpp.names import RESERVED_MODULES, GlobalNames
 from vicode.generators.cpp.origins import find_origins
 from vicode.generators.cpp.project import build_components, build_declarations, build_interfaces, list_interfaces
@@ -101,8 +100,8 @@ def list_regions(component: ComponentPlan) -> Iterator[CodePlan]:
     """Yield the code that is generated as regions."""
     sections = (component.module_code, component.members)
     yield from (code for code in sections if code is not None and code.code.in_language(LANGUAGE) is not None)
-    yield from guard_code(component)
-    yield from action_code(component)
+    yield from component.guard_code
+    yield from component.action_code
 
 
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:  # noqa: ARG001 - as in other languages

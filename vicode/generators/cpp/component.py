@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from vicode.generators.cpp.expressions import ExpressionPrinter, format_number
+from vicode.generators.cpp.expression_printer import ExpressionPrinter, format_number
 from vicode.generators.cpp.functions import FunctionWriter, is_large, region, requirements_differ
 from vicode.generators.cpp.names import GlobalNames, argument_name, integer_type, member_name, state_names
 from vicode.generators.cpp.text import LINE_WIDTH, describe, doc_comment, quoted

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 
-from vicode.generators.cpp.expressions import ExpressionPrinter
+from vicode.generators.cpp.expression_printer import ExpressionPrinter
 from vicode.generators.cpp.names import member_name, state_names
 from vicode.generators.cpp.text import LINE_WIDTH, comment, doc_comment, quoted
 from vicode.generators.cpp.views import FunctionView
@@ -277,10 +277,10 @@ class FunctionWriter:
     # Hand-written code
 
     def _code_functions(self) -> Iterator[FunctionView]:
-        for code in guard_code(self.component):
+        for code in self.component.guard_code:
             body = region(code, self._code(code, "predicate"), INDENT)
             yield self._function("bool", f"when_{code.stem}", "", body, code.doc)
-        for code in action_code(self.component):
+        for code in self.component.action_code:
             body = region(code, self._code(code, "action"), INDENT)
             yield self._function("void", f"do_{code.stem}", "", body, code.doc)
 
@@ -353,24 +353,6 @@ def is_large(component: ComponentPlan) -> bool:
 def requirements_differ(component: ComponentPlan) -> bool:
     """Whether a change of the state may require components that the old state did not."""
     return len({state.requires for state in component.states}) > 1
-
-
-def action_code(component: ComponentPlan) -> Iterator[CodePlan]:
-    steps = [component.common_actions]
-    steps += [part for state in component.states for part in (state.enter, state.actions, state.leave)]
-    yield from (step.code for part in steps for step in part if isinstance(step, CodeStep))
-
-
-def guard_code(component: ComponentPlan) -> Iterator[CodePlan]:
-    for decisions in (component.common_decisions, *(state.decisions for state in component.states)):
-        yield from _guard_code(decisions)
-
-
-def _guard_code(decisions: Iterable[DecisionPlan]) -> Iterator[CodePlan]:
-    for decision in decisions:
-        yield from (condition.code for condition in decision.conditions if isinstance(condition, CodeCondition))
-        if isinstance(decision.outcome, Branch):
-            yield from _guard_code((*decision.outcome.then, *decision.outcome.otherwise))
 
 
 def region(code: CodePlan, text: str, indent: int) -> list[str]:

@@ -8,7 +8,6 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from vicode.generators.cpp.functions import action_code, guard_code
 from vicode.generators.cpp.names import state_names
 from vicode.generators.origins import Origin, leaf_paths
 from vicode.generators.plan import ComponentPlan, DecisionPlan
@@ -59,8 +58,8 @@ def _section_origins(text: str) -> Iterator[Origin]:
 
 
 def _code_origins(plan: ComponentPlan, functions: Iterable[_Block]) -> Iterator[Origin]:
-    paths = {f"when_{code.stem}": code.path for code in guard_code(plan)}
-    paths |= {f"do_{code.stem}": code.path for code in action_code(plan)}
+    paths = {f"when_{code.stem}": code.path for code in plan.guard_code}
+    paths |= {f"do_{code.stem}": code.path for code in plan.action_code}
     for function in functions:
         if function.name in paths:
             yield Origin(first=function.first, last=function.last, path=paths[function.name])

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from vicode.generators.cpp.component import break_list, declare_value, visits
-from vicode.generators.cpp.expressions import ExpressionPrinter, format_number
+from vicode.generators.cpp.expression_printer import ExpressionPrinter, format_number
 from vicode.generators.cpp.names import (
     GlobalNames,
     element_name,

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from vicode.generators.cpp.expressions import ExpressionPrinter
+from vicode.generators.cpp.expression_printer import ExpressionPrinter
 from vicode.generators.cpp.names import GlobalNames, element_name, member_name, state_names
 from vicode.generators.plan import ComponentPlan, ProjectPlan
 from vicode.model.expressions import BOOL, FLOAT, INT, build_scope

@@ -1,7 +1,6 @@
 """The language-neutral plan of a project: names, order and typed expression trees."""
 
 from vicode.generators.plan.component import INTERFACES_MODULE, plan_component
-from vicode.generators.plan.expressions import UnsoundDesignError, literal_value, typed_tree
 from vicode.generators.plan.int_ranges import IntRanges
 from vicode.generators.plan.interfaces import plan_interface
 from vicode.generators.plan.plan_types import (
@@ -26,8 +25,10 @@ from vicode.generators.plan.plan_types import (
     TimerCondition,
     UsedComponent,
     ValuePlan,
+    iter_guard_code,
 )
 from vicode.generators.plan.project import collect_components, plan_package, plan_project
+from vicode.generators.plan.typed_expressions import UnsoundDesignError, literal_value, typed_tree
 
 __all__ = [
     "INTERFACES_MODULE",
@@ -55,6 +56,7 @@ __all__ = [
     "UsedComponent",
     "ValuePlan",
     "collect_components",
+    "iter_guard_code",
     "literal_value",
     "plan_component",
     "plan_interface",

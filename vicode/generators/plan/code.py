@@ -1,8 +1,8 @@
 """Assign region ids and function names to hand-written code; elements with an id keep both when they are renamed."""
 
 from vicode.findings import DesignPath
-from vicode.generators.plan.names import NameAllocator
 from vicode.generators.plan.plan_types import CodePlan
+from vicode.generators.plan.unique_identifiers import NameAllocator
 from vicode.model.design import COMMON, Code, Design, State
 from vicode.model.names import identifier_stem
 

@@ -5,14 +5,7 @@ from dataclasses import replace
 
 from vicode.findings import DesignPath
 from vicode.generators.plan.code import CodePlanner
-from vicode.generators.plan.expressions import (
-    UnsoundDesignError,
-    initial_value,
-    literal_nanoseconds,
-    typed_tree,
-)
 from vicode.generators.plan.int_growth import plan_int_ranges
-from vicode.generators.plan.names import NameAllocator
 from vicode.generators.plan.plan_types import (
     ActionStep,
     AssignStep,
@@ -32,6 +25,13 @@ from vicode.generators.plan.plan_types import (
     UsedComponent,
     ValuePlan,
 )
+from vicode.generators.plan.typed_expressions import (
+    UnsoundDesignError,
+    initial_value,
+    literal_nanoseconds,
+    typed_tree,
+)
+from vicode.generators.plan.unique_identifiers import NameAllocator
 from vicode.model.design import (
     COMMON,
     Action,
@@ -157,7 +157,7 @@ class _ComponentPlanner:
     """Plans one design; its parts share a scope and a set of names."""
 
     def __init__(self, project: Project, design: Design) -> None:
-        self.project, self.design = project, design
+        self.design = design
         self.scope, self.project_scope = build_scope(project, design), build_scope(project, None)
         self.code = CodePlanner(design)
         self.design_aliases = {use.alias for use in design.uses if _has_design(project, use.component)}

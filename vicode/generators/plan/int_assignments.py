@@ -3,17 +3,13 @@
 import re
 from collections.abc import Collection, Iterable, Iterator
 
-from vicode.generators.plan.expressions import typed_tree
 from vicode.generators.plan.plan_types import (
-    ActionStep,
     AssignStep,
-    Branch,
-    CodeCondition,
     CodePlan,
     CodeStep,
     ComponentPlan,
-    DecisionPlan,
 )
+from vicode.generators.plan.typed_expressions import typed_tree
 from vicode.model.expressions import INT, Expr, Scope, ScopeSymbolKind, Variable
 from vicode.model.portable_code import PortableAssign, PortableIf, PortableStatement, Role, parse_portable
 
@@ -33,32 +29,18 @@ _SET = re.compile(
 
 def find_assignments(component: ComponentPlan, scope: Scope, names: Collection[str]) -> Iterator[IntAssignment]:
     """Find what a component assigns to variables of these names; code outside the portable subset is read roughly."""
-    for steps in _action_lists(component):
+    for steps in component.action_lists:
         for step in steps:
             match step:
                 case AssignStep(alias="", name=name, value=value) if name in names:
                     yield name, value
                 case CodeStep(code=code):
                     yield from _in_code(code, "action", scope, names)
-    for decisions in (component.common_decisions, *(state.decisions for state in component.states)):
-        for code in _guard_code(decisions):
-            yield from _in_code(code, "predicate", scope, names)
+    for code in component.guard_code:
+        yield from _in_code(code, "predicate", scope, names)
     for section in (component.module_code, component.members):
         for language in ("python", "cpp"):
             yield from _in_text((section.code.in_language(language) if section else "") or "", scope, names)
-
-
-def _action_lists(component: ComponentPlan) -> Iterator[tuple[ActionStep, ...]]:
-    yield component.common_actions
-    for state in component.states:
-        yield from (state.enter, state.actions, state.leave)
-
-
-def _guard_code(decisions: Iterable[DecisionPlan]) -> Iterator[CodePlan]:
-    for decision in decisions:
-        yield from (condition.code for condition in decision.conditions if isinstance(condition, CodeCondition))
-        if isinstance(decision.outcome, Branch):
-            yield from _guard_code((*decision.outcome.then, *decision.outcome.otherwise))
 
 
 def _in_code(code: CodePlan, role: Role, scope: Scope, names: Collection[str]) -> Iterator[IntAssignment]:

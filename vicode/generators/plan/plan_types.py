@@ -1,6 +1,6 @@
 """The types of the plan, which every generator reads."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from vicode.findings import DesignPath
@@ -242,6 +242,31 @@ class ComponentPlan:
     common_actions: tuple[ActionStep, ...]
     states: tuple[StatePlan, ...]
     ranges: IntRanges = field(default_factory=IntRanges)
+
+    @property
+    def action_lists(self) -> tuple[tuple[ActionStep, ...], ...]:
+        """The common actions, then those of each state."""
+        return (
+            self.common_actions,
+            *(part for state in self.states for part in (state.enter, state.actions, state.leave)),
+        )
+
+    @property
+    def action_code(self) -> Iterator[CodePlan]:
+        return (step.code for part in self.action_lists for step in part if isinstance(step, CodeStep))
+
+    @property
+    def guard_code(self) -> Iterator[CodePlan]:
+        for decisions in (self.common_decisions, *(state.decisions for state in self.states)):
+            yield from iter_guard_code(decisions)
+
+
+def iter_guard_code(decisions: Iterable[DecisionPlan]) -> Iterator[CodePlan]:
+    """Yield the code of guards, also inside branches."""
+    for decision in decisions:
+        yield from (condition.code for condition in decision.conditions if isinstance(condition, CodeCondition))
+        if isinstance(decision.outcome, Branch):
+            yield from iter_guard_code((*decision.outcome.then, *decision.outcome.otherwise))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,12 +3,12 @@
 from collections.abc import Collection, Mapping
 
 from vicode.generators.plan.component import plan_component, plan_values
-from vicode.generators.plan.expressions import UnsoundDesignError, literal_value
 from vicode.generators.plan.int_growth import constant_ranges
 from vicode.generators.plan.int_ranges import IntRanges
 from vicode.generators.plan.interfaces import plan_interface
-from vicode.generators.plan.names import NameAllocator
 from vicode.generators.plan.plan_types import PackagePlan, ProjectPlan
+from vicode.generators.plan.typed_expressions import UnsoundDesignError, literal_value
+from vicode.generators.plan.unique_identifiers import NameAllocator
 from vicode.model.expressions import build_scope
 from vicode.model.names import identifier_stem, package_name
 from vicode.model.project import Project

@@ -10,7 +10,7 @@ from vicode.generators.python.component import ComponentWriter
 from vicode.generators.python.declarations import build_declarations_view
 from vicode.generators.python.interfaces import build_interfaces_view
 from vicode.generators.python.main_module import build_main_view
-from vicode.generators.python.methods import method_code, section_code
+from vicode.generators.python.methods import section_code
 from vicode.generators.python.names import RESERVED_MODULES, assign_global_names, component_class_name
 from vicode.generators.python.origins import find_origins
 from vicode.generators.python.probes import PROBES_MODULE, generate_probes
@@ -72,7 +72,8 @@ def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCo
 def list_regions(component: ComponentPlan) -> Iterator[CodePlan]:
     """Yield the code that is generated as regions."""
     yield from section_code(component)
-    yield from method_code(component)
+    yield from component.action_code
+    yield from component.guard_code
 
 
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:

@@ -19,7 +19,6 @@ from vicode.generators.python.methods import (
     BODY_INDENT,
     METHOD_INDENT,
     MethodWriter,
-    method_code,
     python_code,
     section_code,
 )
@@ -128,7 +127,7 @@ class ComponentWriter:
         return tuple(tuple(format_imports(imports)) for imports in (runtime, hand_written, own) if imports)
 
     def _hand_written_code(self) -> Iterator[str]:
-        for code in (*section_code(self.component), *method_code(self.component)):
+        for code in (*section_code(self.component), *self.component.action_code, *self.component.guard_code):
             yield python_code(code)
 
     def _import_declarations(self, written: Set[str]) -> list[Import]:

@@ -18,6 +18,7 @@ from vicode.generators.plan import (
     StatePlan,
     TimerCondition,
     UnsoundDesignError,
+    iter_guard_code,
     literal_value,
 )
 from vicode.generators.python.expression_doc import AND, atom, format_statement, operator_chain
@@ -99,7 +100,7 @@ class MethodWriter:
     def _predicates(self, alternatives: tuple[DecisionPlan, ...]) -> list[MethodView]:
         return [
             _method(f"_when_{body.stem}(self) -> bool", body.doc, [_region(body, BODY_INDENT)])
-            for body in _guard_code(alternatives)
+            for body in iter_guard_code(alternatives)
         ]
 
     def _actions(self, steps: tuple[ActionStep, ...]) -> list[MethodView]:
@@ -214,24 +215,6 @@ def section_code(component: ComponentPlan) -> Iterator[CodePlan]:
     for code in (component.module_code, component.members):
         if code is not None and code.code.in_language("python") is not None:
             yield code
-
-
-def method_code(component: ComponentPlan) -> Iterator[CodePlan]:
-    steps = [component.common_actions, *(part for state in component.states for part in _state_steps(state))]
-    yield from (step.code for part in steps for step in part if isinstance(step, CodeStep))
-    for decisions in (component.common_decisions, *(state.decisions for state in component.states)):
-        yield from _guard_code(decisions)
-
-
-def _state_steps(state: StatePlan) -> tuple[tuple[ActionStep, ...], ...]:
-    return (state.enter, state.actions, state.leave)
-
-
-def _guard_code(decisions: tuple[DecisionPlan, ...]) -> Iterator[CodePlan]:
-    for decision in decisions:
-        yield from (condition.code for condition in decision.conditions if isinstance(condition, CodeCondition))
-        if isinstance(decision.outcome, Branch):
-            yield from _guard_code((*decision.outcome.then, *decision.outcome.otherwise))
 
 
 def python_code(body: CodePlan) -> str:

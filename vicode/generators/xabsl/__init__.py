@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from vicode.generators.origins import ComponentCode
 from vicode.generators.plan import ComponentPlan, PackagePlan, ProjectPlan
-from vicode.generators.plan.names import NameAllocator
+from vicode.generators.plan.unique_identifiers import NameAllocator
 from vicode.generators.xabsl.name_map import XabslNameMap
 from vicode.generators.xabsl.option_printer import print_option
 from vicode.generators.xabsl.options import GeneratedOption, build_option

@@ -6,7 +6,7 @@ from functools import partial
 
 from vicode.findings import DesignPath
 from vicode.generators.plan import Branch, DecisionPlan, NoChange, StateChange
-from vicode.generators.xabsl.expressions import XabslExpressionBuilder, conjunction, negation
+from vicode.generators.xabsl.expression_builder import XabslExpressionBuilder, conjunction, negation
 from vicode.generators.xabsl.option_printer import description_line
 from vicode.xabsl import tree
 

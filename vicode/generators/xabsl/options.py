@@ -17,7 +17,7 @@ from vicode.generators.plan import (
     UnsoundDesignError,
 )
 from vicode.generators.xabsl.decisions import DecisionTreeBuilder, can_be_common_decision
-from vicode.generators.xabsl.expressions import XabslExpressionBuilder
+from vicode.generators.xabsl.expression_builder import XabslExpressionBuilder
 from vicode.generators.xabsl.name_map import XabslNameMap
 from vicode.generators.xabsl.option_printer import AttachedComment, attach_comment, wrap_description
 from vicode.generators.xabsl.symbols import format_range

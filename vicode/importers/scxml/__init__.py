@@ -4,10 +4,10 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from vicode.importers.names import DesignNames
+from vicode.importers.design_names import DesignNames
 from vicode.importers.scxml.actions import ActionWriter
+from vicode.importers.scxml.ecmascript import check_expression, translate
 from vicode.importers.scxml.events import DONE, KEYWORDS, EventInputs, matches, plain
-from vicode.importers.scxml.expressions import check_expression, translate
 from vicode.importers.scxml.queue import EVENTS_ALIAS, EventComponent
 from vicode.importers.scxml.reader import Element, ScxmlError, read_scxml
 from vicode.importers.scxml.report import START, Exactness, Reached, ReportWriter, TransitionReport

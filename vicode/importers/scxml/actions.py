@@ -4,9 +4,9 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from vicode.importers.names import DesignNames
+from vicode.importers.design_names import DesignNames
+from vicode.importers.scxml.ecmascript import translate
 from vicode.importers.scxml.events import KEYWORDS, matches
-from vicode.importers.scxml.expressions import translate
 from vicode.importers.scxml.queue import EVENTS_ALIAS, EventComponent
 from vicode.importers.scxml.reader import Element, ScxmlError
 from vicode.importers.scxml.states import ScxmlState

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from vicode.importers.names import DesignNames
+from vicode.importers.design_names import DesignNames
 from vicode.languages import LANGUAGES
 from vicode.model.design import Declaration
 

@@ -10,7 +10,7 @@ events needs a variable for each.
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
-from vicode.importers.names import DesignNames
+from vicode.importers.design_names import DesignNames
 from vicode.importers.scxml.events import EventInputs
 from vicode.model.design import Action, Assign, Declaration, State, Use
 from vicode.model.project import Enumeration, Interface

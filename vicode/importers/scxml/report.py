@@ -60,7 +60,6 @@ class Reached:
 
 @dataclass(frozen=True, slots=True)
 class _Fact:
-    leaf: ScxmlState
     owner: ScxmlState
     element: Element
     reached: Reached | None
@@ -79,7 +78,7 @@ class ReportWriter:
 
     def add(self, leaf: ScxmlState, owner: ScxmlState, element: Element, reached: Reached | None = None) -> None:
         """Add a transition as it is taken in a state; without `reached`, it has no target."""
-        self._facts.setdefault(leaf, []).append(_Fact(leaf, owner, element, reached))
+        self._facts.setdefault(leaf, []).append(_Fact(owner, element, reached))
 
     def add_start(self, leaf: ScxmlState, line: int) -> None:
         """Add that the first state is entered in the second iteration."""

@@ -193,7 +193,7 @@ def write_output(prepared: PendingOutput, *, is_forced: bool = False) -> Generat
     back_up(prepared.plan)
     write_generated(prepared.plan)
     files = tuple(prepared.folder / change.path for change in prepared.changes)
-    message = messages.up_to_date(prepared.folder.name)
+    message = f"Generated code in {prepared.folder.name} is up to date"
     if files:
         message = messages.generated([path.name for path in files], files[0].parent)
     if prepared.skipped:

@@ -64,7 +64,7 @@ def generate_files(opened: LoadedProject, project: Project, options: OutputOptio
                 exclude=faulty,
                 languages=(language,),
                 standalone=options.standalone,
-                sources=opened.design_paths,
+                sources=opened.open_project.design_paths,
             )
     return files
 

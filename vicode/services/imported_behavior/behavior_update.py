@@ -9,7 +9,7 @@ from vicode.generators import generate
 from vicode.importers import ImportResult, import_behavior
 from vicode.model.project import Project
 from vicode.model.xabsl.names import component_name, unqualified_name
-from vicode.services.imported_behavior.comment_places import CommentPlace, DesignComments, DesignFile, PlaceKey
+from vicode.services.imported_behavior.comment_places import CommentPlace, DesignComments, PlaceKey
 from vicode.services.imported_behavior.comment_update import comments_by_lines, write_comments
 from vicode.services.imported_behavior.description_update import find_unwritten_descriptions
 from vicode.services.imported_behavior.update_scope import UpdateScope
@@ -49,14 +49,14 @@ class EditedProject:
 
     Attributes:
         project: The project with its edits.
-        files: The files of the designs, and of project.yaml as "", if their comments are compared.
+        files: The texts of the designs, and of project.yaml as "", if their comments are compared.
         paths: The path of each design, relative to the project.
         known_paths: The same at the last import or update.
         left_out: Components with errors: their options stay as they are.
     """
 
     project: Project
-    files: Mapping[str, DesignFile] = field(default_factory=dict)
+    files: Mapping[str, str] = field(default_factory=dict)
     paths: Mapping[str, str] = field(default_factory=dict)
     known_paths: Mapping[str, str] = field(default_factory=dict)
     left_out: Collection[str] = ()

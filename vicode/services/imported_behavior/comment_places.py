@@ -17,14 +17,6 @@ PlaceKey = tuple[str, int]
 """The component of a design, "" for project.yaml, and a line of its file."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DesignFile:
-    """A design file: its path relative to the project, and its text."""
-
-    path: str
-    text: str
-
-
 @dataclass(frozen=True, slots=True)
 class XabslComment:
     """A comment with the file that contains it."""
@@ -88,9 +80,9 @@ class CommentPlace:
 class DesignComments:
     """The comments of the files of a project."""
 
-    def __init__(self, project: Project, files: Mapping[str, DesignFile]) -> None:
+    def __init__(self, project: Project, texts: Mapping[str, str]) -> None:
         self.project = project
-        self._files = {name: CommentedFile(file.text, is_project_file=not name) for name, file in files.items()}
+        self._files = {name: CommentedFile(text, is_project_file=not name) for name, text in texts.items()}
 
     def compare(self, imported: ImportResult) -> list[CommentPlace]:
         """The places with comments in a design or in the import of its XABSL files."""

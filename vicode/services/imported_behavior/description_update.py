@@ -9,7 +9,6 @@ from vicode.model.paths import describe_path
 from vicode.model.project import Project
 from vicode.model.traversal import iter_decisions
 from vicode.model.xabsl.names import component_name, unqualified_name
-from vicode.services.imported_behavior.comment_places import DesignFile
 from vicode.store import CommentedFile
 
 
@@ -23,17 +22,17 @@ class UnwrittenDescription:
 
 
 def find_unwritten_descriptions(
-    imported: Project, project: Project, files: Mapping[str, DesignFile]
+    imported: Project, project: Project, texts: Mapping[str, str]
 ) -> Iterator[UnwrittenDescription]:
     """Yield the descriptions of designs that the import of the written files does not have."""
     written = {component_name(design): design for design in imported.designs}
     for design in project.designs:
         other = written.get(component_name(design))
-        if other is None or design.component not in files:
+        if other is None or design.component not in texts:
             continue
         commented: CommentedFile | None = None
         for path in _find_unwritten(other, design):
-            commented = commented or CommentedFile(files[design.component].text)
+            commented = commented or CommentedFile(texts[design.component])
             message = f"the {describe_path((*path, 'doc'))} is not written to XABSL, which has no place for it"
             yield UnwrittenDescription(
                 message=message, component=design.component, line=commented.line_of((*path, "doc"))

@@ -8,7 +8,6 @@ from pathlib import Path
 from vicode.check import find_errors
 from vicode.findings import Finding
 from vicode.output import resolve_below, write_atomically
-from vicode.services.imported_behavior.comment_places import DesignFile
 from vicode.services.imported_behavior.import_record import RECORD_FILE, format_record
 from vicode.store import OpenProject, locate_findings
 from vicode.transactions import replace_files
@@ -44,17 +43,6 @@ def _unreadable(opened: OpenProject) -> Iterator[tuple[str, Path]]:
     for file in opened.broken_files:
         if file.name in names and sum(other.name == file.name for other in opened.broken_files) == 1:
             yield names[file.name], file
-
-
-def list_paths(opened: OpenProject) -> dict[str, str]:
-    """The path of each design relative to the project."""
-    folder = opened.folder.resolve()
-    found = {name: file.resolve() for name, file in opened.files.items() if name}
-    return {name: file.relative_to(folder).as_posix() for name, file in found.items() if file.is_relative_to(folder)}
-
-
-def list_files(opened: OpenProject) -> dict[str, DesignFile]:
-    return {name: DesignFile(path=file.name, text=opened.texts[name]) for name, file in opened.files.items()}
 
 
 def write_update(

@@ -71,7 +71,7 @@ def _validate_name(project_files: ProjectFiles, old: str, new: str) -> str:
     if not is_valid_name(new):
         return messages.invalid_component_name(new)
     if new == old:
-        return messages.NAME_UNCHANGED
+        return "the name is unchanged"
     return messages.name_exists("component", new) if project_files.project.interface(new) is not None else ""
 
 
@@ -116,7 +116,7 @@ def _project_change(folder: Path, names: tuple[str, str]) -> FileChange | None:
         return None
     renamed = tuple(replace(agent, root=new) if agent.root == old else agent for agent in project.agents)
     changed = save_project_file(replace(project, agents=renamed), text)
-    return FileChange(file=file, old=text, new=changed, summary=messages.agent_summary(agents, new))
+    return FileChange(file=file, old=text, new=changed, summary=f"agent {', '.join(agents)} starts with {new}")
 
 
 def _read(file: Path) -> str:

@@ -78,7 +78,7 @@ def plan_symbol_rename(project_files: ProjectFiles, symbol: SymbolRef, new: str)
     error = error or validate_writable(project_files, touched) or _validate_project_file(project, file)
     error = error or (messages.read_only(modules.locked) if modules.locked else "")
     if error or (is_shared and file is None):
-        return SymbolRenamePlan(symbol=symbol, new=new, error=error or messages.PROJECT_FILE_MISSING)
+        return SymbolRenamePlan(symbol=symbol, new=new, error=error or "there is no project.yaml")
     changes = [_design_change(project_files, design) for design in renamed.designs if design.component in touched]
     if file is not None:
         changes.append(_project_change(file, renamed))
@@ -100,7 +100,7 @@ def _validate_name(project: Project, symbol: SymbolRef, new: str) -> str:
     if invalid:
         return invalid
     if not is_declared(project, symbol):
-        return messages.symbol_gone(describe_symbol(symbol))
+        return f"{describe_symbol(symbol)} no longer exists"
     if new in sibling_names(project, symbol):
         return messages.name_exists(_kind(symbol), new)
     if symbol.section == "components" and project.interface(new) is not None:
@@ -150,7 +150,7 @@ def _validate_project_file(project: Project, file: Path | None) -> str:
         return messages.read_only([file.name])
     read = read_project_file(_read(file), str(file)).project
     if read is None or any(getattr(read, section) != getattr(project, section) for section in _PROJECT_SECTIONS):
-        return messages.changed_or_unreadable(file.name)
+        return f"another program has just changed {file.name}, or it cannot be read: check it and try again"
     return ""
 
 
@@ -208,8 +208,8 @@ def _manual_step(project: Project, symbol: SymbolRef) -> str:
     if interface is None or ":" not in interface.implementation:
         return ""
     if symbol.section == "components":
-        return messages.class_keeps_name(interface.implementation)
-    return messages.rename_in_class(interface.implementation)
+        return f"The hand-written class {interface.implementation} keeps its name."
+    return f"Rename it in the hand-written class {interface.implementation}, too."
 
 
 def _read(file: Path) -> str:

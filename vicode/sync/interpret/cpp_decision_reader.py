@@ -222,7 +222,7 @@ class CppDecisionReader:
             at, disabled = last, []
         if at != len(written) and not _is_report(written[at:]):
             raise UnreadableError("decisions in a form that cannot be mapped to those of the design")
-        yield _Part(Stay(), at, len(written), tuple(disabled), is_report=at < len(written))
+        yield _Part(Stay(), at, len(written), tuple(disabled))
 
     def _length(self, item: Decision, written: Sequence[WrittenDecision]) -> int:
         """The number of written decisions of an item."""
@@ -250,7 +250,6 @@ class _Part:
     first: int
     last: int
     disabled: tuple[Decision, ...]
-    is_report: bool = False
 
     def is_kept(
         self,

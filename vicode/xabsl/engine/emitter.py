@@ -6,8 +6,8 @@ The record `o` of an option holds the function of its current state (`run`), tim
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from .expressions import TIME_MASK, InputAccess, TermEmitter
 from .program import CompiledOption, CompiledState, Program, Term, TypedSlot
+from .term_emitter import TIME_MASK, InputAccess, TermEmitter
 
 _MAX_DEPTH = 30
 """Deeper decisions are moved to separate functions, because Python limits the depth of indentation."""

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .emitter import BehaviorBinding, LinkedNames
-from .expressions import InputAccess
 from .program import Program, TypedSlot
 from .symbols import BasicBehavior, RobotSymbol, SymbolList
+from .term_emitter import InputAccess
 from .validation import LoadError, find_nested_inputs
 
 NEVER = -2

@@ -34,16 +34,9 @@ class SymbolList:
     symbols: tuple[RobotSymbol, ...] = ()
     behaviors: tuple[BasicBehavior, ...] = ()
 
-    def elements(self, name: str) -> tuple[str, ...]:
-        """The elements of an enumeration; empty if it is unknown."""
-        return next((elements for enum, elements in (*self.enums, *self.internal_enums) if enum == name), ())
-
 
 class SymbolListError(ValueError):
     """A line of a symbol list is malformed."""
-
-
-_ROLES = {"in": "input", "out": "output", "i": "internal"}
 
 
 def write_symbols(symbols: SymbolList) -> str:

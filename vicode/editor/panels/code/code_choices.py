@@ -55,21 +55,23 @@ class CodeChoices:
 
 
 def ask_to_resolve_code(
-    context: WindowContext, documents: Sequence[DocumentSession] = (), title: str = texts.EDITED_OUTSIDE
+    context: WindowContext, documents: Sequence[DocumentSession] = (), title: str = "Generated code was edited"
 ) -> None:
     """Open the dialog with the edits missing from designs, by default from the open one."""
     documents = documents or (context.document,)
     if not any(document.shared.outside.waiting for document in documents):
         return
     with titled_dialog(title, "conflict") as dialog:
-        ui.label(texts.CHOOSE_TEXTS).classes("small")
+        ui.label(
+            "Choose a text for each. The other one stays in the undo history or in the file until Generate."
+        ).classes("small")
         with ui.column().classes("conflict-list"):
             choices = CodeChoices(context, documents, lambda: apply_button.set_enabled(choices.is_complete))
 
         def apply() -> None:
             dialog.close()
             if choices.apply():
-                context.show_toast(texts.RESOLVED, "positive")
+                context.show_toast("Applied", "positive")
             else:
                 ask_to_resolve_code(context, documents, title)
 
@@ -103,10 +105,10 @@ def _is_valid(edit: OutsideEdit) -> bool:
 def reason_of(edit: OutsideEdit) -> str:
     """Why an edit waits for a user."""
     if not edit.path:
-        return texts.CODE_GONE
+        return "This code was removed from the design. Copy what you need; the edit is dropped with the next Generate."
     if edit.region.is_conflict:
-        return texts.SAME_LINES_CHANGED
+        return "Both sides changed the same lines."
     if edit.finding is None:
-        return texts.EDIT_WAS_UNDONE
+        return "The edit was applied and undone."
     problem = edit.finding.message.partition(": ")[2]
     return f"{problem[:1].upper()}{problem[1:]}."

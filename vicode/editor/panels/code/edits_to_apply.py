@@ -27,13 +27,16 @@ class EditsToApply:
         opened = (context.workspace.open_document(name) for name in components)
         self._documents = [document for document in opened if document is not None]
         self._readings: list[_ReadingChoice] = []
-        ui.label(texts.edited_files([PurePath(file.path).name for file in edits])).classes("conflict-place")
+        files = ", ".join(PurePath(file.path).name for file in edits)
+        ui.label(f"Edited by hand: {files}. 'Overwrite' keeps a copy as NAME.edited.").classes("conflict-place")
         with ui.column().classes("conflict-list edits-to-apply"):
             waiting = {edit.version[:2] for document in self._documents for edit in document.shared.outside.waiting}
             for file in edits:
                 for region in file.regions:
                     if (file.path, region.id) not in waiting:
-                        ui.label(texts.applied_to(region.target or region.id, file.component)).classes("small")
+                        ui.label(f"{region.target or region.id}: the edit is applied to {file.component}").classes(
+                            "small"
+                        )
                 for problem in describe_problems(file):
                     ui.label(f"{file.path}: {problem.message}").classes("field-finding")
             self._choices = CodeChoices(context, self._documents, self._show_choice)
@@ -70,7 +73,7 @@ class EditsToApply:
             reading = each.read()
             document = self._document_of(reading.file.component)
             if not apply_to_design(document, reading.base, reading.design, reading.words):
-                self._context.show_toast(texts.DESIGN_CHANGED_GENERATE_AGAIN, "warning")
+                self._context.show_toast("The design has changed. Generate again.", "warning")
                 return False
         return all(map(self._save, self._documents))
 
@@ -114,7 +117,7 @@ class _ReadingChoice:
             offered = OfferedTexts(
                 name=f"{name}:{conflict.line}",
                 place=reading.file.component,
-                reason=texts.STATEMENTS_CHANGED,
+                reason="The file and the design changed the same lines.",
                 base=conflict.base,
                 in_file=conflict.file_text,
                 in_design=conflict.design_text,
@@ -123,7 +126,11 @@ class _ReadingChoice:
         if reading.leftover:
             with ui.row().classes("conflict-head"):
                 is_partly_read = bool(reading.words or conflicts)
-                ui.label(texts.NOT_UNDERSTOOD if is_partly_read else texts.NOTHING_UNDERSTOOD).classes("small")
+                ui.label(
+                    "The rest cannot be expressed in the design. It stays in the copy of the file."
+                    if is_partly_read
+                    else "The design cannot express these edits. They stay in the copy of the file."
+                ).classes("small")
                 ui.button(
                     "Save as patch",
                     icon="download",

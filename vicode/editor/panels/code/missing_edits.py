@@ -59,7 +59,7 @@ class MissingEdits:
         name = PurePath(file.path).name
         with ui.element("div").classes("missing-edit").props('role="listitem"'):
             ui.label(name).classes("mono")
-            ui.label(texts.EDITED_OUTSIDE_REGIONS).classes("small")
+            ui.label("Edited outside regions. Generate lists the edits that the design can express.").classes("small")
             with ui.row().classes("row-buttons"):
                 _button(
                     "Show difference",

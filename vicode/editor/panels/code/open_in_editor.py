@@ -4,7 +4,6 @@ import json
 
 from nicegui import run, ui
 
-from vicode.editor.panels import texts
 from vicode.editor.panels.commands.command import Command, MenuGroup
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session import DiskConflictError
@@ -29,7 +28,7 @@ def editor_command(context: WindowContext) -> tuple[Command, ...]:
         uses_link = not await _uses_link()
         await ui.run_javascript(f'localStorage.setItem("{_KEY}", "{"yes" if uses_link else "no"}")')
         name = "VS Code, by a link" if uses_link else context.external_editor.name
-        context.show_toast(texts.opens_with(name), "info")
+        context.show_toast(f"Code opens with {name}", "info")
 
     def handle() -> None:
         context.run_in_background(switch(), "switch editor")
@@ -47,7 +46,7 @@ async def _open(context: WindowContext, path: DesignPath, language: str) -> None
         if not editor.is_local:
             # The file is on another machine.
             ui.run_javascript(f"navigator.clipboard?.writeText({json.dumps(place.text)})")
-            context.show_toast(texts.place_copied(place.text), "info")
+            context.show_toast(f"Copied {place.text}", "info")
         elif not editor.name or await _uses_link():
             ui.run_javascript(f"location.href = {json.dumps(place.vscode_url)}")
         else:
@@ -58,7 +57,9 @@ def _start(context: WindowContext, place: CodePlace) -> None:
     try:
         context.external_editor.open(place)
     except OSError as error:
-        context.show_toast(texts.editor_not_started(context.external_editor.name, error.strerror or error), "negative")
+        context.show_toast(
+            f"{context.external_editor.name} could not be started: {error.strerror or error}", "negative"
+        )
 
 
 async def _generate(context: WindowContext, path: DesignPath, language: str) -> CodePlace | None:
@@ -66,7 +67,7 @@ async def _generate(context: WindowContext, path: DesignPath, language: str) -> 
         context.workspace.save(context.document)
         result = await run.io_bound(context.workspace.generate, context.document)
     except (OSError, ValueError, DiskConflictError) as error:
-        context.show_toast(texts.nothing_to_open(error), "negative")
+        context.show_toast(f"The code is not generated yet: {error}", "negative")
         return None
     place = find_place(context.workspace, context.document, path, language)
     if place is None and result is not None:

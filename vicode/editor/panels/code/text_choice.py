@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 from nicegui import ui
 
-from vicode.editor.panels import texts
 from vicode.editor.panels.versions.side_choice import ChoiceSide, side_choice
 from vicode.editor.panels.window_context import WindowContext
 
@@ -50,11 +49,13 @@ class TextChoice:
             ui.label(offered.place).classes("small")
         ui.label(offered.reason).classes("small")
         sides = {
-            _FILE: ChoiceSide(title=texts.IN_FILE, text=offered.in_file, is_disabled=offered.is_file_disabled),
-            _DESIGN: ChoiceSide(title=texts.IN_DESIGN, text=offered.in_design),
+            _FILE: ChoiceSide(
+                title="In the generated file", text=offered.in_file, is_disabled=offered.is_file_disabled
+            ),
+            _DESIGN: ChoiceSide(title="In the design", text=offered.in_design),
         }
         if offered.base is not None:
-            sides[_BASE] = ChoiceSide(title=texts.GENERATED_BEFORE, text=offered.base, is_for_comparison=True)
+            sides[_BASE] = ChoiceSide(title="Generated before", text=offered.base, is_for_comparison=True)
         self._show = side_choice(sides, self._choose)
         self._editor: ui.codemirror | None = None
         if offered.is_editable:

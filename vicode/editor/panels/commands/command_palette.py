@@ -7,7 +7,7 @@ from nicegui import ui
 from nicegui.events import GenericEventArguments
 
 from vicode.editor.panels.commands.command import Command, TypedCommand
-from vicode.editor.panels.texts import NO_RESULTS, pluralize
+from vicode.editor.panels.texts import pluralize
 from vicode.editor.session.search.search_index import (
     SearchIndex,
     SearchItem,
@@ -72,7 +72,7 @@ class CommandPalette(ui.element, component="command_palette.js"):
         text = _text(event)
         typed, matches = self.interpret(text), self._find(text)
         hits = [*([_typed_hit(typed)] if typed else []), *(_hit(match) for match in matches)]
-        count = pluralize(len(hits), "result") if hits else NO_RESULTS
+        count = pluralize(len(hits), "result") if hits else "No results."
         self.run_method("answer", {"text": text, "hits": hits, "words": count})
 
     def _on_choose(self, event: GenericEventArguments) -> None:

@@ -71,7 +71,7 @@ class SearchPanel:
 
     def _show(self) -> None:
         matches, error = self.result.matches, self.result.error
-        count = texts.pluralize(len(matches), "result") if self.query.text else texts.ENTER_SEARCH_TERM
+        count = texts.pluralize(len(matches), "result") if self.query.text else "Enter a search term"
         self.summary.set_text(f"{count}: {error}" if error else count)
         self.replace_all_button.set_enabled(bool(matches))
         self.list.clear()
@@ -110,7 +110,7 @@ class SearchPanel:
         replacement = self.replacement.value or ""
         result = replace_matches(self.context.design, self.query, replacement, only)
         if result.error or not result.count:
-            self.context.show_toast(result.error or texts.NO_MATCHES_TO_REPLACE, "warning")
+            self.context.show_toast(result.error or "No matches to replace", "warning")
             return
         # Repeat the query: the design may change before the edit is applied.
         label = f"replace {what[:20]} with {replacement[:20]}"

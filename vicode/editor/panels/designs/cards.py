@@ -27,7 +27,7 @@ def design_card(workspace: Workspace, card: DesignCard, dialogs: DesignDialogs) 
         with ui.element("div").classes("card-text"):
             with ui.element("div").classes("card-line").props('role="heading" aria-level="2"'):
                 ui.link(card.component, address).classes("card-name")
-            ui.label(card.doc or texts.NO_DESCRIPTION).classes("card-doc")
+            ui.label(card.doc or "No description").classes("card-doc")
             with ui.row().classes("card-facts"):
                 _facts(card)
         add_design_menu(workspace, card.component, dialogs, article)
@@ -70,7 +70,7 @@ def hand_written_row(workspace: Workspace, row: HandWrittenComponent) -> None:
     """Build the row of a component without a design, with links to the designs that use it."""
     with ui.element("li").classes("component-row"):
         ui.label(row.component).classes("component-name")
-        ui.label(row.implementation or texts.NOT_IMPLEMENTED).classes("mono small")
+        ui.label(row.implementation or "Not implemented yet").classes("mono small")
         ui.label(" ".join(row.doc.split())).classes("component-doc")
         with ui.row().classes("component-users"):
             ui.label("used by" if row.used_by else "not used").classes("small")

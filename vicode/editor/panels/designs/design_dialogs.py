@@ -71,7 +71,7 @@ class DesignDialogs:
                     _suggest_valid_name(name)
                     return
                 dialog.close()
-                self.show_toast(texts.duplicated(component, new_name), "positive")
+                self.show_toast(f"Duplicated {component} as {new_name}", "positive")
 
             _buttons(dialog, "Duplicate", copy, name)
 
@@ -95,7 +95,7 @@ class DesignDialogs:
                     if rename_plan.changes and workspace.broken_file_names:
                         ui.label(texts.skipped_files(workspace.broken_file_names)).classes("empty")
                     if rename_plan.error:
-                        ui.label(texts.cannot_rename(rename_plan.error)).classes("empty")
+                        ui.label(f"Cannot rename: {rename_plan.error}").classes("empty")
 
             def rename() -> None:
                 rename_plan = plan()
@@ -116,7 +116,7 @@ class DesignDialogs:
             return
         users = trash.find_dependents(workspace, component)
         with titled_dialog(f"Move {component} to the trash?") as dialog:
-            ui.label(texts.trash_explanation(workspace.files[component].name))
+            ui.label(f"{workspace.files[component].name} is moved to the system trash. You can undo this.")
             if users:
                 ui.label(texts.still_used_by(users))
 
@@ -132,10 +132,10 @@ class DesignDialogs:
     def offer_restore(self, workspace: Workspace, trashed: TrashedDesign) -> None:
         def undo() -> None:
             error = trash.restore_from_trash(workspace, trashed)
-            text = texts.sentence(error) or texts.restored(trashed.component)
+            text = texts.sentence(error) or f"{trashed.component} restored"
             self.show_toast(text, "warning" if error else "positive")
 
-        self.offer_undo(texts.moved_to_trash(trashed.component), undo)
+        self.offer_undo(f"{trashed.component} moved to trash", undo)
 
     def _rename(self, workspace: Workspace, rename_plan: rename_component.ComponentRenamePlan) -> bool:
         def rename() -> None:

@@ -7,7 +7,7 @@ from nicegui.events import GenericEventArguments
 
 from vicode.editor.panels.designs.design_dialogs import DesignDialogs
 from vicode.editor.panels.designs.folders import MANY_DESIGNS, group_by_folder
-from vicode.editor.panels.texts import NO_MATCHING_DESIGNS, pluralize, unreadable_file
+from vicode.editor.panels.texts import pluralize
 from vicode.editor.session import Library, Workspace
 from vicode.editor.view.page_urls import broken_file_url, design_url
 
@@ -30,7 +30,7 @@ class DesignsList(ui.element, component="designs_list.js"):
         self._ask_new = dialogs.ask_new
         self._rendered_key: object = None
         self.props["menu"] = list(self._menu)
-        self.props["noMatches"] = NO_MATCHING_DESIGNS
+        self.props["noMatches"] = "No designs match the filter."
         self.props["current"] = ""
         # NiceGUI remounts an element when handlers are added after its first rendering.
         self.on("new-design", self._on_new)
@@ -96,4 +96,8 @@ def _project(workspace: Workspace) -> dict[str, Any]:
 def _row(workspace: Workspace, component: str, file: str) -> dict[str, str]:
     if component:
         return {"component": component, "url": design_url(workspace.key, component)}
-    return {"file": file, "url": broken_file_url(workspace.key, file), "hint": unreadable_file(file)}
+    return {
+        "file": file,
+        "url": broken_file_url(workspace.key, file),
+        "hint": f"{file} cannot be read. Open it to fix the errors.",
+    }

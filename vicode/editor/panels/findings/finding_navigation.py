@@ -87,7 +87,7 @@ def _fill_fix_menu(context: WindowContext, menu: ui.menu, finding: Finding) -> N
         for fix in fixes:
             ui.menu_item(fix.label, on_click=lambda fix=fix: apply_fix(context, fix)).props("role=menuitem")
         if not fixes:
-            ui.menu_item(texts.NO_FIX).props("disable role=menuitem")
+            ui.menu_item("No automatic fix available").props("disable role=menuitem")
 
 
 def apply_fix(context: WindowContext, fix: "Fix") -> None:
@@ -98,4 +98,4 @@ def apply_fix(context: WindowContext, fix: "Fix") -> None:
         context.edit(label, fix.edit)
     else:
         error = write_design_and_project(context, label, fix.edit, fix.edit_project)
-    context.show_toast(error or texts.fix_applied(fix.label), "warning" if error else "positive")
+    context.show_toast(error or f"Applied: {fix.label}. Undo with Ctrl+Z.", "warning" if error else "positive")

@@ -20,14 +20,14 @@ def confirm_and_remove(context: WindowContext, path: ProjectNodePath) -> None:
     project = context.workspace.project
     name = path.name(project)
     if path.section == "elements" and len(ProjectNodePath(steps=path.steps[:-1]).get(project).elements) == 1:
-        context.show_toast(texts.LAST_ELEMENT, "warning")
+        context.show_toast("An enumeration needs at least one element. Remove the enumeration instead.", "warning")
         return
     references = find_references(project, path.symbol_ref(project))
     if not references:
         _remove(context, path)
         return
     with titled_dialog(f"Remove {path.kind} {name}?") as dialog:
-        ui.label(texts.USED_BY_FOLLOWING).classes("field-label")
+        ui.label("It is used in these places, which will report errors:").classes("field-label")
         _list(references)
         if context.workspace.broken_file_names:
             ui.label(texts.skipped_files(context.workspace.broken_file_names)).classes("empty")
@@ -37,7 +37,7 @@ def confirm_and_remove(context: WindowContext, path: ProjectNodePath) -> None:
             if path.name(context.workspace.project) == name:
                 _remove(context, path)
             else:
-                context.show_toast(texts.changed_by_another_user(name), "warning")
+                context.show_toast(f"Another user removed, renamed or moved {name}. Check and try again.", "warning")
 
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=dialog.close).props("flat no-caps autofocus")

@@ -12,8 +12,8 @@ from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.robots import RobotDescription
 from vicode.runs import Recording, RunStatus, Simulation, prepare_view
+from vicode.runs.design_trace import focus_iteration
 from vicode.runs.guard_values import evaluate_guards
-from vicode.runs.traces import focus_iteration
 from vicode.runs.why_not import PastConditions, WhyNot, explain
 from vicode.services.robot_version import find_other_versions
 from vicode.simulation import IterationResult

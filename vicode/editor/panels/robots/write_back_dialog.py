@@ -4,7 +4,6 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.robots.robot_view import RobotView
 from vicode.editor.panels.simulation.trust_dialog import REPLAY, ask_for_trust
@@ -31,7 +30,7 @@ class WriteBackDialog:
         with view.context.client, titled_dialog(title, "write-back-dialog") as self.dialog:
             ui.label(f"The file has {before}. With the new value, in recorded runs:")
             self.list = ui.column().classes("write-back-results")
-            self.status = ui.label(texts.REPLAYING).props('role="status"')
+            self.status = ui.label("Replaying recorded runs…").props('role="status"')
             ui.label(OPEN_LOOP).classes("small")
             with ui.row().classes("dialog-buttons"):
                 ui.button("Cancel", on_click=self.dialog.close).props("flat no-caps")
@@ -41,9 +40,11 @@ class WriteBackDialog:
     async def replay(self) -> None:
         """Replay the records and show each result."""
         context = self.view.context
-        problem = "" if await ask_for_trust(context, REPLAY) else texts.NOT_TRUSTED_TO_REPLAY
-        if not problem and find_lacking(context.workspace, context.design.component):
-            problem = texts.EDITS_BEFORE_REPLAY
+        problem = ""
+        if not await ask_for_trust(context, REPLAY):
+            problem = "The folder is not trusted, so its code does not run and nothing is replayed."
+        elif find_lacking(context.workspace, context.design.component):
+            problem = "Generated code has edits that the design lacks: apply them (Generate) to replay recorded runs."
         if not problem:
             replays = RecordReplays(
                 project=self.view.project,
@@ -61,7 +62,10 @@ class WriteBackDialog:
             except _DialogClosedError:
                 return
         if self._is_open:
-            self.status.set_text(problem or ("" if self._results else texts.NO_RECORDS))
+            if not problem and not self._results:
+                problem = "No recorded run depends on this value. "
+                problem += "Record one with: vicode run DESIGN --trace FILE --values"
+            self.status.set_text(problem)
             self.status.set_visibility(bool(self.status.text))
 
     def _show(self) -> None:

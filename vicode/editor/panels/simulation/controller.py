@@ -28,13 +28,13 @@ from vicode.runs import (
     behavior_key,
     prepare_run,
 )
+from vicode.runs.design_trace import input_script, read_iterations
 from vicode.runs.guard_values import evaluate_guards, latest_steps
 from vicode.runs.trace_recording import read_beginning, read_recording
-from vicode.runs.traces import input_script, read_iterations
 from vicode.simulation import IterationResult, StopConditions
 from vicode.simulation.isolation import isolation_problem
 from vicode.simulation.stop_reasons import COUNT_REACHED
-from vicode.simulation.trace import TraceError
+from vicode.traces.reader import TraceError
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 20.0)
 _PLAY_INTERVAL_S = 0.04
@@ -284,7 +284,9 @@ class SimulationController:
 
     async def _may_run(self) -> bool:
         is_allowed = self.is_replay or await ask_for_trust(self.context)
-        self.start_error = "" if is_allowed else texts.NOT_TRUSTED
+        self.start_error = (
+            "" if is_allowed else "The folder is not trusted, so its code does not run. Restart to be asked again."
+        )
         self.sandbox_problem = "" if self.is_replay else await run.io_bound(isolation_problem) or ""
         return is_allowed
 

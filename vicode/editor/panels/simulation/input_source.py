@@ -11,7 +11,7 @@ from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.panels.simulation.trace_files import TraceFileChoice
 from vicode.editor.panels.simulation.trace_overlays import TraceOverlays
 from vicode.runs import stubbed_components, used_components
-from vicode.simulation.trace import TraceError
+from vicode.traces.reader import TraceError
 
 # The file is sent in a multipart body.
 _MAX_BYTES = MAX_BODY_BYTES - 65_536

@@ -133,7 +133,6 @@ class _FunctionRow(_InputRow):
         self._simulation = simulation
         self._table: list[list[Any]] = []
         self._called_arguments: list[dict[str, Any]] = []
-        self._boxes: list[Any] = []
         self.rows = ui.column().classes("input-table")
 
     def show(self, value: Any) -> None:

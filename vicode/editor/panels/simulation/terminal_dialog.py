@@ -4,7 +4,6 @@ from pathlib import Path
 
 from nicegui import ui
 
-from vicode.editor.panels import texts
 from vicode.editor.panels.copy_text import copy_text
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.simulation.controller import SimulationController
@@ -36,7 +35,7 @@ def show_terminal_command(controller: SimulationController) -> None:
         with ui.row().classes("dialog-buttons"):
             ui.button("Close", on_click=dialog.close).props("flat no-caps")
             primary_button(
-                "Copy command", lambda: copy_text(context, found.command, texts.COMMAND_COPIED), icon="content_copy"
+                "Copy command", lambda: copy_text(context, found.command, "Command copied."), icon="content_copy"
             )
     dialog.on("hide", dialog.delete)
 

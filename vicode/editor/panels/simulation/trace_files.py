@@ -6,7 +6,7 @@ from nicegui import run, ui
 
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.runs.trace_recording import find_traces
-from vicode.simulation.trace import TraceError
+from vicode.traces.reader import TraceError
 
 _PROGRESS_INTERVAL_S = 0.5
 

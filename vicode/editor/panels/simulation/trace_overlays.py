@@ -5,8 +5,8 @@ from nicegui import run, ui
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.session.simulation.trace_overlays import HeatMap, compare_traces, measure_heat
 from vicode.runs.trace_recording import find_traces
-from vicode.simulation.trace import TraceError
-from vicode.simulation.trace_statistics import RunDifference
+from vicode.traces.reader import TraceError
+from vicode.traces.statistics import RunDifference
 
 
 class TraceOverlays:

@@ -22,9 +22,30 @@ class TrustPurpose:
     accept: str
 
 
-SIMULATE = TrustPurpose(languages=("python",), question=texts.TRUST_QUESTION, accept="Trust and simulate")
-REPLAY = TrustPurpose(languages=("python",), question=texts.TRUST_TO_REPLAY, accept="Trust and replay")
-COMPARE = TrustPurpose(languages=("python", "cpp"), question=texts.TRUST_TO_COMPARE, accept="Trust and compare")
+SIMULATE = TrustPurpose(
+    languages=("python",),
+    question=(
+        "Simulate runs the Python code of this folder. Trust it only if you know where it comes from; "
+        "the answer is remembered for this user."
+    ),
+    accept="Trust and simulate",
+)
+REPLAY = TrustPurpose(
+    languages=("python",),
+    question=(
+        "To show what the value changes, the design runs with recorded inputs, and so does the Python code in it. "
+        "Trust the folder only if you know where it comes from; the answer is remembered for this user."
+    ),
+    accept="Trust and replay",
+)
+COMPARE = TrustPurpose(
+    languages=("python", "cpp"),
+    question=(
+        "Comparing languages runs the Python and C++ code of this folder. Trust it only if you know where it comes "
+        "from; the answer is remembered for this user."
+    ),
+    accept="Trust and compare",
+)
 
 
 async def ask_for_trust(context: WindowContext, purpose: TrustPurpose = SIMULATE) -> bool:
@@ -38,16 +59,25 @@ async def ask_for_trust(context: WindowContext, purpose: TrustPurpose = SIMULATE
         try:
             trust_folder(state_folder(), workspace.folder)
         except OSError:
-            context.show_toast(texts.TRUST_NOT_REMEMBERED, "info")
+            context.show_toast(
+                "The folder is trusted until the editor ends: the state folder cannot be written", "info"
+            )
     return workspace.is_trusted
 
 
 async def _ask(context: WindowContext, purpose: TrustPurpose) -> bool:
     problem = await run.io_bound(isolation_problem)
-    with context.client, titled_dialog(texts.TRUST_TITLE) as dialog:
+    with context.client, titled_dialog("Trust this folder?") as dialog:
         ui.label(str(context.workspace.folder.resolve())).classes("mono")
         ui.label(purpose.question)
-        ui.label(texts.not_sandboxed(problem) if problem else texts.SANDBOXED)
+        ui.label(
+            texts.not_sandboxed(problem)
+            if problem
+            else (
+                "It runs in a sandbox: it can read this folder and installed software, write nothing but temporary "
+                "files, and has no network. It may still use up memory, disk space and processor time."
+            )
+        )
         with ui.row().classes("dialog-buttons"):
             ui.button("Cancel", on_click=lambda: dialog.submit(False)).props("flat no-caps")
             primary_button(purpose.accept, lambda: dialog.submit(True))

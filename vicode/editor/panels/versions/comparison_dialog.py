@@ -67,7 +67,8 @@ class ComparisonDialog:
 
     async def _ask_and_run(self) -> None:
         if not await ask_for_trust(self._context, COMPARE):
-            self._error, self._result = texts.NOT_TRUSTED_TO_COMPARE, None
+            self._error = "The folder is not trusted, so its code does not run. Compare again to be asked again."
+            self._result = None
             self._show()
             return
         context = self._context
@@ -96,7 +97,7 @@ class ComparisonDialog:
     def _finish(self) -> None:
         self._show()
         if self._dialog is None:
-            words = verdict(self._result) if self._result else texts.comparison_failed(self._error)
+            words = verdict(self._result) if self._result else f"The languages were not compared: {self._error}"
             is_good = self._result is not None and not (self._result.differences or self._result.failed)
             self._context.show_toast(words, "positive" if is_good else "warning")
 
@@ -135,7 +136,7 @@ class ComparisonDialog:
             ui.label(texts.comparing(title, at + 1, len(_LANGUAGES))).props('role="status"')
             bar = ui.linear_progress(max(at, 0) / len(_LANGUAGES), show_value=False).props("instant-feedback")
             bar.props["aria-label"] = "Progress"
-            ui.label(texts.COMPARING_IN_BACKGROUND).classes("small")
+            ui.label("Edits made from now on are not part of this comparison.").classes("small")
         with self._buttons:
             ui.button("Cancel", on_click=self._cancel_and_close).props("flat no-caps")
             ui.button("Continue in the background", on_click=self._close).props("flat no-caps")
@@ -146,7 +147,7 @@ class ComparisonDialog:
                 ui.label(self._error).classes("field-finding comparison-error").props('role="status"')
             else:
                 if self._rev != self._context.document.rev:
-                    ui.label(texts.COMPARISON_OUTDATED).classes("field-finding is-info")
+                    ui.label("The design has changed since this comparison.").classes("field-finding is-info")
                 ComparisonView(self._context, self._result, self._seed, self._close).build()
         with self._buttons:
             ui.button("Close", on_click=self._close).props("flat no-caps")

@@ -33,7 +33,7 @@ def ask_to_resolve_conflict(context: WindowContext) -> None:
     if shared.disk_conflict.design is not None:
         # The conflicting edits were undone.
         context.workspace.resolve_conflict(context.document)
-        context.show_toast(texts.MERGED_WITH_DISK, "info")
+        context.show_toast("Merged with the changes on disk", "info")
         return
     with titled_dialog(texts.file_missing(name, is_deleted=is_deleted), "conflict") as dialog:
         _ask_to_overwrite(_ConflictPrompt(context, dialog, shared.disk_conflict), is_deleted=is_deleted)
@@ -72,15 +72,15 @@ def _ask_for_choices(prompt: _ConflictPrompt) -> None:
 
     with ui.row().classes("dialog-buttons"):
         ui.button("Cancel", on_click=prompt.dialog.close).props("flat no-caps")
-        ui.button("Use version on disk", on_click=resolve_all("theirs", texts.LOADED_DISK_VERSION)).props(
+        ui.button("Use version on disk", on_click=resolve_all("theirs", "Loaded the version on disk")).props(
             "flat no-caps"
         )
-        keep = resolve_all("mine", texts.SAVED_YOUR_VERSION)
+        keep = resolve_all("mine", "Saved your version")
         if len(conflicts) == 1:
             primary_button("Keep your version", keep)
         else:
             ui.button("Keep your version", on_click=keep).props("flat no-caps")
-            primary_button("Save merged version", resolve_all("", texts.SAVED_MERGED_VERSION))
+            primary_button("Save merged version", resolve_all("", "Saved the merged version"))
 
 
 def _conflict(conflict: Conflict, chosen: dict[DesignPath, str]) -> None:
@@ -104,7 +104,7 @@ def _resolve(prompt: _ConflictPrompt, theirs_at: list[DesignPath] | tuple[()], m
         # The conflict has changed since the dialog opened: this answer does not apply.
         dialog.close()
         if context.document.shared.disk_conflict is None:
-            context.show_toast(texts.CONFLICT_ALREADY_RESOLVED, "info")
+            context.show_toast("The conflict is already resolved. See History for the other version.", "info")
         else:
             context.show_toast(texts.CONFLICT_CHANGED, "info")
         ask_to_resolve_conflict(context)

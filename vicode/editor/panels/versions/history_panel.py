@@ -6,7 +6,6 @@ from collections.abc import Callable
 from nicegui import ui
 
 from vicode.editor.panels.dialogs import titled_dialog
-from vicode.editor.panels.texts import history_jump_warning
 from vicode.editor.panels.versions.revisions_dialog import show_revisions
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
@@ -110,7 +109,7 @@ class HistoryPanel:
     def _ask(self, step: int, left_steps: str) -> None:
         label = self.context.document.history.entries[step].label
         with titled_dialog(f"Go to “{label}”?") as dialog:
-            ui.label(history_jump_warning(left_steps))
+            ui.label(f"This undoes {left_steps} for all users. The steps stay in the history.")
 
             def jump() -> None:
                 self._jump(step)

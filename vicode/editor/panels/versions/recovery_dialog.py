@@ -20,8 +20,8 @@ def offer_recovery(context: WindowContext, autosave: AutosaveService) -> None:
     recoverable_designs = autosave.recoverable(context.workspace)
     if not recoverable_designs:
         return
-    with titled_dialog(texts.RECOVERY_TITLE, "recovery") as dialog:
-        ui.label(texts.RECOVERY_REASON).classes("small")
+    with titled_dialog("Recover unsaved changes?", "recovery") as dialog:
+        ui.label("The editor stopped before these changes were saved.").classes("small")
         for lost in recoverable_designs:
             _offer(context, autosave, lost, dialog)
         with ui.row().classes("dialog-buttons"):
@@ -41,13 +41,13 @@ def _offer(context: WindowContext, autosave: AutosaveService, lost: RecoverableD
             try:
                 overruled = autosave.recover(context.workspace, lost, context.document.user_id)
             except OSError as error:
-                context.show_toast(texts.not_recovered(error_reason(error)), "negative")
+                context.show_toast(f"Could not recover: {error_reason(error)}", "negative")
                 return
             done(texts.recovered(lost.component, overruled), "positive")
 
         def discard() -> None:
             autosave.recovery.discard(lost)
-            done(texts.discarded(lost.component), "info")
+            done(f"Discarded the changes to {lost.component}", "info")
 
         with ui.row().classes("recovery-ask"):
             is_deleted = context.workspace.project.design(lost.component) is None

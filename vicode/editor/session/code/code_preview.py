@@ -60,7 +60,7 @@ def preview_code(project: Project, design: Design, sources: Mapping[str, str]) -
     project = replace(project, designs=designs)
     languages = [language for language in GENERATORS if language in project.languages]
     if not languages:
-        return CodePreview(note=texts.no_generator(project.languages))
+        return CodePreview(note=f"No code: this project generates {', '.join(project.languages) or 'nothing'}")
     files: list[PreviewFile] = []
     notes: list[str] = []
     for language in languages:

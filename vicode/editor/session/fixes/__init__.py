@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 
 from vicode.check import check_design, check_file
-from vicode.editor.session.fixes import code, decisions, declarations, expressions, names, states, uses
+from vicode.editor.session.fixes import code, decisions, declarations, invalid_names, states, unknown_names, uses
 from vicode.editor.session.fixes.context import Fix, FixContext
 from vicode.findings import RULES, Finding, Severity
 from vicode.model.design import Design
@@ -16,8 +16,8 @@ FIXERS: Mapping[str, Callable[[FixContext], list[Fix]]] = {
     **code.FIXERS,
     **decisions.FIXERS,
     **declarations.FIXERS,
-    **expressions.FIXERS,
-    **names.FIXERS,
+    **unknown_names.FIXERS,
+    **invalid_names.FIXERS,
     **states.FIXERS,
     **uses.FIXERS,
 }

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from vicode.findings import DesignPath, Finding
 from vicode.model.design import Design
 from vicode.model.project import Project
-from vicode.model.traversal import LocatedDecision, find_decision, iter_decisions
+from vicode.model.traversal import LocatedDecision, find_decision
 
 DesignEdit = Callable[[Design], Design]
 ProjectEdit = Callable[[Project], Project]
@@ -46,6 +46,3 @@ class FixContext:
         return any(
             use.component == own for design in self.project.designs if design.component != own for use in design.uses
         )
-
-    def target_names(self) -> set[str]:
-        return {getattr(located.decision, "to", "") for located in iter_decisions(self.design)}

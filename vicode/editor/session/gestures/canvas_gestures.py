@@ -125,7 +125,7 @@ class FrameGesture:
     def apply(self, document: DocumentSession) -> EditResult:
         known = [name for name in dict.fromkeys(self.states) if document.design.state(name) is not None]
         if not known:
-            raise EditError(texts.SELECT_TO_FRAME)
+            raise EditError("select the states to draw a frame around")
         wanted = _title(self.title) or "Frame"
         title = unique_name(wanted, {frame.name for frame in document.design.frames})
         document.edit(f"add frame {title}", lambda design: add_frame(design, title, known))
@@ -166,7 +166,7 @@ class RenameGesture:
         if old == new:
             return EditResult()
         if not new or design.frame(new) is not None or design.frame(old) is None:
-            raise EditError(messages.name_exists("frame", new) if new else texts.FRAME_WITHOUT_TITLE)
+            raise EditError(messages.name_exists("frame", new) if new else "a frame needs a title")
         document.edit(texts.rename(old, new), lambda design: rename_frame(design, old, new))
         return EditResult(new_selection=(replace(self.item, id=new),))
 
@@ -210,7 +210,7 @@ class DisableGesture:
         located = [find_decision(design, parse_transition_key(key)) for key in _ids(self.items, "transitions")]
         decisions = [decision for decision in located if decision is not None]
         if not states and not decisions:
-            raise EditError(texts.SELECT_TO_DISABLE)
+            raise EditError("select states or transitions to disable")
         are_disabled = [*(state.disabled for state in states), *(each.decision.disabled for each in decisions)]
         disabled = not all(are_disabled)
         names, paths = [state.name for state in states], [decision.path for decision in decisions]
@@ -252,7 +252,7 @@ class StateFlagGesture:
     def apply(self, document: DocumentSession) -> EditResult:
         state = require_state(document, self.id)
         if self.mark == "initial":
-            document.edit(texts.set_initial(state.name), lambda design: replace(design, initial=state.name))
+            document.edit(f"make {state.name} the initial state", lambda design: replace(design, initial=state.name))
             return EditResult()
         document.edit(
             texts.set_final(state.name, final=not state.final),
@@ -298,7 +298,7 @@ def _title(text: str) -> str:
 def _alias_error(design: Design, alias: str) -> str:
     if not is_valid_name(alias):
         return texts.invalid_alias(alias)
-    return texts.alias_exists(alias) if design.use(alias) else ""
+    return f"there is already a component with the alias {alias}" if design.use(alias) else ""
 
 
 def _ids(items: Iterable[ItemRef], kind: ItemKind) -> list[str]:

@@ -54,7 +54,7 @@ class DuplicateGesture:
             return _select_inserted(joined)
         paths = sorted((path for path in wanted.decisions if find_decision(design, path)), key=str, reverse=True)
         if not paths:
-            return EditResult(error=texts.SELECT_TO_DUPLICATE)
+            return EditResult(error="select states or transitions to duplicate")
 
         def change(old: Design) -> Design:
             for path in paths:
@@ -114,9 +114,9 @@ def paste(
 def _paste_decisions(document: DocumentSession, part: Design, known: Collection[str], names: list[str]) -> EditResult:
     names = [name for name in names if document.design.state(name) is not None]
     if not names:
-        return EditResult(error=texts.SELECT_TO_PASTE)
+        return EditResult(error="select the states to add these transitions to, then paste")
     joined = append_decisions(document.design, part, names, available=known)
-    document.edit(texts.PASTE_TRANSITIONS, lambda _design: joined.design)
+    document.edit("paste transitions", lambda _design: joined.design)
     return replace(_select_inserted(joined), new_selection=None)
 
 

@@ -76,7 +76,7 @@ def create_state(
 
     document.edit(texts.add_state(name), change, coalesce_key=creation_key(document, name))
     if document.design.state(name) is None:
-        return EditResult(error=texts.STATE_NOT_ADDED)
+        return EditResult(error="the state was not added")
     return EditResult(new_selection=(ItemRef(kind="states", id=name),) if select else None, error=error)
 
 

@@ -13,7 +13,7 @@ def validate_frequency(text: str) -> str:
     try:
         value = float(text)
     except ValueError:
-        return texts.invalid_frequency(text)
+        return f"'{text[:20]}' is not a number: enter Hz, such as 10 or 0.5"
     return "" if math.isfinite(value) and value > 0 else texts.FREQUENCY_TOO_LOW
 
 

@@ -49,15 +49,15 @@ class SetCell:
         item = parse_row_id(self.row)
         now = _cell(document, item, self.column)
         if len(self.value) > MAX_CELL_LENGTH:
-            raise EditError(texts.CELL_TOO_LONG)
+            raise EditError("this text is too long for a cell")
         if self.value == now:
             return EditResult()
         if now != self.base:
-            raise EditError(texts.cell_changed(now))
+            raise EditError(f"the cell has changed to '{now[:60]}': press Enter again to overwrite it")
         if item.kind == "states":
             return _set_in_state(document, item.id, self.column, self.value)
         if item.kind == "common":
-            raise EditError(texts.CELL_IN_INSPECTOR)
+            raise EditError("edit this in the inspector")
         return _set_in_decision(document, item.id, self.column, self.value)
 
 
@@ -79,7 +79,7 @@ class ToggleFlag:
                 label, lambda design: update_state(design, item.id, lambda state: replace(state, final=not is_set))
             )
         elif is_set:
-            raise EditError(texts.INITIAL_REQUIRED)
+            raise EditError("a design needs an initial state: mark another state instead")
         else:
             document.edit(label, lambda design: replace(design, initial=item.id))
         return EditResult()
@@ -118,7 +118,7 @@ class AddTransition:
             raise EditError(texts.ROW_GONE)
         target = next((state.name for state in design.states if state.name != source), source)
         if target == COMMON:
-            raise EditError(texts.NO_STATE_TO_CONNECT)
+            raise EditError("there is no state to connect to: add one first")
         item = parse_row_id(self.row)
         where = decisions_path(design, source)
         path = parse_transition_key(item.id) if item.kind == "transitions" else ()
@@ -143,12 +143,12 @@ class RemoveRow:
     def apply(self, document: DocumentSession) -> EditResult:
         item = parse_row_id(self.row)
         if item.kind == "states" and document.design.state(item.id):
-            document.edit(texts.remove(item.id), lambda design: remove_states(design, [item.id]))
+            document.edit(f"remove {item.id}", lambda design: remove_states(design, [item.id]))
         elif item.kind == "transitions" and document.has_decision(item.id):
             path = parse_transition_key(item.id)
-            document.edit(texts.REMOVE_TRANSITION, lambda design: remove_decisions(design, [path]))
+            document.edit("remove transition", lambda design: remove_decisions(design, [path]))
         else:
-            raise EditError(texts.ROW_NOT_REMOVABLE)
+            raise EditError("this row cannot be removed")
         return EditResult()
 
 
@@ -164,11 +164,11 @@ class MoveRow:
         item, by, design = parse_row_id(self.row), 1 if self.by > 0 else -1, document.design
         if item.kind == "states" and design.state(item.id):
             index = [state.name for state in design.states].index(item.id) + by
-            document.edit(texts.REORDER_STATES, lambda old: reorder_state(old, item.id, index))
+            document.edit("reorder states", lambda old: reorder_state(old, item.id, index))
             return EditResult(new_selection=(item,))
         located = find_decision(design, parse_transition_key(item.id)) if item.kind == "transitions" else None
         if located is None:
-            raise EditError(texts.ROW_NOT_MOVABLE)
+            raise EditError("this row cannot be moved")
         path: DesignPath = located.path
         moved = (*path[:-1], int(path[-1]) + by)
         if find_decision(design, moved) is None:
@@ -192,7 +192,7 @@ def _cell(document: DocumentSession, item: ItemRef, column: str) -> str:
     if cells is None:
         raise EditError(texts.ROW_GONE)
     if column not in cells:
-        raise EditError(texts.CELL_READ_ONLY)
+        raise EditError("this cannot be changed here")
     return str(cells[column])
 
 
@@ -237,7 +237,7 @@ def _set_in_decision(document: DocumentSession, key: str, column: str, value: st
     changed: Decision
     if column == "name":
         if not isinstance(decision, Transition):
-            raise EditError(texts.NO_TARGET)
+            raise EditError("only a transition has a target")
         if document.design.state(value) is None:
             raise EditError(texts.unknown_state(value))
         changed = replace(decision, to=value)

@@ -92,12 +92,15 @@ class ReconnectGesture:
         if self.end == "target":
             require_state(document, state)
             changed = replace(transition, to=state)
-            document.edit(texts.change_target(state), lambda design: replace_decision(design, located.path, changed))
+            document.edit(f"change target to {state}", lambda design: replace_decision(design, located.path, changed))
             return EditResult()
         if located.groups:
-            raise EditError(texts.TREE_SOURCE)
+            raise EditError("the source of a transition in a decision tree cannot be changed")
         _require_source(document, state)
-        document.edit(texts.change_source(state), lambda design: _with_source(design, located.path, transition, state))
+        document.edit(
+            f"change source to {state.lstrip('@')}",
+            lambda design: _with_source(design, located.path, transition, state),
+        )
         return _select_last_transition(document, state)
 
 
@@ -116,7 +119,7 @@ class ReorderGesture:
         if self.onto is not None:
             onto = _require_decision(document, self.onto).path
             if onto[:-1] != path[:-1]:
-                raise EditError(texts.TREE_ORDER)
+                raise EditError("a transition in a decision tree can only be reordered within its branch")
             index = int(onto[-1])
         decisions = iter_decisions(document.design)
         last = max(int(located.path[-1]) for located in decisions if located.path[:-1] == path[:-1])
@@ -143,7 +146,7 @@ class LabelGesture:
             label_at = (round(max(0.0, min(fraction, 1.0)), 3), round(offset))
         moved = replace(transition, label_at=label_at)
         document.edit(
-            texts.MOVE_LABEL,
+            "move label",
             lambda design: replace_decision(design, located.path, moved),
             coalesce_key=f"label {self.id}" if self.by == "nudge" else "",
         )

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from vicode.check import check_design
-from vicode.editor.session import texts
 from vicode.editor.session.workspace import Workspace
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
@@ -112,7 +111,7 @@ class ProjectOverview:
         for finding in every:
             if finding.location is not None and finding.location.file.endswith(file):
                 return BrokenFile(file=file, reason=finding.message, line=finding.location.line)
-        return BrokenFile(file=file, reason=texts.NO_READABLE_DESIGN)
+        return BrokenFile(file=file, reason="the file contains no readable design")
 
 
 def _check_dependencies(project: Project) -> object:

@@ -55,7 +55,7 @@ class ProjectEdit:
 
     @property
     def label(self) -> str:
-        return texts.edit_project_file(self.summary)
+        return f"project.yaml: {self.summary}"
 
     def undo(self, _user_id: str) -> str:
         return self._merge_and_write(self.new, self.old or "")
@@ -69,7 +69,7 @@ class ProjectEdit:
             now = file.read_bytes().decode("utf-8") if file else ""
             text = merge_lines(base, now, wanted)
             if text is None or (text and read_project_file(text, "project.yaml").project is None):
-                return texts.not_done(texts.PROJECT_LINES_CHANGED)
+                return texts.not_done("these lines of project.yaml have changed in the meantime")
             _write_or_remove(
                 self.workspace, file, None if self.old is None and not text else text, now if file else None
             )
@@ -103,7 +103,7 @@ class DesignAndProjectEdit:
         document = self.file_edit.workspace.open_document(self.new.component)
         merged = merge_designs(base, document.design, wanted) if document else None
         if document is None or merged is None or merged.conflicts:
-            return texts.not_done(texts.DESIGN_CHANGED)
+            return texts.not_done("these parts of the design have changed in the meantime")
         error = change_file(transaction.user_id)
         if not error:
             DocumentSession(document.shared, transaction.user_id).apply_transaction(transaction, merged.design)

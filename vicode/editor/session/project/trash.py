@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-from vicode.editor.session import texts
 from vicode.editor.session.workspace import TrashedDesign, Workspace
 from vicode.model.edits import unique_name
 from vicode.model.names import is_valid_name, snake_case
@@ -47,7 +46,7 @@ def restore_from_trash(workspace: Workspace, trashed: TrashedDesign) -> str:
         OSError: The file cannot be written.
     """
     if trashed.file.exists():
-        return texts.cannot_restore(trashed.file.name, trashed.component)
+        return f"{trashed.file.name} already exists: {trashed.component} stays in the trash"
     replace_text(trashed.file, None, trashed.content.decode("utf-8"))
     workspace.trashed_designs.pop(trashed.component, None)
     workspace.sync_from_disk()

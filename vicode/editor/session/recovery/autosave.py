@@ -57,7 +57,7 @@ class AutosaveService:
                 # The header shows the conflict until a user resolves it.
                 continue
             except (OSError, ValueError) as error:
-                _notify_once(document, texts.cannot_save(document.file.name, error_reason(error)))
+                _notify_once(document, f"{document.file.name} cannot be saved: {error_reason(error)}")
 
     def find_other_editors(self, interval_s: float = _EDITOR_CHECK_INTERVAL_S) -> None:
         """Note which projects another editor has open, at most once per interval, and notify the users."""
@@ -73,7 +73,9 @@ class AutosaveService:
                 continue
             workspace.has_other_editor = is_shared
             for document in workspace.documents:
-                _notify_once(document, texts.OTHER_EDITOR if is_shared else texts.NO_OTHER_EDITOR)
+                _notify_once(
+                    document, texts.OTHER_EDITOR if is_shared else "No other editor has this folder open any more"
+                )
 
     def close(self) -> None:
         """Save and journal the latest edits, then close the journals."""
@@ -117,7 +119,7 @@ class AutosaveService:
             self.recovery.discard(lost)
             return 0
         merged = merge_designs(base or document.design, mine, document.design)
-        DocumentSession(document.shared, person).edit(texts.RECOVER, lambda _design: merged.design)
+        DocumentSession(document.shared, person).edit("recover unsaved changes", lambda _design: merged.design)
         self.recovery.discard(lost)
         return len(merged.conflicts)
 

@@ -10,11 +10,11 @@ from vicode.editor.view import ItemRef
 from vicode.model.decision_keys import transition_key
 from vicode.model.design import Design
 from vicode.model.traversal import iter_transitions
+from vicode.runs.design_trace import TransitionKeys
 from vicode.runs.recording import Recording
-from vicode.runs.traces import TransitionKeys
 from vicode.simulation import IterationResult
-from vicode.simulation.trace import open_trace
-from vicode.simulation.trace_statistics import RunDifference, StateRun, StateStatistics, find_difference, read_history
+from vicode.traces.reader import open_trace
+from vicode.traces.statistics import RunDifference, StateRun, StateStatistics, find_difference, read_history
 
 NEVER = "never"
 

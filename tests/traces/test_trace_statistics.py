@@ -3,7 +3,7 @@
 import pytest
 
 from vicode.simulation import IterationResult
-from vicode.simulation.trace_statistics import RunDifference, RunHistory, find_difference, read_history, sum_states
+from vicode.traces.statistics import RunDifference, RunHistory, find_difference, read_history, sum_states
 
 S = 10**9
 

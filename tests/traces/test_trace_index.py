@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from vicode.simulation.trace import TraceError, open_trace
-from vicode.simulation.trace_index import load_index
+from vicode.traces.index import load_index
+from vicode.traces.reader import TraceError, open_trace
 
 
 @pytest.fixture(autouse=True)

@@ -14,7 +14,7 @@ from vicode.bica import Component, Observer, Root, SimulatedClock
 from vicode.bica.observer import TRACE_HEADER
 from vicode.cli import main
 from vicode.simulation.messages import IterationResult, decode_iteration, encode_response
-from vicode.simulation.trace import TraceError, read_trace, trace_schema
+from vicode.traces.reader import TraceError, read_trace, trace_schema
 from vicode.xabsl.engine.code_reader import read_code
 from vicode.xabsl.engine.replay import read_rows, replay, replay_team
 from vicode.xabsl.engine.symbols import read_symbols
@@ -64,15 +64,14 @@ def test_the_runtime_follows_the_schema() -> None:
         "errors": 0,
         "world": None,
     }
-    trace = read_trace(text_of([*lines, json.dumps({"summary": summary})]))
-    assert (trace.runtime, trace.summary) == ("bica", summary)
-    changed = trace.iterations[2]
+    iterations = read_trace(text_of([*lines, json.dumps({"summary": summary})]))
+    changed = iterations[2]
     assert (changed.changed_from, changed.state, changed.transition) == ("LookForBall", "GetUp", "falls")
-    assert [dict(iteration.tree[0])["worked"] for iteration in trace.iterations] == [True] * 4
+    assert [dict(iteration.tree[0])["worked"] for iteration in iterations] == [True] * 4
 
 
 def test_the_runtime_records_errors_without_folders() -> None:
-    (iteration,) = read_trace(text_of(bica_trace(Broken, 1))).iterations
+    (iteration,) = read_trace(text_of(bica_trace(Broken, 1)))
     (error,) = iteration.errors
     assert (error["component"], error["method"], error["file"]) == ("Broken", "work", "test_trace.py")
     assert error["message"] == "ZeroDivisionError: division by zero"
@@ -88,10 +87,9 @@ def test_an_error_that_stops_the_run_is_recorded() -> None:
 
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_the_xabsl_engine_follows_the_schema(program: str) -> None:
-    trace = read_trace(text_of(xabsl_trace(program)))
-    assert trace.runtime == "xabsl"
+    iterations = read_trace(text_of(xabsl_trace(program)))
     states: dict[str, str] = {}
-    for iteration in trace.iterations:
+    for iteration in iterations:
         before, states = states, {}
         for step in iteration.tree:
             # An option that was not restarted either changed from its last state or kept it.
@@ -155,7 +153,7 @@ def test_an_invalid_trace_is_rejected_with_a_reason(text: str, words: str) -> No
 
 
 def test_only_the_first_iterations_are_read() -> None:
-    assert len(read_trace(f"{HEADER}\n{RECORD}\n{RECORD}", 1).iterations) == 1
+    assert len(read_trace(f"{HEADER}\n{RECORD}\n{RECORD}", 1)) == 1
 
 
 def test_the_schema_is_printed(capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from vicode.importers.names import to_design_number
+from vicode.importers.design_names import to_design_number
 from vicode.xabsl import tree
 from vicode.xabsl.lexer import Tokens
 from vicode.xabsl.symbol_table import Definition

@@ -19,15 +19,6 @@ class TraceError(ValueError):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Trace:
-    """A recorded run; `runtime` names the writer, and `summary` is None if the run did not end by itself."""
-
-    runtime: str
-    iterations: tuple[IterationResult, ...]
-    summary: dict[str, Any] | None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class TraceFiles:
     """A trace on the disk, read in pieces; a record of a robot has several files."""
 
@@ -119,25 +110,23 @@ def trace_schema() -> dict[str, Any]:
     return schema
 
 
-def read_trace(text: str, max_iterations: int | None = None) -> Trace:
-    """Read a trace, at most the first `max_iterations`.
+def read_trace(text: str, max_iterations: int | None = None) -> tuple[IterationResult, ...]:
+    """Read the iterations of a trace, at most the first `max_iterations`.
 
     Raises:
         TraceError: A line is not part of a trace, or the trace has another version.
     """
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
-    header = _parse_header(*lines[0]) if lines else _parse_header(1, "{}")
+    _parse_header(*lines[0] if lines else (1, "{}"))
     iterations: list[IterationResult] = []
-    summary = None
     for number, line in lines[1:]:
         record = _parse(number, line)
-        if isinstance(record.get("summary"), dict):
-            summary = record["summary"]
-        elif max_iterations is None or len(iterations) < max_iterations:
+        is_summary = isinstance(record.get("summary"), dict)
+        if not is_summary and (max_iterations is None or len(iterations) < max_iterations):
             iterations.append(_iteration(number, record))
     if not iterations:
         raise TraceError("the trace has no iterations")
-    return Trace(runtime=str(header.get("runtime", "")), iterations=tuple(iterations), summary=summary)
+    return tuple(iterations)
 
 
 def _parse_header(number: int, line: str) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from vicode.simulation.messages import IterationResult
-from vicode.simulation.trace import TraceError, TraceFiles, decode_line
+from vicode.traces.reader import TraceError, TraceFiles, decode_line
 
 _VERSION = 1
 _MAX_CELLS = 24_000_000

@@ -11,7 +11,7 @@ from vicode.model.traversal import iter_transitions
 from vicode.runs.inputs import SimulationInput
 from vicode.runs.recording import MAX_ITERATIONS
 from vicode.simulation import Inputs, IterationResult
-from vicode.simulation.trace import TraceError, read_trace
+from vicode.traces.reader import TraceError, read_trace
 
 MAX_BYTES = 50_000_000
 
@@ -24,7 +24,7 @@ def read_iterations(text: str, design: Design) -> tuple[IterationResult, ...]:
     """
     if len(text) > MAX_BYTES:
         raise TraceError(f"the trace is longer than {MAX_BYTES // 1_000_000} MB")
-    iterations = read_trace(text, MAX_ITERATIONS).iterations
+    iterations = read_trace(text, MAX_ITERATIONS)
     require_root(iterations, design)
     return tuple(map(TransitionKeys(design).complete, iterations))
 
