@@ -61,8 +61,7 @@ class Navigator:
         elif target.selected is None:
             context.select()
         else:
-            context.select(target.selected)
-            context.page.reveal(target.selected)
+            context.show(target.selected)
 
     def open_component(self, component: str) -> None:
         workspace, here = self._context.workspace, self._context.design.component

@@ -94,6 +94,11 @@ class WindowContext:
             self.selected = items
             self.notify_subscribers()
 
+    def show(self, item: ItemRef) -> None:
+        """Select an item, and make it visible; the design is shown without a selection."""
+        self.select(*(() if item.kind == "design" else (item,)))
+        self.page.reveal(item)
+
     def notify_subscribers(self) -> None:
         """Call all subscribers in the client of this window."""
         if not self.is_closed:

@@ -11,7 +11,6 @@ from vicode.editor.panels.widgets import ClickHandler, icon_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.code import code_preview
 from vicode.editor.session.code.code_preview import CodePreview, PreviewFile
-from vicode.editor.view import ItemRef
 from vicode.languages import LANGUAGES
 
 
@@ -111,5 +110,4 @@ class CodePanel:
         self.highlighted = (item, self.file)
         first, last = self.file.item_lines(item) if self.file else (0, 0)
         self.code_assist.highlight_lines(first, last, reveal=False)
-        self.context.select(item)
-        self.context.page.reveal(ItemRef(kind=item.kind, id=item.id))
+        self.context.show(item)

@@ -92,9 +92,7 @@ class SearchPanel:
             icon_button("find_replace", f"Replace in {item}", lambda: self._replace(match))
 
     def _open(self, match: TextMatch) -> None:
-        item = item_at_path(match.path)
-        self.context.select(*(() if item.kind == "design" else (item,)))
-        self.context.page.reveal(item)
+        self.context.show(item_at_path(match.path))
 
     def _open_first(self) -> None:
         if self.result.matches:

@@ -1,6 +1,6 @@
 """The activation tree of an iteration, and the output and errors of user code."""
 
-from collections.abc import Callable
+from functools import partial
 
 from nicegui import ui
 
@@ -63,7 +63,8 @@ class ConsoleOutput:
                     with ui.element("button").classes("output-line error").props('type="button"') as row:
                         ui.icon("error").props('aria-hidden="true"')
                         ui.label(text).classes("mono")
-                    row.on("click", self._opener(item))
+                    if item is not None:
+                        row.on("click", partial(self.controller.context.show, item))
                 else:
                     ui.label(text).classes("output-line mono")
 
@@ -88,14 +89,6 @@ class ConsoleOutput:
             found = code_error_view(design, failure.error) if failure.error else None
             lines.append(("error", found.text if found else failure.message, found.item if found else None))
         return lines
-
-    def _opener(self, item: ItemRef | None) -> Callable[[], None]:
-        def select() -> None:
-            if item is not None:
-                self.controller.context.select(item)
-                self.controller.context.page.reveal(item)
-
-        return select
 
 
 def _tree_row(row: ActivationRow) -> None:

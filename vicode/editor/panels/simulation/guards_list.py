@@ -1,6 +1,6 @@
 """The guards of the active state in priority order, with their truth values."""
 
-from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from nicegui import ui
@@ -63,7 +63,8 @@ class GuardsList:
         is_stop = item in self.controller.breakpoints.items
         with ui.element("div").classes("guard-row").style(f"padding-left: {12 * row.depth}px"):
             self._gutter(row, item, is_stop=is_stop)
-            with ui.element("button").classes("guard").props('type="button"').on("click", self._opener(item)):
+            button = ui.element("button").classes("guard").props('type="button"')
+            with button.on("click", partial(self.controller.context.show, item)):
                 icon = ui.icon("help").props('aria-hidden="true"').classes("guard-icon")
                 word = ui.label().classes("guard-truth")
                 ui.label(row.outcome + (" (common)" if row.is_common else "")).classes("guard-outcome")
@@ -81,13 +82,6 @@ class GuardsList:
         gutter.props(f'type="button" aria-pressed="{str(is_stop).lower()}"')
         gutter.props["aria-label"] = words
         gutter.on("click", lambda: self.controller.toggle_breakpoints(item))
-
-    def _opener(self, item: ItemRef) -> Callable[[], None]:
-        def select() -> None:
-            self.controller.context.select(item)
-            self.controller.context.page.reveal(item)
-
-        return select
 
 
 def _show(row: GuardRow, icon: Any, word: Any, reads: Any) -> None:

@@ -1,7 +1,7 @@
 """Why the selected state is not active: the conditions that fail on the way to it."""
 
-from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from nicegui import ui
 
@@ -94,18 +94,11 @@ class WhyNotView:
     def _transition(self, each: TransitionState) -> None:
         item = ItemRef(kind="transitions", id=each.key)
         button = ui.element("button").classes("why-not-transition").props('type="button"')
-        with button.on("click", self._opener(item)):
+        with button.on("click", partial(self.controller.context.show, item)):
             ui.label(f"{each.source} → {each.target}").classes("guard-outcome")
         if not each.conditions:
             ui.label("always").classes("why-not-note")
         self._rows += [_ConditionRow(condition) for condition in each.conditions]
-
-    def _opener(self, item: ItemRef) -> Callable[[], None]:
-        def select() -> None:
-            self.controller.context.select(item)
-            self.controller.context.page.reveal(item)
-
-        return select
 
 
 class _ConditionRow:

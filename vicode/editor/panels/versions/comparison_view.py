@@ -165,8 +165,7 @@ class ComparisonView:
             if component != self.context.design.component:
                 open_design(design_url(self.context.workspace.key, component, item))
                 return
-            self.context.select(*(() if item.kind == "design" else (item,)))
-            self.context.page.reveal(item)
+            self.context.show(item)
 
 
 def _add_count(count: CoverageCount) -> None:
