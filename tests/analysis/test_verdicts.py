@@ -212,7 +212,7 @@ def test_decisions_of_groups_are_judged_within_them() -> None:
 def test_what_is_too_large_has_no_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
     guards = ("a + b > 5 and n > 1", "x < y and seen", "a + b > 5 and n > 2", "x < y and seen and k > 3", "a > 11")
     numbers_found = set()
-    for limit in range(2, 150):
+    for limit in range(3, 150):
         monkeypatch.setattr(conditions, "_MAX_NODES", limit)
         numbers_found.add(tuple(each.path[3] for each in analyze(*guards).find_verdicts()))
     assert {(), (2, 3, 4)} < numbers_found
