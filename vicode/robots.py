@@ -14,6 +14,7 @@ TOKEN_VARIABLE = "VICODE_WATCH_TOKEN"  # noqa: S105 - the name of a variable
 _UNIX = "unix:"
 _MAX_LINE_BYTES = 16_000_000
 _CONNECT_LIMIT_S = 5.0
+_RATE_HZ = 30.0
 _NAMES_OF_HOST = ("localhost", "127.0.0.1", "::1")
 
 
@@ -126,7 +127,7 @@ def parse_address(text: str) -> RobotAddress:
     return RobotAddress(host=host.strip("[]") or "127.0.0.1", port=int(port))
 
 
-async def connect(address: RobotAddress, token: str = "", rate_hz: float = 30.0) -> tuple[SocketTransport, Hello]:
+async def connect(address: RobotAddress, token: str = "") -> tuple[SocketTransport, Hello]:
     """Connect to robots and return their description.
 
     Raises:
@@ -140,7 +141,7 @@ async def connect(address: RobotAddress, token: str = "", rate_hz: float = 30.0)
         raise AttachError(_explain_refusal(address, error)) from error
     transport = SocketTransport(reader, writer)
     try:
-        await transport.send(encode({"token": token, "rate_hz": rate_hz}))
+        await transport.send(encode({"token": token, "rate_hz": _RATE_HZ}))
         line = await asyncio.wait_for(transport.receive(), _CONNECT_LIMIT_S)
         plain = decode_line(line) if line else None
         hello = None if plain is None or "error" in plain else decode_hello(plain)

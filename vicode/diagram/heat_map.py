@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from vicode.diagram.diagram_model import DiagramEdge, DiagramNode, build_diagram
-from vicode.diagram.palettes import LIGHT, ColorPalette
+from vicode.diagram.palettes import LIGHT
 from vicode.diagram.primitives import VectorImage
 from vicode.diagram.render import render_diagram
 from vicode.diagram.transition_labels import GuardKind
@@ -29,7 +29,6 @@ def render_heat_map(
     design: Design,
     states: Mapping[str, StateHeat],
     transitions: Mapping[DesignPath, int],
-    palette: ColorPalette = LIGHT,
 ) -> VectorImage:
     """Render a design with the statistics of its states, and of its transitions by path."""
     diagram = build_diagram(replace(design, notes=()), links=False)
@@ -38,7 +37,7 @@ def render_heat_map(
     nodes = tuple(_heated_node(node, states, whole_s) for node in diagram.nodes)
     edges = tuple(_counted_edge(edge, counts.get(edge.key, 0)) for edge in diagram.edges)
     return render_diagram(
-        replace(diagram, nodes=nodes, edges=edges), title=f"{design.component}: states over time", palette=palette
+        replace(diagram, nodes=nodes, edges=edges), title=f"{design.component}: states over time", palette=LIGHT
     )
 
 

@@ -29,11 +29,11 @@ def plain_text(text: str) -> RichText:
     return (TextSpan(text=text),) if text else ()
 
 
-def join_spans(parts: Iterable[TextSpan], separator: str = ", ") -> RichText:
-    """Join spans with a separator."""
+def join_spans(parts: Iterable[TextSpan]) -> RichText:
+    """Join spans with commas."""
     line: list[TextSpan] = []
     for part in parts:
-        line += [TextSpan(text=separator), part] if line else [part]
+        line += [TextSpan(text=", "), part] if line else [part]
     return tuple(line)
 
 

@@ -33,14 +33,14 @@ _MAX_UNGROUPED = 40
 _TOP_FOLDER = "(top folder)"
 
 
-def home_view(subject: SiteInput, addresses: SiteUrls, svg: str = "") -> HomeView:
-    """The home page with the dependency diagram."""
+def home_view(subject: SiteInput, addresses: SiteUrls) -> HomeView:
+    """The home page without the dependency diagram."""
     project = subject.project
     linker = NameLinker(project, addresses)
     return HomeView(
         doc_html=render_doc(project.doc),
         counts=tuple(_number(count, word, href) for count, word, href in _numbers(subject, addresses) if count),
-        svg=svg,
+        svg="",
         is_partial=has_omitted_uses(project) and symbol_count(project) > 0,
         agents=tuple(agent_rows(project, addresses)),
         components=tuple(_component_row(design, subject, linker) for design in sorted_designs(project)),

@@ -90,10 +90,9 @@ class Tokens:
         """The 1-based line of a character."""
         return bisect_right(self._line_starts, start)
 
-    def location(self, number: int, last: int = -1) -> SourceLocation:
-        """The location of a token, or of the tokens from `number` to `last`."""
-        last = max(number, last)
-        return self.location_at(self.starts[number], self.starts[last] + len(self.texts[last]) - self.starts[number])
+    def location(self, number: int) -> SourceLocation:
+        """The location of a token."""
+        return self.location_at(self.starts[number], len(self.texts[number]))
 
 
 def tokenize(text: str, file: str) -> tuple[Tokens, list[Finding]]:

@@ -25,23 +25,16 @@ def primary_button(label: str, act: ClickHandler, *, icon: str | None = None) ->
     return ui.button(label, icon=icon, on_click=act, color=None).props("unelevated no-caps").classes("primary-button")
 
 
-def heading(text: str, *, hint: str = "") -> None:
+def heading(text: str) -> None:
     with ui.row().classes("heading"):
         ui.label(text).props("role=heading aria-level=3")
-        if hint:
-            ui.label(hint).classes("heading-hint")
 
 
-def panel_title(
-    text: str, name: str = "", act: ClickHandler | None = None, *, is_visually_hidden: bool = False
-) -> None:
-    """Build the title of a panel: a text and a name, which is a link if there is an action."""
-    look = "visually-hidden" if is_visually_hidden else "panel-title"
-    with ui.row().classes(look).props("role=heading aria-level=2"):
+def panel_title(text: str, name: str = "") -> None:
+    """Build the title of a panel: a text and a name."""
+    with ui.row().classes("panel-title").props("role=heading aria-level=2"):
         ui.label(text)
-        if act is not None:
-            ui.link(name, "#").classes("mono").on("click.prevent", act)
-        elif name:
+        if name:
             ui.label(name).classes("mono")
 
 

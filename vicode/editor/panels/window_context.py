@@ -85,9 +85,9 @@ class WindowContext:
         """The selected item if exactly one is selected."""
         return self.selected[0] if len(self.selected) == 1 else None
 
-    def edit(self, label: str, change: Callable[[Design], Design], *, coalesce_key: str = "") -> None:
+    def edit(self, label: str, change: Callable[[Design], Design]) -> None:
         """Apply an edit to the design, for all windows."""
-        self.document.edit(label, change, coalesce_key=coalesce_key)
+        self.document.edit(label, change)
 
     def select(self, *items: ItemRef) -> None:
         if self.selected != items:

@@ -166,9 +166,9 @@ def _state(state: StatePlan, *, uses_action_done: bool) -> Doc:
 
 def _tuple(items: list[str]) -> Doc:
     if len(items) == 1:
-        return bracketed("(", f"{items[0]},")
+        return bracketed(f"{items[0]},")
     inner = concat(join_docs(list(items), concat(",", SoftLine())), IfBreak(","))
-    return bracketed("(", inner)
+    return bracketed(inner)
 
 
 def _region_text(body: CodePlan | None, indent: str) -> str:

@@ -114,7 +114,7 @@ def conditional_expression(then: ExpressionDoc, test: ExpressionDoc, otherwise: 
 
 
 def parenthesized(piece: ExpressionDoc) -> ExpressionDoc:
-    doc = bracketed("(", piece.breakable)
+    doc = bracketed(piece.breakable)
     return ExpressionDoc(breakable=doc, unbreakable=doc, starts_with_bracket=True, ends_with_bracket=True)
 
 
@@ -128,7 +128,7 @@ def format_statement(before: str, piece: ExpressionDoc, after: str = "", *, inde
     is_single = piece.weakest_operator[1] <= 1 and piece.precedence != CHOICE
     if is_single and has_brackets and (piece.weakest_operator[1] == 0 or all(len(line) <= LINE_WIDTH for line in flat)):
         return flat
-    inside = render_doc(concat(before, bracketed("(", piece.breakable), after), indent)
+    inside = render_doc(concat(before, bracketed(piece.breakable), after), indent)
     if piece.weakest_operator[1] == 0 and any(len(line) > LINE_WIDTH for line in inside):
         return flat
     return inside

@@ -57,9 +57,9 @@ def join_docs(parts: list[Doc], separator: Doc) -> Doc:
     return Concat(tuple(joined))
 
 
-def bracketed(opening: str, inner: Doc, closing: str = ")") -> Doc:
+def bracketed(inner: Doc) -> Doc:
     """Enclose a document in brackets; a document that does not fit moves to separate lines."""
-    return DocGroup(concat(opening, Indent(concat(SoftLine(""), inner)), SoftLine(""), closing))
+    return DocGroup(concat("(", Indent(concat(SoftLine(""), inner)), SoftLine(""), ")"))
 
 
 def call_doc(function: str, arguments: list[Doc], *, must_break: bool = False) -> Doc:
