@@ -217,3 +217,23 @@ def test_what_is_too_large_has_no_verdict(monkeypatch: pytest.MonkeyPatch) -> No
         numbers_found.add(tuple(each.path[3] for each in analyze(*guards).find_verdicts()))
     assert {(), (2, 3, 4)} < numbers_found
     assert all({*numbers} <= {2, 3, 4} for numbers in numbers_found)
+
+
+def test_each_state_may_add_as_many_nodes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(conditions, "_NODES_OF_A_QUESTION", 40)
+    pairs = tuple((f"x > {number} and y > {number}", f"x > {number + 1} and y > {number + 1}") for number in range(40))
+    states = tuple(
+        State(name=f"S{number}", transitions=tuple(Transition(to="S0", guard=Guard(when=each)) for each in pair))
+        for number, pair in enumerate(pairs)
+    )
+    design = Design(component="Tested", parameters=_PARAMETERS, initial="S0", states=states)
+    found = list(analyze_guards(Project(name="p", designs=(design,)), design).find_verdicts())
+    assert [each.path[1] for each in found] == [state.name for state in states]
+
+
+def test_a_value_minus_or_divided_by_itself_is_known() -> None:
+    assert judge("a - a > 0") == [(0, Verdict.NEVER_HOLDS, (), Basis())]
+    assert [each[1] for each in judge("k - k != 0")] == [Verdict.NEVER_HOLDS]
+    assert [each[1] for each in judge("(a + 1) / (a + 1) > 1")] == [Verdict.NEVER_HOLDS]
+    assert judge("not x - x == 0") == []
+    assert judge("not a / a == 1") == []

@@ -76,6 +76,7 @@ class AlternationSearch:
             return
 
     def _replay(self, cycle: Sequence[tuple[str, LiveTransition]], tick_ns: int) -> Alternation | None:
+        self._diagrams.begin_question()
         try:
             held = self._hold(cycle, tick_ns)
         except (TooLargeError, RecursionError):

@@ -86,6 +86,8 @@ def _calculate(node: Expr, cells: Cells, table: QuantityTable) -> tuple[float, f
             return _hull(_ends(then, cells, table), _ends(otherwise, cells, table))
         case Binary(operator=operator, left=left, right=right):
             a, b = _ends(left, cells, table), _ends(right, cells, table)
+            if operator in "-/" and shape_of(left) == shape_of(right):
+                return _combine_equal(operator, a, is_xabsl=table.is_xabsl)
             return _combine(operator, a, b, is_xabsl=table.is_xabsl)
         case FunctionCall(function=function, arguments=arguments):
             return _call(function, [_ends(each, cells, table) for each in arguments])
@@ -114,6 +116,17 @@ def _combine(
     if operator == "%" and b[0] > 0 and not is_xabsl:
         return (0, b[1], nan or math.isinf(a[0]) or math.isinf(a[1]))
     return (-math.inf, math.inf, True)
+
+
+def _combine_equal(operator: str, value: tuple[float, float, bool], *, is_xabsl: bool) -> tuple[float, float, bool]:
+    """A value minus or divided by itself: 0 or 1, or nan of inf, and of 0 / 0."""
+    low, high, may_be_nan = value
+    is_infinite = math.isinf(low) or math.isinf(high)
+    if operator == "-":
+        return (0, 0, may_be_nan or is_infinite)
+    may_be_zero = low <= 0 <= high
+    least = 0 if may_be_zero and is_xabsl else 1
+    return (least, 1, may_be_nan or is_infinite or (may_be_zero and not is_xabsl))
 
 
 def _multiply(x: float, y: float) -> float:

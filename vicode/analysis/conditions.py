@@ -1,8 +1,8 @@
 """Guards as interval decision diagrams.
 
 A comparison with a constant cuts the values of what it compares; a choice such as `min(a, b) < 3` becomes a choice
-between comparisons. What is computed from several values is a quantity of its own, whose possible values are related
-to those of its operands by interval arithmetic, cell by cell. Hand-written code can be anything. So the diagram of a
+between comparisons. A computed value is a separate quantity, whose possible values are related to those of its operands
+by interval arithmetic, cell by cell. Hand-written code can be anything. So the diagram of a
 guard contains every case in which the guard holds, and possibly more: "never" is proved, "possibly" is not.
 """
 
@@ -47,7 +47,7 @@ from vicode.model.expressions import (
 STATE_TIME = 0
 """The level of the time in the state."""
 _FIRST_COMPUTED = 1_000_000
-_MAX_NODES = 200_000
+_NODES_OF_A_QUESTION, _MAX_NODES = 30_000, 400_000
 _MAX_CELLS = 512
 _NO_SPAN = (0, 0)
 _MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
@@ -71,7 +71,7 @@ class Conditions:
 
     def __init__(self, table: QuantityTable) -> None:
         self.table = table
-        self.diagrams = IntervalDiagrams(_MAX_NODES)
+        self.diagrams = IntervalDiagrams(_NODES_OF_A_QUESTION, _MAX_NODES)
         self.quantities: dict[int, Quantity] = {STATE_TIME: table.quantity(_STATE_TIME)}
         self._levels: dict[Shape, int] = {shape_of(_STATE_TIME): STATE_TIME}
         self._computed: dict[int, _Computed] = {}
@@ -265,7 +265,7 @@ class Conditions:
         return replace(numbers, intervals=tuple((find_first(low), find_first(high)) for low, high in numbers.intervals))
 
     def _compare_order(self, left: Expr, operator: str, right: Expr) -> Node:
-        """Compare two values: their order is a quantity of its own, -1, 0, 1, or nan."""
+        """Compare two values: their order is a separate quantity, -1, 0, 1, or nan."""
         shapes = (shape_of(left), shape_of(right))
         if shapes[0] == shapes[1]:
             return self._compare_with_itself(left, operator)

@@ -127,6 +127,7 @@ class GuardAnalysis:
     # The list of decisions
 
     def _list_decisions(self, items: Sequence[Decision], path: DesignPath, reached: Node) -> tuple[TestedDecision, ...]:
+        self._diagrams.begin_question()
         listed: list[TestedDecision] = []
         try:
             self._append(listed, items, path, (TRUE, reached))
@@ -197,6 +198,7 @@ class GuardAnalysis:
             if any(each.path[: len(path)] == path for path in closed):
                 continue
             earlier = (*before, *listed[:index])
+            self._diagrams.begin_question()
             try:
                 verdicts = tuple(self._judge(each, earlier))
             except (TooLargeError, RecursionError):

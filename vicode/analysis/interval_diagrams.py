@@ -39,11 +39,14 @@ class IntervalDiagrams:
     """Creates and combines diagrams. A node is the number of its diagram; it stays valid.
 
     Args:
-        max_nodes: The limit of nodes; the operation that would exceed it raises `TooLargeError`.
+        budget: The number of nodes that one question may add; the operation that would exceed it, or the total,
+            raises `TooLargeError`.
+        total: The limit of all nodes.
     """
 
-    def __init__(self, max_nodes: int) -> None:
-        self._max_nodes = max_nodes
+    def __init__(self, budget: int, total: int) -> None:
+        self._budget, self._total = budget, total
+        self._max_nodes = min(budget, total)
         self._nodes: list[tuple[int, tuple[Position, ...], tuple[Node, ...]]] = [(_LEAF_LEVEL, (), ())] * 2
         self._known: dict[tuple[int, tuple[Position, ...], tuple[Node, ...]], Node] = {}
         self._intersections: dict[tuple[Node, Node], Node] = {}
@@ -51,6 +54,10 @@ class IntervalDiagrams:
 
     def __len__(self) -> int:
         return len(self._nodes)
+
+    def begin_question(self) -> None:
+        """Allow as many nodes again as one question may add."""
+        self._max_nodes = min(len(self._nodes) + self._budget, self._total)
 
     def test(self, level: int, intervals: Collection[Interval]) -> Node:
         """The values of which the variable of a level lies in one of the intervals, which are in order and disjoint."""

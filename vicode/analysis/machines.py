@@ -45,7 +45,7 @@ class TimeInState:
 
 
 class MachineAnalysis:
-    """The live transitions of a design; everything is computed when it is asked for.
+    """The live transitions of a design; everything is computed when it is first read.
 
     Args:
         project: The project.
@@ -79,6 +79,7 @@ class MachineAnalysis:
 
     def time_in(self, state: str) -> TimeInState | None:
         """How long a state is active; None if its diagrams are too large."""
+        self.guards.conditions.diagrams.begin_question()
         try:
             return self._find_time(state)
         except (TooLargeError, RecursionError):
@@ -116,6 +117,7 @@ class MachineAnalysis:
         )
 
     def _find_live(self, state: State) -> list[LiveTransition]:
+        self.guards.conditions.diagrams.begin_question()
         return [
             LiveTransition(path=each.path, target=each.decision.to, taken=taken)
             for each in (*self.guards.common, *self.guards.states[state.name])
