@@ -104,7 +104,7 @@ def draw(project: Project) -> object:
         "common": ["@common"],
     }
     items = [ItemRef(kind=kind, id=name) for kind, found in names.items() for name in found]
-    return make_scene(project, design, (), 0), [tooltip_sections(design, item, project.languages) for item in items]
+    return make_scene(project, design, (), 0), [tooltip_sections(project, design, item) for item in items]
 
 
 def write_forms(project: Project) -> object:

@@ -12,7 +12,7 @@ from vicode.analysis.conditions import STATE_TIME
 from vicode.analysis.guards import GuardAnalysis, analyze_guards
 from vicode.analysis.interval_diagrams import BEFORE_NAN, FALSE, TRUE, Interval, Node, TooLargeError
 from vicode.findings import DesignPath
-from vicode.model.design import Design, State, Transition
+from vicode.model.design import Design, Transition
 from vicode.model.project import Project
 
 
@@ -55,6 +55,7 @@ class MachineAnalysis:
     def __init__(self, project: Project, design: Design) -> None:
         self._project = project
         self.design = design
+        self._live: dict[str, tuple[LiveTransition, ...]] = {}
 
     @cached_property
     def guards(self) -> GuardAnalysis:
@@ -64,7 +65,13 @@ class MachineAnalysis:
     @cached_property
     def live(self) -> Mapping[str, tuple[LiveTransition, ...]]:
         """The live transitions of each enabled state, common ones included."""
-        return {state.name: tuple(self._find_live(state)) for state in self.design.states if not state.disabled}
+        return {state.name: self.live_in(state.name) for state in self.design.states if not state.disabled}
+
+    def live_in(self, state: str) -> tuple[LiveTransition, ...]:
+        """The live transitions of one state; none if there is no such state or it is disabled."""
+        if state not in self._live:
+            self._live[state] = tuple(self._find_live(state)) if state in self.guards.states else ()
+        return self._live[state]
 
     @cached_property
     def reachable(self) -> frozenset[str]:
@@ -92,7 +99,7 @@ class MachineAnalysis:
             TooLargeError: The diagram has too many nodes.
         """
         diagrams, stays = self.guards.conditions.diagrams, TRUE
-        for each in self.live[state]:
+        for each in self.live_in(state):
             # The team decides whether a robot enters a cooperative state.
             if not self._is_cooperative(each.target):
                 stays = diagrams.without(stays, each.taken)
@@ -100,7 +107,7 @@ class MachineAnalysis:
 
     def _find_time(self, state: str) -> TimeInState:
         leaving = FALSE
-        for each in self.live[state]:
+        for each in self.live_in(state):
             leaving = self.guards.conditions.diagrams.either(leaving, each.taken)
         leaves, stays = (self._find_times(node) for node in (leaving, self.staying(state)))
         last = stays[-1][1] if stays else (0, 0)
@@ -116,13 +123,13 @@ class MachineAnalysis:
             self.guards.conditions.diagrams.both(node, possible), STATE_TIME
         )
 
-    def _find_live(self, state: State) -> list[LiveTransition]:
+    def _find_live(self, state: str) -> list[LiveTransition]:
         self.guards.conditions.diagrams.begin_question()
         return [
             LiveTransition(path=each.path, target=each.decision.to, taken=taken)
-            for each in (*self.guards.common, *self.guards.states[state.name])
+            for each in (*self.guards.common, *self.guards.states[state])
             if isinstance(each.decision, Transition)
-            and each.decision.to != state.name
+            and each.decision.to != state
             and self.guards.is_possible(taken := self.guards.taken(each))
         ]
 

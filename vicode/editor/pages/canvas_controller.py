@@ -151,7 +151,7 @@ class CanvasController:
         self.context.show_toast(invalid_event(reason), "warning")
 
     def _show_tooltip(self, item: ItemRef) -> None:
-        sections = tooltip_sections(self.context.design, item, self.context.workspace.project.languages)
+        sections = tooltip_sections(self.context.workspace.project, self.context.design, item)
         if item in self.canvas.heat_words:
             sections = [{"name": "trace", "text": self.canvas.heat_words[item]}, *sections]
         self.canvas.show_tooltip(item, sections)

@@ -2,9 +2,11 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from vicode.analysis.machines import MachineAnalysis
 from vicode.editor.view.selection import ItemRef
 from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Action, Assign, Call, Code, Design, RunCode
+from vicode.model.project import Project
 from vicode.model.traversal import find_decision
 from vicode.model.words import describe_fields
 
@@ -14,9 +16,11 @@ _MAX_LINE_LENGTH = 90
 _DRAWN = ("color", "final", "disabled", "requires", "to", "alias", "component", "states")
 
 
-def tooltip_sections(design: Design, item: ItemRef, languages: Sequence[str]) -> Sections:
+def tooltip_sections(project: Project, design: Design, item: ItemRef) -> Sections:
     """The code of an item, and what the drawing does not show of it, as shortened sections {"name", "text"}."""
-    texts = [(name, "\n".join(lines)) for name, lines in _sections(design, item, languages)]
+    texts = [(name, "\n".join(lines)) for name, lines in _sections(design, item, project.languages)]
+    if item.kind == "states":
+        texts.append(("lasts", _describe_time(project, design, item.id)))
     return [{"name": name, "text": _cut(text)} for name, text in texts if text]
 
 
@@ -41,6 +45,23 @@ def _sections(design: Design, item: ItemRef, languages: Sequence[str]) -> Iterat
         case "frames" | "components":
             owner = design.frame(item.id) if item.kind == "frames" else design.use(item.id)
             yield "more", describe_fields(owner, _DRAWN) if owner is not None else ()
+
+
+def _describe_time(project: Project, design: Design, state: str) -> str:
+    """How long a state lasts whatever the inputs are, as the guards prove; "" if nothing is proved."""
+    machine = MachineAnalysis(project, design)
+    time = machine.time_in(state) if machine.live_in(state) else None
+    if time is None:
+        return ""
+    unit, ns_per_unit = design.time_unit or "s", machine.guards.conditions.table.ns_per_unit
+    least, most = time.at_least_ns / ns_per_unit, (time.at_most_ns or 0) / ns_per_unit
+    if time.at_most_ns is None:
+        return f"at least {least:.6g} {unit}" if time.at_least_ns else ""
+    if time.at_most_ns == 0:
+        return "one iteration"
+    if not time.at_least_ns:
+        return f"at most {most:.6g} {unit}"
+    return f"{least:.6g} {unit}" if f"{least:.6g}" == f"{most:.6g}" else f"{least:.6g} to {most:.6g} {unit}"
 
 
 def _lines(actions: Iterable[Action], languages: Sequence[str]) -> Iterator[str]:
