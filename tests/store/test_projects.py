@@ -31,7 +31,7 @@ def test_a_folder_is_a_project_with_all_its_designs(tmp_path: Path) -> None:
     assert project.project.name == "Forward"
     assert [design.component for design in project.project.designs] == ["KickLeft", "Player"]
     assert set(project.files) == set(project.sources) == set(project.texts) == {"", "KickLeft", "Player"}
-    assert project.project_file == tmp_path / "project.yaml"
+    assert project.files[""] == tmp_path / "project.yaml"
     assert project.find_component(tmp_path / "kicks" / ".." / "player.yaml") == "Player"
 
 
@@ -47,7 +47,7 @@ def test_a_folder_without_project_file_is_a_project(tmp_path: Path) -> None:
     for path in (tmp_path / "my-robot", tmp_path / "my-robot" / "player.yaml"):
         project = open_project(path)
         assert project.project.name == "my_robot"
-        assert project.project_file is None
+        assert "" not in project.files
         assert set(project.files) == {"Player"}
 
 

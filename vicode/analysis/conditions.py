@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from vicode.analysis.bounds import find_bounds, find_orders
+from vicode.analysis.choices import lower_to_choices
 from vicode.analysis.interval_diagrams import (
     AFTER_ALL,
     BEFORE_ALL,
@@ -37,7 +38,6 @@ from vicode.model.expressions import (
     Logic,
     Minus,
     Not,
-    Number,
     Ternary,
     Variable,
     parse_expression,
@@ -47,6 +47,9 @@ from vicode.model.expressions import (
 STATE_TIME = 0
 """The level of the time in the state."""
 _FIRST_COMPUTED = 1_000_000
+"""The least level of a computed value. A new variable is tested before those that are known: so a list of decisions
+grows at the top of its diagram, and what is below is shared.
+"""
 _NODES_OF_A_QUESTION, _MAX_NODES = 30_000, 400_000
 _MAX_CELLS = 512
 _NO_SPAN = (0, 0)
@@ -76,6 +79,7 @@ class Conditions:
         self._levels: dict[Shape, int] = {shape_of(_STATE_TIME): STATE_TIME}
         self._computed: dict[int, _Computed] = {}
         self._texts: dict[tuple[str, str], Node] = {}
+        self._plain_cases: dict[Node, bool] = {FALSE: False, TRUE: True}
         self.unknown = self._add_unknown()
 
     def of_guard(self, guard: Guard) -> Node:
@@ -100,6 +104,25 @@ class Conditions:
                 node = self._of(parsed.tree) if type_ == BOOL else self._of_timer(parsed.tree)
             self._texts[text, type_] = node
         return self._texts[text, type_]
+
+    def has_plain_case(self, node: Node) -> bool:
+        """Whether a diagram contains values of inputs in their ranges, whatever the computed values are.
+
+        Of most diagrams this is known at once, as it is known of those in them.
+        """
+        found = self._plain_cases.get(node)
+        if found is None:
+            level, branches = self.diagrams.branches(node)
+            # Unknown conditions are not related to anything.
+            found = (level < _FIRST_COMPUTED or not self._computed[level].trees) and any(
+                self._meets_domain(level, interval) and self.has_plain_case(child) for interval, child in branches
+            )
+            self._plain_cases[node] = found
+        return found
+
+    def _meets_domain(self, level: int, interval: Interval) -> bool:
+        low, high = self._domain(level, with_nan=False, is_ignored=False)
+        return max(low, interval[0]) < min(high, interval[1])
 
     def possible(self, nodes: Collection[Node], *, with_nan: bool, ignored: Collection[int] = ()) -> Node:
         """The values that what some diagrams test can have together.
@@ -126,7 +149,7 @@ class Conditions:
         """The quantities with a declared range on which a diagram may depend."""
         tested = set(self.diagrams.find_cuts((node,)))
         read = {each for level in tested if level in self._computed for each in self._computed[level].reads}
-        return sorted(level for level in tested | read if self.quantities[level].has_range)
+        return sorted((level for level in tested | read if self.quantities[level].has_range), reverse=True)
 
     def describe_range(self, level: int) -> str:
         """A declared range as text, such as "ball.x from 0 to 10"."""
@@ -160,7 +183,7 @@ class Conditions:
 
     def _add_unknown(self) -> Node:
         """A condition about which nothing is known."""
-        level = _FIRST_COMPUTED + len(self._computed)
+        level = self._next_computed()
         self.quantities[level] = Quantity(name="", type=BOOL, domain=((0, 0), (2, 0)))
         self._computed[level] = _Computed(reads=(), trees=())
         return self._test_bool(level)
@@ -194,7 +217,7 @@ class Conditions:
     # Comparisons
 
     def _compare(self, left: Expr, operator: str, right: Expr) -> Node:
-        left, right = _lower(left), _lower(right)
+        left, right = lower_to_choices(left), lower_to_choices(right)
         if isinstance(left, Ternary) and self.table.value_of(left) is None:
             return self._choose(left, lambda branch: self._compare(branch, operator, right))
         if isinstance(right, Ternary) and self.table.value_of(right) is None:
@@ -274,7 +297,7 @@ class Conditions:
         level = self._levels.get(("order", *shapes))
         if level is None:
             reads = self._reads(left, right)
-            level = self._levels["order", *shapes] = _FIRST_COMPUTED + len(self._computed)
+            level = self._levels["order", *shapes] = self._next_computed()
             self._computed[level] = _Computed(reads=reads, trees=(left, right))
             is_int = left.type == right.type == INT
             domain = (BEFORE_ALL, BEFORE_NAN if is_int else AFTER_ALL)
@@ -295,15 +318,18 @@ class Conditions:
         shape = shape_of(node)
         if shape not in self._levels:
             if is_leaf(node):
-                level = len(self.quantities) - len(self._computed)
+                level = _FIRST_COMPUTED - (len(self.quantities) - len(self._computed))
             else:
                 is_number = node.type in (INT, FLOAT)
                 reads = self._reads(node) if is_number else ()
-                level = _FIRST_COMPUTED + len(self._computed)
+                level = self._next_computed()
                 self._computed[level] = _Computed(reads=reads, trees=(node,) if is_number else ())
             self._levels[shape] = level
             self.quantities[level] = self.table.quantity(node)
         return self._levels[shape]
+
+    def _next_computed(self) -> int:
+        return 2 * _FIRST_COMPUTED - len(self._computed)
 
     def _reads(self, *nodes: Expr) -> tuple[int, ...]:
         found = {self._level(each) for node in nodes for each in walk(node) if self._is_free_number(each)}
@@ -365,28 +391,6 @@ class Conditions:
         elif self.quantities[level].type == INT:
             intervals = [(before_whole(low), before_whole(high)) for low, high in intervals]
         return [*intervals, (BEFORE_NAN, AFTER_ALL)] if any(nan for _interval, nan in found) else intervals
-
-
-def _lower(node: Expr) -> Expr:
-    """A minimum, maximum, limit or sign as the choices that docs/semantics.md defines."""
-    match node:
-        case FunctionCall(function="min" | "max" as name, arguments=(a, b), type=type_):
-            test = Comparison(operators=("<" if name == "min" else ">",), operands=(b, a), span=_NO_SPAN)
-            return Ternary(test=test, then=b, otherwise=a, type=type_, span=node.span)
-        case FunctionCall(function="clamp", arguments=(x, low, high), type=type_):
-            is_low = Comparison(operators=("<",), operands=(x, low), span=_NO_SPAN)
-            is_high = Comparison(operators=("<",), operands=(high, x), span=_NO_SPAN)
-            inner = Ternary(test=is_high, then=high, otherwise=x, type=type_, span=node.span)
-            return Ternary(test=is_low, then=low, otherwise=inner, type=type_, span=node.span)
-        case FunctionCall(function="sign", arguments=(x,)):
-            zero, one = (Number(value=value, type=INT, span=_NO_SPAN) for value in (0, 1))
-            minus = Minus(operand=one, type=INT, span=_NO_SPAN)
-            is_negative = Comparison(operators=("<",), operands=(x, zero), span=_NO_SPAN)
-            is_positive = Comparison(operators=(">",), operands=(x, zero), span=_NO_SPAN)
-            inner = Ternary(test=is_negative, then=minus, otherwise=zero, type=INT, span=node.span)
-            return Ternary(test=is_positive, then=one, otherwise=inner, type=INT, span=node.span)
-        case _:
-            return node
 
 
 def _is_exact(node: Expr, number: float) -> bool:

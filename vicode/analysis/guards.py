@@ -101,7 +101,7 @@ class GuardAnalysis:
         if node == FALSE:
             return Basis()
         try:
-            if not self._is_excluded(node, set(), with_nan=False):
+            if self.conditions.has_plain_case(node) or not self._is_excluded(node, set(), with_nan=False):
                 return None
             with_nan = self._is_excluded(node, set(), with_nan=True)
             return self._minimal_basis(node, with_nan=with_nan) if with_nan or may_assume_no_nan else None
@@ -286,7 +286,7 @@ class GuardAnalysis:
 
     def _is_impossible(self, node: Node, *, no_nan: bool) -> bool:
         try:
-            return self._is_excluded(node, set(), with_nan=not no_nan)
+            return not self.conditions.has_plain_case(node) and self._is_excluded(node, set(), with_nan=not no_nan)
         except (TooLargeError, RecursionError):
             return False
 

@@ -10,6 +10,7 @@ Unlike a table of cells, nothing has to be known about the constants of other gu
 
 import math
 from collections.abc import Collection, Iterator, Mapping
+from itertools import pairwise
 
 Position = tuple[float, int]
 """A place between two values, where a variable can be cut: (x, 0) is just before x, (x, 1) just after it.
@@ -174,16 +175,21 @@ class IntervalDiagrams:
                 pending += children
         return found
 
+    def branches(self, node: Node) -> tuple[int, Iterator[tuple[Interval, Node]]]:
+        """The level that a node tests, and its children with their intervals."""
+        level, cuts, children = self._nodes[node]
+        bounds = (BEFORE_ALL, *cuts, AFTER_ALL)
+        return level, zip(pairwise(bounds), children, strict=True)
+
     def iterate_boxes(self, node: Node) -> Iterator[Mapping[int, Interval]]:
         """Yield boxes of values that the diagram contains: an interval for each variable that is restricted."""
         if node == TRUE:
             yield {}
         elif node != FALSE:
-            level, cuts, children = self._nodes[node]
-            bounds = (BEFORE_ALL, *cuts, AFTER_ALL)
-            for low, high, child in zip(bounds, bounds[1:], children, strict=False):
+            level, branches = self.branches(node)
+            for interval, child in branches:
                 for box in self.iterate_boxes(child):
-                    yield {level: (low, high), **box}
+                    yield {level: interval, **box}
 
     def intervals_of(self, node: Node, level: int) -> list[Interval]:
         """The intervals of a variable in which some values of the others are in the diagram, in order."""

@@ -55,7 +55,7 @@ def load_projects(
     Args:
         paths: Folders and files.
         profile: The name of a profile.
-        with_warnings: Whether the findings include warnings and notes about designs.
+        with_warnings: Whether the findings include warnings and notes about designs, besides those about project.yaml.
         deep: Whether they include what takes longer (`vicode.check.behavior`).
 
     Raises:
@@ -84,10 +84,15 @@ def load_projects(
 
 
 def _load_check(*, with_warnings: bool, deep: bool) -> "_Check":
-    from vicode.check import check_project, find_errors
+    from vicode.check import check_file, check_project, find_errors
 
+    if not with_warnings:
+        # Those of project.yaml are few, and found fast.
+        return lambda project, components: tuple(
+            dict.fromkeys((*check_file(project), *find_errors(project, components)))
+        )
     if not deep:
-        return check_project if with_warnings else find_errors
+        return check_project
 
     from vicode.check.behavior import find_behavior
 

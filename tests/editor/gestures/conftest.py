@@ -22,9 +22,9 @@ states:
   Start:
     at: [120, 100]
     transitions:
-      - {to: Go, when: state_time > 1}
+      - {to: Go, when: state_time > 9}
       - {to: Stop, after: 3}
-      - {to: Rest, when: state_time > 9}
+      - {to: Rest, when: state_time > 1}
   Go: {at: [440, 100]}
   Stop: {at: [440, 320]}
   Rest: {at: [120, 320]}

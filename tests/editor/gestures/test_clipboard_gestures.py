@@ -24,14 +24,14 @@ def test_copied_states_are_readable_text_and_paste_at_the_pointer(sketch: Editor
     copy(sketch)
     text = clipboard(sketch)
     assert text.startswith("vicode: 1\ncomponent: Sketch")
-    assert "  Start:\n    at: [120, 100]\n    transitions:\n      - {to: Go, when: state_time > 1}\n" in text
+    assert "  Start:\n    at: [120, 100]\n    transitions:\n      - {to: Go, when: state_time > 9}\n" in text
     assert "Rest:" not in text
     spot = sketch.empty()
     sketch.page.mouse.move(*spot)
     sketch.press("Control+v")
     sketch.expect_selection("states/Start2", "states/Go2")
     expect(sketch.transition("Start2/0")).to_have_attribute(
-        "aria-label", "Transition 1 of 3 from Start2 to Go2: state_time > 1"
+        "aria-label", "Transition 1 of 3 from Start2 to Go2: state_time > 9"
     )
     expect(sketch.transition("Start2/1")).to_have_attribute("aria-label", "Transition 2 of 3 from Start2 to Stop: 3 s")
     (left, y), (right, _y) = sketch.state("Start2"), sketch.state("Go2")
@@ -56,7 +56,7 @@ def test_duplicates_keep_inner_and_outgoing_transitions(sketch: EditorDriver) ->
     sketch.expect_selection("states/Start2", "states/Go2")
     sketch.expect_position("states/Start2", 160, 190)
     expect(sketch.transition("Start2/2")).to_have_attribute(
-        "aria-label", "Transition 3 of 3 from Start2 to Rest: state_time > 9"
+        "aria-label", "Transition 3 of 3 from Start2 to Rest: state_time > 1"
     )
     sketch.expect_undone()
     sketch.click(sketch.at("transitions", "Start/1"))
