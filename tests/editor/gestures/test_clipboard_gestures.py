@@ -62,7 +62,11 @@ def test_duplicates_keep_inner_and_outgoing_transitions(sketch: EditorDriver) ->
     sketch.click(sketch.at("transitions", "Start/1"))
     sketch.press("Control+d")
     sketch.expect_selection("transitions/Start/2")
-    expect(sketch.transition("Start/2")).to_have_attribute("aria-label", "Transition 3 of 4 from Start to Stop: 3 s")
+    expect(sketch.transition("Start/2")).to_have_attribute(
+        "aria-label",
+        "Transition 3 of 4 from Start to Stop: 3 s, warning: this decision is never taken: "
+        "whenever its guard holds, an earlier one does",
+    )
     sketch.expect_undone()
 
 
