@@ -81,10 +81,12 @@ class AlternationSearch:
             held = self._hold(cycle, tick_ns)
         except (TooLargeError, RecursionError):
             return None
+        if held == FALSE:
+            return None
         states = [state for state, _edge in cycle]
         expected = [states[(index + 1) % len(states)] for index in range(_ITERATIONS)]
         walk = Walk(self._project, self._machine)
-        if held == FALSE or not walk.go_to(states[0]) or not walk.hold(held, expected):
+        if not walk.go_to(states[0]) or not walk.hold(held, expected):
             return None
         paths = tuple(edge.path for _state, edge in cycle)
         return Alternation(states=tuple(states), paths=paths, steps=tuple(walk.steps))

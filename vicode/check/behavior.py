@@ -28,6 +28,7 @@ def find_behavior(
     for design in designs:
         if design.component not in analysis.active:
             found.append(_report_inactive(design, names))
+            continue
         found += (_report_alternation(design, each, names) for each in analysis.find_alternations(design.component))
     return tuple(found)
 
