@@ -3,6 +3,7 @@
 import gc
 import os
 import shutil
+import signal
 import socket
 from collections import Counter
 from collections.abc import Generator, Iterator
@@ -50,6 +51,18 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_configure(config: pytest.Config) -> None:
+    """Prepare the process of the tests."""
+    _accept_interrupts()
+    _send_results_at_once(config)
+
+
+def _accept_interrupts() -> None:
+    """`make test &` ignores SIGINT, and so would all processes that tests start and interrupt."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _send_results_at_once(config: pytest.Config) -> None:
     """Let pytest-rerunfailures (16.7) send its two messages per test at once; otherwise each test waits 40 ms.
 
     It writes twice before it reads, so the second write waits for the delayed acknowledgment of the first.
