@@ -10,7 +10,6 @@ from functools import lru_cache
 
 from vicode.check import (
     code,
-    decisions,
     declarations,
     expressions,
     names,
@@ -49,7 +48,6 @@ DESIGN_WARNINGS: tuple[DesignRule, ...] = (
     *declarations.WARNINGS,
     *uses.WARNINGS,
     *states.WARNINGS,
-    *decisions.WARNINGS,
     *steps.WARNINGS,
     *code.WARNINGS,
 )
@@ -57,7 +55,7 @@ DESIGN_WARNINGS: tuple[DesignRule, ...] = (
 
 def check_project(project: Project, components: Collection[str] | None = None) -> tuple[Finding, ...]:
     """Check a project file and its designs, or only the designs of `components`."""
-    return _check_project(project, components, DESIGN_WARNINGS)
+    return _check_project(project, components, _all_warnings())
 
 
 def find_errors(project: Project, components: Collection[str] | None = None) -> tuple[Finding, ...]:
@@ -74,7 +72,7 @@ def check_file(project: Project) -> Iterator[Finding]:
 
 def check_design(project: Project, design: Design) -> tuple[Finding, ...]:
     """Check one design. It replaces the design with the same name in the project."""
-    return tuple(dict.fromkeys(_run_rules(build_context(project, design), DESIGN_WARNINGS)))
+    return tuple(dict.fromkeys(_run_rules(build_context(project, design), _all_warnings())))
 
 
 def find_design_errors(project: Project, design: Design) -> tuple[Finding, ...]:
@@ -112,6 +110,13 @@ def _cached_checker(
 def _run_rules(context: RuleContext, warnings: tuple[DesignRule, ...]) -> tuple[Finding, ...]:
     rules = (*DESIGN_RULES, *warnings, *(_xabsl_rules()[1] if "xabsl" in context.project.languages else ()))
     return tuple(finding for rule in rules for finding in rule(context))
+
+
+def _all_warnings() -> tuple[DesignRule, ...]:
+    # Those about decisions need the analysis, which generating and running do not import.
+    from vicode.check import decisions  # noqa: PLC0415
+
+    return (*DESIGN_WARNINGS, *decisions.WARNINGS)
 
 
 def _xabsl_rules() -> tuple[tuple[Callable[[Project], Iterator[Finding]], ...], tuple[DesignRule, ...]]:

@@ -2,8 +2,9 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
 
-from vicode.analysis.machines import MachineAnalysis
 from vicode.check.graphs import ComponentGraphs, StepSite, build_graphs, iter_steps
 from vicode.check.identifiers_in_text import find_identifiers
 from vicode.check.typed_expressions import TypedExpression, parse_expressions
@@ -14,8 +15,11 @@ from vicode.model.expressions import Scope, build_scope
 from vicode.model.project import Project
 from vicode.model.traversal import LocatedAction, LocatedCode, LocatedDecision, iter_actions, iter_code, iter_decisions
 
+if TYPE_CHECKING:
+    from vicode.analysis.machines import MachineAnalysis
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+
+@dataclass(frozen=True, kw_only=True)
 class RuleContext:
     """A design and its project, traversed once for all rules."""
 
@@ -31,7 +35,13 @@ class RuleContext:
     disabled_states: frozenset[str]
     code_identifiers: frozenset[str]
     """All identifiers in hand-written code."""
-    machine: MachineAnalysis
+
+    @cached_property
+    def machine(self) -> "MachineAnalysis":
+        """What is proved about the states and decisions."""
+        from vicode.analysis.machines import MachineAnalysis  # noqa: PLC0415 - only warnings need it
+
+        return MachineAnalysis(self.project, self.design)
 
     def make_subject(self, path: DesignPath, span: Span | None = None, *, is_key: bool = False) -> FindingSubject:
         return FindingSubject(component=self.design.component, path=path, span=span, is_key=is_key)
@@ -75,7 +85,6 @@ def build_context_with_graphs(project: Project, design: Design, graphs: Componen
         expressions=tuple(parse_expressions(design, scope, decisions, actions)),
         steps=tuple(iter_steps(design)),
         disabled_states=disabled_states(design),
-        machine=MachineAnalysis(project, design),
         code_identifiers=find_identifiers("\n".join(text for placed in codes for _language, text in placed.code.texts)),
     )
 

@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Iterable
-from importlib.metadata import PackageNotFoundError, version
 from urllib.parse import quote
 
 from vicode.findings.catalogue import Severity
@@ -40,6 +39,9 @@ def render_sarif(findings: Iterable[Finding]) -> str:
 
 
 def _version() -> dict[str, str]:
+    # Slow to import, and rarely needed.
+    from importlib.metadata import PackageNotFoundError, version  # noqa: PLC0415
+
     try:
         return {"version": version(_DISTRIBUTION)}
     except PackageNotFoundError:
