@@ -1,6 +1,6 @@
 """The parts of a design in words: for differences, tooltips and the documentation site.
 
-A field of a record needs no words of its own: without an entry, its name is its word.
+A field of a record needs no entry here: its name is the default.
 """
 
 from collections.abc import Collection, Iterator
