@@ -7,12 +7,12 @@ guard contains every case in which the guard holds, and possibly more: "never" i
 """
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import replace
 
-from vicode.analysis.bounds import find_bounds, find_orders
+from vicode.analysis.assumed_conditions import AssumedCondition, AssumedConditions
 from vicode.analysis.choices import lower_to_choices
+from vicode.analysis.computed_values import ComputedValues
 from vicode.analysis.interval_diagrams import (
     AFTER_ALL,
     BEFORE_ALL,
@@ -23,9 +23,19 @@ from vicode.analysis.interval_diagrams import (
     IntervalDiagrams,
     Node,
     Position,
+    TooLargeError,
 )
 from vicode.analysis.number_sets import NumberSet, compare_with, cut_off, mirror
-from vicode.analysis.quantities import NANOSECONDS, Quantity, QuantityTable, Shape, before_whole, is_leaf, shape_of
+from vicode.analysis.quantities import (
+    NANOSECONDS,
+    Assumption,
+    Quantity,
+    QuantityTable,
+    Shape,
+    before_whole,
+    is_leaf,
+    shape_of,
+)
 from vicode.model.design import Guard
 from vicode.model.expressions import (
     BOOL,
@@ -51,22 +61,15 @@ _FIRST_COMPUTED = 1_000_000
 grows at the top of its diagram, and what is below is shared.
 """
 _NODES_OF_A_QUESTION, _MAX_NODES = 30_000, 400_000
-_MAX_CELLS = 512
 _NO_SPAN = (0, 0)
 _MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 _STATE_TIME = ElapsedTime(kind="state", span=_NO_SPAN)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Computed:
-    """A quantity that is computed: the levels of what it reads, and its trees (two if it is their order)."""
-
-    reads: tuple[int, ...]
-    trees: tuple[Expr, ...]
-
-
 class Conditions:
     """The guards of one design as diagrams over common variables.
+
+    What is assumed about used components is numbered by negative levels, so that it can be ignored like a range.
 
     Args:
         table: The quantities of the design.
@@ -77,10 +80,11 @@ class Conditions:
         self.diagrams = IntervalDiagrams(_NODES_OF_A_QUESTION, _MAX_NODES)
         self.quantities: dict[int, Quantity] = {STATE_TIME: table.quantity(_STATE_TIME)}
         self._levels: dict[Shape, int] = {shape_of(_STATE_TIME): STATE_TIME}
-        self._computed: dict[int, _Computed] = {}
+        self._computed = ComputedValues(table, self.diagrams, self.quantities, self._domain)
         self._texts: dict[tuple[str, str], Node] = {}
         self._plain_cases: dict[Node, bool] = {FALSE: False, TRUE: True}
         self.unknown = self._add_unknown()
+        self.assumed = AssumedConditions(self._assume(table.assumptions))
 
     def of_guard(self, guard: Guard) -> Node:
         """The diagram of a guard.
@@ -93,6 +97,14 @@ class Conditions:
             node = self.diagrams.both(node, self._of_text(guard.when, BOOL))
         # Hand-written code may give another result each time.
         return node if guard.code is None else self.diagrams.both(node, self._add_unknown())
+
+    def of_condition(self, tree: Expr) -> Node:
+        """The diagram of a bool without errors.
+
+        Raises:
+            TooLargeError: The diagram has too many nodes.
+        """
+        return self._of(tree)
 
     def _of_text(self, text: str, type_: str) -> Node:
         """The diagram of an expression, or of the timer that it sets; an expression with errors can be anything."""
@@ -113,9 +125,14 @@ class Conditions:
         found = self._plain_cases.get(node)
         if found is None:
             level, branches = self.diagrams.branches(node)
-            # Unknown conditions are not related to anything.
-            found = (level < _FIRST_COMPUTED or not self._computed[level].trees) and any(
-                self._meets_domain(level, interval) and self.has_plain_case(child) for interval, child in branches
+            # Unknown conditions are not related to anything, and assumptions relate inputs to each other.
+            is_free = level not in self.assumed.levels
+            found = (
+                is_free
+                and (level < _FIRST_COMPUTED or not self._computed.is_related(level))
+                and any(
+                    self._meets_domain(level, interval) and self.has_plain_case(child) for interval, child in branches
+                )
             )
             self._plain_cases[node] = found
         return found
@@ -132,27 +149,40 @@ class Conditions:
             with_nan: Whether floats without a declared range can be nan.
             ignored: The levels whose declared range is ignored.
         """
-        cuts = self.diagrams.find_cuts(nodes)
-        levels = set(cuts)
-        for level in cuts:
-            if level in self._computed:
-                levels.update(self._computed[level].reads)
-        result = TRUE
-        for level in sorted(levels, reverse=True):
+        assumed = [self.assumed[each].node for each in self._assumed_about(nodes, ignored)]
+        cuts = self.diagrams.find_cuts((*nodes, *assumed))
+        result = self._join("and", assumed)
+        for level in sorted(self._computed.levels_of(cuts), reverse=True):
             domain = self._domain(level, with_nan=with_nan, is_ignored=level in ignored)
             result = self.diagrams.both(self.diagrams.test(level, (domain,)), result)
             if level in self._computed:
-                result = self.diagrams.both(self._relate(level, cuts, ignored), result)
+                result = self.diagrams.both(self._computed.relate(level, cuts, ignored), result)
         return result
 
-    def levels_with_range(self, node: Node) -> list[int]:
-        """The quantities with a declared range on which a diagram may depend."""
-        tested = set(self.diagrams.find_cuts((node,)))
-        read = {each for level in tested if level in self._computed for each in self._computed[level].reads}
-        return sorted((level for level in tested | read if self.quantities[level].has_range), reverse=True)
+    def _assume(self, assumptions: Iterable[Assumption]) -> Iterator[AssumedCondition]:
+        for each in assumptions:
+            self.diagrams.begin_question()
+            try:
+                node = self._of(each.tree)
+            except (TooLargeError, RecursionError):
+                continue
+            levels = self._computed.levels_of(self.diagrams.find_cuts((node,)))
+            yield AssumedCondition(text=each.text, node=node, levels=frozenset(levels))
 
-    def describe_range(self, level: int) -> str:
-        """A declared range as text, such as "ball.x from 0 to 10"."""
+    def _assumed_about(self, nodes: Collection[Node], ignored: Collection[int] = ()) -> list[int]:
+        return self.assumed.find_relevant(self._computed.levels_of(self.diagrams.find_cuts(nodes)), ignored)
+
+    def ignorable_facts(self, node: Node) -> list[int]:
+        """The assumptions, and the quantities with a declared range, on which a diagram may depend."""
+        assumptions = self._assumed_about((node,))
+        levels = self._computed.levels_of(self.diagrams.find_cuts((node,)))
+        levels.update(*(self.assumed[each].levels for each in assumptions))
+        return [*assumptions, *sorted((each for each in levels if self.quantities[each].has_range), reverse=True)]
+
+    def describe_fact(self, level: int) -> str:
+        """An assumption or a declared range as text, such as "ball.x from 0 to 10"."""
+        if level < 0:
+            return f"assumed of {self.assumed[level].text}"
         quantity = self.quantities[level]
         (low, _), (high, side) = quantity.domain
         return f"{quantity.name} from {low:g} to {high - (quantity.type == INT and side == 0):g}"
@@ -185,7 +215,7 @@ class Conditions:
         """A condition about which nothing is known."""
         level = self._next_computed()
         self.quantities[level] = Quantity(name="", type=BOOL, domain=((0, 0), (2, 0)))
-        self._computed[level] = _Computed(reads=(), trees=())
+        self._computed.add(level, (), ())
         return self._test_bool(level)
 
     def _of(self, node: Expr) -> Node:
@@ -298,7 +328,7 @@ class Conditions:
         if level is None:
             reads = self._reads(left, right)
             level = self._levels["order", *shapes] = self._next_computed()
-            self._computed[level] = _Computed(reads=reads, trees=(left, right))
+            self._computed.add(level, reads, (left, right))
             is_int = left.type == right.type == INT
             domain = (BEFORE_ALL, BEFORE_NAN if is_int else AFTER_ALL)
             self.quantities[level] = Quantity(name="", type=FLOAT, domain=domain)
@@ -323,7 +353,7 @@ class Conditions:
                 is_number = node.type in (INT, FLOAT)
                 reads = self._reads(node) if is_number else ()
                 level = self._next_computed()
-                self._computed[level] = _Computed(reads=reads, trees=(node,) if is_number else ())
+                self._computed.add(level, reads, (node,) if is_number else ())
             self._levels[shape] = level
             self.quantities[level] = self.table.quantity(node)
         return self._levels[shape]
@@ -352,45 +382,6 @@ class Conditions:
             else:
                 intervals.append((BEFORE_NAN, AFTER_ALL))
         return self.diagrams.test(level, intervals)
-
-    # Computed values
-
-    def _relate(self, level: int, cuts: Mapping[int, set[Position]], ignored: Collection[int]) -> Node:
-        """The values that a computed value has together with those that it is computed from."""
-        reads = self._computed[level].reads
-        cells = {each: self._cells(each, cuts.get(each, ()), is_ignored=each in ignored) for each in reads}
-        while math.prod(map(len, cells.values())) > _MAX_CELLS:
-            largest = max(cells, key=lambda each: len(cells[each]))
-            cells[largest] = [(cells[largest][0][0], cells[largest][-1][1])]
-        return self._relate_cells(level, reads, cells, {})
-
-    def _cells(self, level: int, cuts: Iterable[Position], *, is_ignored: bool) -> list[Interval]:
-        low, high = self._domain(level, with_nan=True, is_ignored=is_ignored)
-        bounds = [low, *sorted(cut for cut in cuts if low < cut < high), high]
-        return list(pairwise(bounds))
-
-    def _relate_cells(
-        self, level: int, reads: Sequence[int], cells: Mapping[int, list[Interval]], chosen: dict[int, Interval]
-    ) -> Node:
-        if not reads:
-            return self.diagrams.test(level, self._bounds(level, chosen))
-        first, rest = reads[0], reads[1:]
-        children = [self._relate_cells(level, rest, cells, {**chosen, first: cell}) for cell in cells[first]]
-        cuts = tuple(low for low, _high in cells[first][1:])
-        return self.diagrams.choose(first, cuts, tuple(children))
-
-    def _bounds(self, level: int, chosen: Mapping[int, Interval]) -> list[Interval]:
-        computed = self._computed[level]
-        if not computed.trees:
-            return [(BEFORE_ALL, AFTER_ALL)]
-        by_shape = {shape_of(tree): cell for each, cell in chosen.items() if (tree := self.quantities[each].tree)}
-        found = [find_bounds(tree, by_shape, self.table) for tree in computed.trees]
-        intervals = [interval for interval, _nan in found]
-        if len(found) == 2:
-            intervals = find_orders(*intervals)
-        elif self.quantities[level].type == INT:
-            intervals = [(before_whole(low), before_whole(high)) for low, high in intervals]
-        return [*intervals, (BEFORE_NAN, AFTER_ALL)] if any(nan for _interval, nan in found) else intervals
 
 
 def _is_exact(node: Expr, number: float) -> bool:

@@ -14,9 +14,9 @@ from vicode.analysis.conditions import Conditions
 from vicode.analysis.interval_diagrams import FALSE, TRUE, Node, TooLargeError
 from vicode.analysis.quantities import build_quantities
 from vicode.findings import DesignPath
-from vicode.model.design import Decision, DecisionGroup, Design, Stay, Transition
+from vicode.model.design import Decision, DecisionGroup, Design, Guard, Stay, Transition
 from vicode.model.disabled import disabled_states, strip_disabled_decision
-from vicode.model.project import Project
+from vicode.model.project import Interface, Project
 
 
 class Verdict(StrEnum):
@@ -183,11 +183,11 @@ class GuardAnalysis:
 
     def _minimal_basis(self, node: Node, *, with_nan: bool) -> Basis:
         ignored: set[int] = set()
-        ranges = self.conditions.levels_with_range(node)
+        ranges = self.conditions.ignorable_facts(node)
         for level in ranges:
             if self._is_excluded(node, ignored | {level}, with_nan=with_nan):
                 ignored.add(level)
-        facts = tuple(self.conditions.describe_range(level) for level in ranges if level not in ignored)
+        facts = tuple(self.conditions.describe_fact(level) for level in ranges if level not in ignored)
         return Basis(facts=facts, no_nan=not with_nan)
 
     def _judge_all(
@@ -289,6 +289,13 @@ class GuardAnalysis:
             return not self.conditions.has_plain_case(node) and self._is_excluded(node, set(), with_nan=not no_nan)
         except (TooLargeError, RecursionError):
             return False
+
+
+def disprove_assumption(project: Project, interface: Interface) -> Basis | None:
+    """Prove that the assumption about a component never holds; None if it may hold."""
+    outputs = (*interface.readable, *interface.parameters)
+    analysis = analyze_guards(project, Design(component=interface.component, outputs=outputs))
+    return analysis.prove(analysis.conditions.of_guard(Guard(when=interface.assume)))
 
 
 def analyze_guards(project: Project, design: Design) -> GuardAnalysis:

@@ -1,7 +1,7 @@
 """What guards compare: inputs, variables, times and computed values, with the values that they can have."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from vicode.analysis.interval_diagrams import AFTER_ALL, BEFORE_ALL, BEFORE_NAN, Interval, Position
@@ -22,12 +22,15 @@ from vicode.model.expressions import (
     Number,
     OutputRef,
     Scope,
+    ScopeSymbolKind,
     StatusFlag,
     Variable,
+    build_interface_scope,
     build_scope,
     children,
     evaluate,
     is_type_only,
+    map_tree,
     parse_expression,
 )
 from vicode.model.project import Project
@@ -63,6 +66,14 @@ class Quantity:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Assumption:
+    """A condition that is taken for granted: its text in project.yaml, and its tree in the names of the design."""
+
+    text: str
+    tree: Expr
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class QuantityTable:
     """The declarations of a design, as far as they say which values are possible.
 
@@ -71,12 +82,14 @@ class QuantityTable:
         constants: The values of constants that cannot be tuned.
         ns_per_unit: Nanoseconds of the unit of times.
         is_xabsl: Whether the design divides as the XABSL engine does.
+        assumptions: What holds for the outputs of used components.
     """
 
     scope: Scope
     constants: Mapping[str, Value]
     ns_per_unit: float
     is_xabsl: bool
+    assumptions: tuple["Assumption", ...] = ()
     _quantities: dict[Shape, Quantity] = field(default_factory=dict)
 
     def value_of(self, node: Expr) -> Value | None:
@@ -199,7 +212,34 @@ def build_quantities(project: Project, design: Design) -> QuantityTable:
         constants=constants,
         ns_per_unit=1e6 if design.time_unit == "ms" else 1e9,
         is_xabsl=design.arithmetic == "xabsl",
+        assumptions=tuple(_find_assumptions(project, design)),
     )
+
+
+def _find_assumptions(project: Project, design: Design) -> Iterator[Assumption]:
+    """The assumptions about the used components, one for each part that `and` joins."""
+    for use in design.uses:
+        interface = project.interface(use.component)
+        if interface is None or not interface.assume:
+            continue
+        parsed = parse_expression(interface.assume, build_interface_scope(project, interface), BOOL)
+        if parsed.tree is None or parsed.diagnostics:
+            continue
+        is_joined = isinstance(parsed.tree, Logic) and parsed.tree.operator == "and"
+        for part in children(parsed.tree) if is_joined else (parsed.tree,):
+            text = interface.assume[slice(*part.span)].strip()
+            yield Assumption(text=f"{interface.component}: {text}", tree=_read_through(part, use.alias))
+
+
+def _read_through(tree: Expr, alias: str) -> Expr:
+    """The tree with the names of a component as those that another one reads through an alias."""
+
+    def replace_own(node: Expr) -> Expr:
+        if isinstance(node, Variable) and node.kind != ScopeSymbolKind.CONSTANT:
+            return OutputRef(alias=alias, output=node.name, type=node.type, span=node.span)
+        return node
+
+    return map_tree(tree, replace_own)
 
 
 def initial_value(declaration: Declaration, scope: Scope, constants: Mapping[str, Value]) -> Value | None:

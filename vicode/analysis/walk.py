@@ -5,7 +5,7 @@ mistake of the analysis cannot become a witness.
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, product
 from types import MappingProxyType
@@ -14,6 +14,7 @@ from vicode.analysis.conditions import STATE_TIME, Conditions
 from vicode.analysis.interval_diagrams import BEFORE_NAN, Interval, Node, TooLargeError
 from vicode.analysis.machines import LiveTransition, MachineAnalysis
 from vicode.analysis.quantities import Quantity
+from vicode.findings import DesignPath
 from vicode.model.expressions import BOOL, FLOAT, INT, OutputRef, Variable
 from vicode.model.project import Project
 from vicode.semantics import InputFunction, Interpreter, RobotMemory, Value
@@ -88,10 +89,16 @@ class Walk:
         yield {}
 
     def _follow_way(self, state: str) -> bool:
+        failed: set[DesignPath] = set()
+        most = len(self.steps) + 2 * len(self._design.states)
         while self.state != state:
-            edge = next(iter(self._shortest_way(state)), None)
-            if edge is None or len(self.steps) > len(self._design.states) or not self.take(edge):
+            edge = next(iter(self._shortest_way(state, failed)), None)
+            if edge is None or len(self.steps) > most:
                 return False
+            if self.take(edge):
+                failed.clear()
+            else:
+                failed.add(edge.path)
         return True
 
     def take(self, edge: LiveTransition) -> bool:
@@ -138,6 +145,10 @@ class Walk:
                 return False
         return True
 
+    def holds(self, condition: str) -> bool:
+        """Whether a condition of the root holds after the last step."""
+        return self._robot.evaluate(self._design.component, condition, BOOL) is True
+
     def step(self, inputs: Inputs, time_ns: int) -> None:
         """Run an iteration."""
         for (component, name), value in inputs.items():
@@ -158,14 +169,14 @@ class Walk:
         self._robot.memory = memory
         del self.steps[count:]
 
-    def _shortest_way(self, goal: str) -> list[LiveTransition]:
+    def _shortest_way(self, goal: str, without: Collection[DesignPath] = ()) -> list[LiveTransition]:
         ways: dict[str, list[LiveTransition]] = {self.state: []}
         pending = [self.state]
         while pending and goal not in ways:
             following: list[str] = []
             for name in pending:
                 for edge in self._machine.live.get(name, ()):
-                    if edge.target not in ways:
+                    if edge.target not in ways and (name != self.state or edge.path not in without):
                         ways[edge.target] = [*ways[name], edge]
                         following.append(edge.target)
             pending = following

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from vicode.analysis.alternation import Alternation
 from vicode.analysis.projects import ProjectAnalysis
+from vicode.check.properties import find_broken_properties
 from vicode.findings import Finding, FindingSubject, Note, get_rule
 from vicode.model.design import Design
 from vicode.model.project import Project
@@ -17,7 +18,7 @@ _MOST_INPUTS = 6
 def find_behavior(
     project: Project, components: Collection[str] | None = None, *, are_names_xabsl: bool = False
 ) -> tuple[Finding, ...]:
-    """D435 and P214 for all designs, or those of `components`.
+    """D435, D441, D442 and P214 for all designs, or those of `components`.
 
     With `are_names_xabsl`, messages contain the names that an imported behavior has in XABSL.
     """
@@ -29,6 +30,7 @@ def find_behavior(
         if design.component not in analysis.active:
             found.append(_report_inactive(design, names))
             continue
+        found += find_broken_properties(project, design)
         found += (_report_alternation(design, each, names) for each in analysis.find_alternations(design.component))
     return tuple(found)
 

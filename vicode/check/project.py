@@ -18,13 +18,14 @@ from vicode.check.identifiers import (
 )
 from vicode.check.typed_expressions import (
     TypedExpression,
+    analyze_expression,
     literal_value,
     parse_initial_values,
 )
 from vicode.findings import DesignPath, Finding, FindingSubject, Note, Span, did_you_mean, get_rule
 from vicode.languages import GENERATED_LANGUAGES
 from vicode.model.design import Declaration
-from vicode.model.expressions import Scope, build_scope, constant_scopes
+from vicode.model.expressions import BOOL, Scope, build_interface_scope, build_scope, constant_scopes
 from vicode.model.names import package_name
 from vicode.model.project import INTERNAL, MISSING, WORLD, Project, RemoteReference
 
@@ -254,6 +255,20 @@ def _find_bad_initial_value(expression: TypedExpression, scope: Scope) -> Iterat
         )
 
 
+def find_bad_assumptions(project: Project) -> Iterator[Finding]:
+    """E301 to E306, P216: errors in the assumption about a component, or one that never holds."""
+    for interface in (each for each in project.components if each.assume):
+        from vicode.analysis.guards import disprove_assumption  # noqa: PLC0415 - few projects need it
+
+        path: DesignPath = ("components", interface.component, "assume")
+        diagnostics = analyze_expression(interface.assume, build_interface_scope(project, interface), BOOL).diagnostics
+        for each in diagnostics:
+            yield _make_finding(each.rule.code, path, each.message, each.fix, span=each.span)
+        if not diagnostics and disprove_assumption(project, interface) is not None:
+            message = f"what is assumed of {interface.component} never holds"
+            yield _make_finding("P216", path, message, "change the condition or the ranges")
+
+
 def _declarations(project: Project) -> Iterator[tuple[Declaration, DesignPath, Scope]]:
     """Yield each declaration with its scope. A constant can use only the constants before it."""
     for constant, preceding in zip(project.constants, constant_scopes(project), strict=True):
@@ -292,4 +307,5 @@ RULES = (
     find_empty_enumerations,
     find_bad_frequencies,
     find_bad_declarations,
+    find_bad_assumptions,
 )

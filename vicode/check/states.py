@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from vicode.check.context import RuleContext
 from vicode.findings import DesignPath, Finding, did_you_mean
-from vicode.model.design import COMMON, Transition
+from vicode.model.design import COMMON, STATE_KEYS, Transition
 from vicode.model.disabled import strip_disabled_decision
 
 
@@ -58,6 +58,17 @@ def find_bad_frames(context: RuleContext) -> Iterator[Finding]:
             if name not in names:
                 fix = did_you_mean(name, names, "remove it from the frame, or add the state")
                 yield context.make_finding("D431", (*path, "states", index), f"unknown state '{name}'", fix)
+
+
+def find_bad_properties(context: RuleContext) -> Iterator[Finding]:
+    """D440: a property of a state that does not exist."""
+    names = _state_names(context)
+    for index, promised in enumerate(context.design.properties):
+        for key in STATE_KEYS:
+            name = getattr(promised, key, "")
+            if name and name not in names:
+                fix = did_you_mean(name, names, "add the state, or delete the property")
+                yield context.make_finding("D440", ("properties", index, key), f"unknown state '{name}'", fix)
 
 
 def find_unreachable_states(context: RuleContext) -> Iterator[Finding]:
@@ -132,5 +143,6 @@ RULES = (
     find_no_initial_state,
     find_disabled_initial_state,
     find_unknown_states,
+    find_bad_properties,
 )
 WARNINGS = (find_bad_frames, find_unreachable_states, find_dead_ends)

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from vicode.check.identifiers_in_text import find_identifiers
 from vicode.findings import DesignPath
-from vicode.model.design import Assign, Call, Declaration, Design
+from vicode.model.design import Assign, Call, Declaration, Design, InvariantProperty, ReachProperty
 from vicode.model.expressions import (
     BOOL,
     FLOAT,
@@ -35,6 +35,7 @@ class ExpressionSite(StrEnum):
     AFTER = "time"
     ASSIGNED_VALUE = "assigned value"
     ARGUMENT = "argument"
+    PROPERTY = "property"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,6 +95,12 @@ def parse_expressions(
             yield _parse(ExpressionSite.AFTER, (*located.path, "after"), guard.after, scope, expected=FLOAT)
     for placed in actions:
         yield from _parse_action(placed, scope)
+    for index, promised in enumerate(design.properties):
+        match promised:
+            case ReachProperty(within=within) if within:
+                yield _parse(ExpressionSite.AFTER, ("properties", index, "within"), within, scope, expected=FLOAT)
+            case InvariantProperty(holds=holds):
+                yield _parse(ExpressionSite.PROPERTY, ("properties", index, "holds"), holds, scope, expected=BOOL)
 
 
 def parse_initial_values(declaration: Declaration, path: DesignPath, scope: Scope) -> Iterator[TypedExpression]:

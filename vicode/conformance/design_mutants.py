@@ -146,6 +146,8 @@ def _change_declaration(
 
 def _change_expressions(design: Design, scope: Scope) -> Iterator[DesignMutant]:
     for located in iter_expressions(design):
+        if located.path[0] == "properties":
+            continue
         tree = parse_expression(located.text, scope, located.expected or None).tree
         for text, words in _change_text(located.text, tree) if tree else ():
             title = "after " if located.path[-1] == "after" else ""

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from vicode.docsite.site_names import SiteNames
 from vicode.model.design import Action, Call, Decision, DecisionGroup, Design, State, Transition
+from vicode.model.edits import rename_states_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,6 +49,7 @@ def _rename(design: Design, states: Mapping[str, str], aliases: Mapping[str, str
         uses=tuple(replace(use, alias=aliases[use.alias]) for use in design.uses),
         common=common,
         states=tuple(_state(state, states, aliases) for state in design.states),
+        properties=tuple(rename_states_of(each, states) for each in design.properties),
         frames=tuple(
             replace(frame, states=tuple(states.get(name, name) for name in frame.states)) for frame in design.frames
         ),

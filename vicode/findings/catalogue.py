@@ -68,6 +68,7 @@ _RECORDS = (
         "profile of an unknown component, class not in the form module:Class, or bad remote component",
     ),
     ("P214", "inactive-component", Severity.NOTE, "design that no agent activates"),
+    ("P216", "impossible-assumption", Severity.ERROR, "assumption that never holds"),
     # Expressions
     ("E301", "not-an-expression", Severity.ERROR, "invalid expression syntax"),
     ("E302", "outside-grammar", Severity.ERROR, "unsupported expression syntax"),
@@ -110,6 +111,14 @@ _RECORDS = (
     ("D433", "impossible-guard", Severity.WARNING, "guard that never holds"),
     ("D434", "needless-guard", Severity.NOTE, "guard that always holds"),
     ("D435", "alternating-states", Severity.WARNING, "states that alternate while the inputs hold still"),
+    ("D440", "bad-property", Severity.ERROR, "property of an unknown state"),
+    ("D441", "broken-property", Severity.ERROR, "property that a run breaks"),
+    (
+        "D442",
+        "open-property",
+        Severity.WARNING,
+        "property that is neither guaranteed nor broken by a run that was found",
+    ),
     # XABSL as a target language
     ("L701", "not-in-xabsl", Severity.ERROR, "feature that XABSL does not support"),
     ("L702", "other-result-in-xabsl", Severity.ERROR, "expression with a different result in XABSL"),

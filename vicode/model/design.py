@@ -186,6 +186,48 @@ class CommonSection:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ReachProperty:
+    """Each time that `after` is entered, `reach` becomes active, `within` a time if one is given.
+
+    Without `after`, it becomes active after each start of the component. `within` is written as `Guard.after`.
+    """
+
+    reach: str
+    after: str = ""
+    within: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NeverProperty:
+    """After `after` was entered, or after each start of the component, `never` is not active before `before` was."""
+
+    never: str
+    after: str = ""
+    before: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecoveryProperty:
+    """Whatever happened, there is a way back to a state."""
+
+    can_reach: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InvariantProperty:
+    """A condition holds after each step of the component."""
+
+    holds: str
+
+
+Property = ReachProperty | NeverProperty | RecoveryProperty | InvariantProperty
+"""What the behavior promises; it has no effect on it."""
+
+STATE_KEYS = ("after", "reach", "never", "before", "can_reach")
+"""The fields of properties that name states."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class DiagramNote:
     """A text in the diagram, without any effect."""
 
@@ -223,6 +265,7 @@ class Design:
     members: Code = field(default_factory=Code)
     common: CommonSection = field(default_factory=CommonSection)
     states: tuple[State, ...] = ()
+    properties: tuple[Property, ...] = ()
     frames: tuple[DiagramFrame, ...] = ()
     notes: tuple[DiagramNote, ...] = ()
 

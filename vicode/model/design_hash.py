@@ -10,16 +10,16 @@ from vicode.model.design import Design
 from vicode.model.project import Project
 
 HASH_LENGTH = 12
-# What only diagrams show.
-_LAYOUT = frozenset({"at", "label_at", "color", "frames", "notes"})
+# What only diagrams show, and what is only proved or monitored.
+_WITHOUT_EFFECT = frozenset({"at", "label_at", "color", "frames", "notes", "properties", "assume"})
 _DECLARED = ("world", "enumerations", "constants", "components")
 
 
 def hash_design(project: Project, component: str) -> str:
     """The first digits of the SHA-256 of a design, the designs it uses, and the declarations of the project.
 
-    Comments, layout and positions do not count. Fields with their default do not either, so that the hash stays the
-    same when the format gets a new key.
+    Comments, layout, positions, properties and assumptions do not count. Fields with their default do not either, so
+    that the hash stays the same when the format gets a new key.
     """
     designs = [_canonical_text(design) for design in _used_designs(project, component)]
     declared = [_canonical(getattr(project, section)) for section in _DECLARED]
@@ -54,7 +54,7 @@ def _canonical(value: Any) -> Any:
     given = {
         each.name: _canonical(getattr(value, each.name))
         for each in fields(value)
-        if each.init and each.name not in _LAYOUT and getattr(value, each.name) != _default(each)
+        if each.init and each.name not in _WITHOUT_EFFECT and getattr(value, each.name) != _default(each)
     }
     return [type(value).__name__, given]
 

@@ -2,10 +2,12 @@
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
+from typing import Any
 
 from vicode.findings import DesignPath
 from vicode.model.decisions import drop_targets, retarget
 from vicode.model.design import (
+    STATE_KEYS,
     Action,
     Call,
     Decision,
@@ -14,6 +16,7 @@ from vicode.model.design import (
     Design,
     Guard,
     Point,
+    Property,
     State,
     Transition,
     Use,
@@ -62,11 +65,19 @@ def rename_state(design: Design, old: str, new: str) -> Design:
         replace(frame, states=tuple(new if name == old else name for name in frame.states)) for frame in design.frames
     )
     initial = new if design.initial == old else design.initial
-    return replace(design, states=states, common=common, frames=frames, initial=initial)
+    properties = tuple(rename_states_of(each, {old: new}) for each in design.properties)
+    return replace(design, states=states, common=common, frames=frames, initial=initial, properties=properties)
+
+
+def rename_states_of(promised: Property, names: Mapping[str, str]) -> Property:
+    """The property with other names of its states; states that are not in `names` keep theirs."""
+    keys = [key for key in STATE_KEYS if getattr(promised, key, None) in names]
+    changes: dict[str, Any] = {key: names[getattr(promised, key)] for key in keys}
+    return replace(promised, **changes)
 
 
 def remove_states(design: Design, names: Collection[str]) -> Design:
-    """Remove states, the transitions to them, and the frames that have no other states."""
+    """Remove states, the transitions to them, properties of them, and the frames that have no other states."""
     states = tuple(
         replace(state, transitions=drop_targets(state.transitions, names))
         for state in design.states
@@ -80,7 +91,10 @@ def remove_states(design: Design, names: Collection[str]) -> Design:
         replace(frame, states=tuple(name for name in frame.states if name not in names)) for frame in design.frames
     )
     frames = tuple(new for new, old in zip(reduced, design.frames, strict=True) if new.states or not old.states)
-    return replace(design, states=states, common=common, frames=frames, initial=initial)
+    properties = tuple(
+        each for each in design.properties if not any(getattr(each, key, None) in names for key in STATE_KEYS)
+    )
+    return replace(design, states=states, common=common, frames=frames, initial=initial, properties=properties)
 
 
 def reorder_state(design: Design, name: str, to_index: int) -> Design:

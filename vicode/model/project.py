@@ -61,7 +61,8 @@ class Interface:
     """The interface of a component, declared in project.yaml or derived from a design.
 
     `implementation` is "module:Class" or, for generated classes, WORLD, INTERNAL, MISSING, or REMOTE with `remote`;
-    empty for a design. Other components can read `outputs` and `variables`, and set `variables`.
+    empty for a design. Other components can read `outputs` and `variables`, and set `variables`. `assume` is a
+    condition on them that the analysis takes for granted.
     """
 
     component: str
@@ -73,6 +74,7 @@ class Interface:
     parameters: tuple[Declaration, ...] = ()
     outputs: tuple[Declaration, ...] = ()
     variables: tuple[Declaration, ...] = ()
+    assume: str = ""
     remote: RemoteReference | None = None
 
     @property

@@ -73,4 +73,5 @@ def _own_texts(project: Project) -> list[tuple[str, str]]:
             for declaration in getattr(interface, section):
                 place = f"{section.removesuffix('s')} {declaration.name} of {interface.component}"
                 found += [(f"{key} of {place}", text) for key, text in _declaration_texts(declaration)]
+        found.append((f"assumption about {interface.component}", interface.assume))
     return found + [(f"root of agent {agent.name}", agent.root) for agent in project.agents]

@@ -15,6 +15,8 @@ from vicode.model.design import (
     Declaration,
     Design,
     Guard,
+    InvariantProperty,
+    ReachProperty,
     RunCode,
     State,
     Stay,
@@ -121,7 +123,7 @@ def iter_actions(design: Design) -> Iterator[LocatedAction]:
 
 
 def iter_expressions(design: Design) -> Iterator[LocatedExpression]:
-    """Yield all expressions: initial values, guards, assigned values, arguments of calls.
+    """Yield all expressions: initial values, guards, assigned values, arguments of calls, properties.
 
     The types of assigned values and arguments depend on declarations, so `expected` is "".
     """
@@ -136,6 +138,11 @@ def iter_expressions(design: Design) -> Iterator[LocatedExpression]:
             yield LocatedExpression(path=(*located.path, "after"), text=guard.after, expected="float", state=state)
     for placed in iter_actions(design):
         yield from _iter_action_expressions(placed)
+    for index, promised in enumerate(design.properties):
+        if isinstance(promised, ReachProperty) and promised.within:
+            yield LocatedExpression(path=("properties", index, "within"), text=promised.within, expected="float")
+        if isinstance(promised, InvariantProperty):
+            yield LocatedExpression(path=("properties", index, "holds"), text=promised.holds, expected="bool")
 
 
 def _iter_initial_values(section: str, declaration: Declaration) -> Iterator[LocatedExpression]:

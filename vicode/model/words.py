@@ -7,7 +7,20 @@ from collections.abc import Collection, Iterator
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any
 
-from vicode.model.design import Action, Assign, Call, Code, Declaration, Guard, RunCode
+from vicode.model.design import (
+    Action,
+    Assign,
+    Call,
+    Code,
+    Declaration,
+    Guard,
+    InvariantProperty,
+    NeverProperty,
+    Property,
+    ReachProperty,
+    RecoveryProperty,
+    RunCode,
+)
 
 _WORDS = {
     "doc": "description",
@@ -70,6 +83,20 @@ def describe_action(action: Action) -> str:
             return f"call {alias}{f' with {_describe_pairs(arguments)}' if arguments else ''}"
         case RunCode(code=code):
             return describe_code(code)
+
+
+def describe_property(promised: Property) -> str:
+    """A property as a phrase, such as "after Kick, LookForBall within 5"."""
+    match promised:
+        case ReachProperty(reach=reach, after=after, within=within):
+            phrase = f"{reach} within {within}" if within else f"{reach} at some time"
+        case NeverProperty(never=never, after=after, before=before):
+            phrase = f"{never} never before {before}" if before else f"{never} never"
+        case RecoveryProperty(can_reach=can_reach):
+            return f"always a way to {can_reach}"
+        case InvariantProperty(holds=holds):
+            return f"always {holds}"
+    return f"after {after}, {phrase}" if after else f"after the start, {phrase}"
 
 
 def describe_code(code: Code | None) -> str:

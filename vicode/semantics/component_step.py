@@ -163,7 +163,7 @@ class ComponentStep:
     def _holds(self, guard: Guard) -> bool:
         if guard.after and not self._has_elapsed(guard.after):
             return False
-        if guard.when and not self._evaluate(guard.when, BOOL):
+        if guard.when and not self.evaluate(guard.when, BOOL):
             return False
         if guard.code is None:
             return True
@@ -174,7 +174,7 @@ class ComponentStep:
 
     def timer_ns(self, after: str) -> float:
         """Return the time of `after` in whole nanoseconds; it may be infinite or nan."""
-        time = self._evaluate(after, FLOAT)
+        time = self.evaluate(after, FLOAT)
         assert isinstance(time, float)
         ns = time * self.machine.ns_per_unit
         return round(ns) if math.isfinite(ns) else ns
@@ -208,14 +208,14 @@ class ComponentStep:
         alias, _dot, name = target.rpartition(".")
         owner = self.machine.uses[alias] if alias else self.name
         type_ = self.robot.machines[owner].types[name]
-        self.robot.memory.components[owner].values[name] = stored(self._evaluate(text, type_), type_)
+        self.robot.memory.components[owner].values[name] = stored(self.evaluate(text, type_), type_)
 
     def _call(self, component: str, given: Iterable[tuple[str, str]]) -> None:
         called = self.robot.machines[component]
         parameters = dict(called.defaults)
         for name, text in given:
             type_ = called.parameter_types[name]
-            parameters[name] = stored(self._evaluate(text, type_), type_)
+            parameters[name] = stored(self.evaluate(text, type_), type_)
         self.memory.calls.append((component, parameters))
         self.robot.call(component, self.name, parameters)
 
@@ -226,16 +226,17 @@ class ComponentStep:
                 case PortableAssign(target=target, value=value):
                     self._set(target, value)
                 case PortableCall(call=call):
-                    self._evaluate(call, None)
+                    self.evaluate(call, None)
                 case PortableReturn(value=value):
-                    return self._evaluate(value, BOOL) if value else False
+                    return self.evaluate(value, BOOL) if value else False
                 case PortableIf(test=test, then=then, otherwise=otherwise):
-                    returned = self._run(then if self._evaluate(test, BOOL) else otherwise)
+                    returned = self._run(then if self.evaluate(test, BOOL) else otherwise)
                     if returned is not None:
                         return returned
         return None
 
-    def _evaluate(self, text: str, expected: str | None) -> Value:
+    def evaluate(self, text: str, expected: str | None) -> Value:
+        """Evaluate an expression of the component; with None, of its own type."""
         tree = self.machine.tree(text, expected)
         return evaluate(tree, expected or tree.type, self.memory.values, self)
 

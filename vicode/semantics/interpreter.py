@@ -77,6 +77,15 @@ class Interpreter:
             "inputs": shared,
         }
 
+    def evaluate(self, component: str, text: str, type_: str) -> Value:
+        """Evaluate an expression of a component as its guards read it now.
+
+        Raises:
+            NotInterpretableError: The expression has errors.
+        """
+        step = ComponentStep(self, component, self.machines[component], self.memory.components[component])
+        return step.evaluate(text, type_)
+
     def report(self) -> RobotReport:
         """Return what this robot tells its team after an iteration."""
         places = {

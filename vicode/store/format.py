@@ -17,6 +17,10 @@ from vicode.model.design import (
     DiagramFrame,
     DiagramNote,
     Guard,
+    InvariantProperty,
+    NeverProperty,
+    ReachProperty,
+    RecoveryProperty,
     RunCode,
     State,
     Stay,
@@ -262,6 +266,29 @@ COMMON = RecordSchema(
     model=CommonSection,
     keys=(DOC_KEY, _POSITION, *_ACTIONS_KEYS, _TRANSITIONS),
 )
+PROPERTY = RecordSchema(
+    name="property",
+    description="a property ('reach', 'never', 'can_reach' or 'holds')",
+    variants={
+        "reach": ReachProperty,
+        "never": NeverProperty,
+        "can_reach": RecoveryProperty,
+        "holds": InvariantProperty,
+    },
+    missing_message=("the property says nothing", "add 'reach', 'never', 'can_reach' or 'holds'"),
+    dependent_keys=(("within", "reach"), ("before", "never")),
+    flow_width=FLOW_WIDTH,
+    keys=(
+        KeySchema("after", NAME, "with `reach` or `never`: the state from which on it applies; default: each start"),
+        KeySchema("reach", NAME, "this state becomes active"),
+        KeySchema("within", EXPRESSION, "time in which it becomes active, in seconds or in `time_unit`"),
+        KeySchema("never", NAME, "this state does not become active"),
+        KeySchema("before", NAME, "it may become active once this state was"),
+        KeySchema("can_reach", NAME, "there is always a way back to this state"),
+        KeySchema("holds", EXPRESSION, "this condition holds after each step"),
+    ),
+)
+PROPERTIES = ListSchema(description="a list of properties", item_schema=lambda: PROPERTY)
 NOTE = RecordSchema(
     name="note",
     description="the text of a note",
@@ -325,6 +352,7 @@ DESIGN = RecordSchema(
             MapSchema(description="a mapping of names to states", value_schema=STATE, name_field="name"),
             "states by name, in display order",
         ),
+        KeySchema("properties", PROPERTIES, "what the behavior promises (docs/analysis.md)"),
         KeySchema(
             "frames",
             MapSchema(description="a mapping of titles to frames", value_schema=FRAME, name_field="name"),
@@ -338,4 +366,18 @@ DESIGN = RecordSchema(
     ),
 )
 
-DESIGN_RECORDS = (DESIGN, STATE, FRAME, NOTE, COMMON, DECISION, ACTION, USE, PARAMETER, OUTPUT, VARIABLE, ARGUMENT)
+DESIGN_RECORDS = (
+    DESIGN,
+    STATE,
+    PROPERTY,
+    FRAME,
+    NOTE,
+    COMMON,
+    DECISION,
+    ACTION,
+    USE,
+    PARAMETER,
+    OUTPUT,
+    VARIABLE,
+    ARGUMENT,
+)

@@ -15,6 +15,7 @@ from vicode.store.format import (
     CONSTANT,
     COUNT,
     DOC_KEY,
+    EXPRESSION,
     FLAG,
     FLOW_WIDTH,
     FREQUENCY,
@@ -79,6 +80,7 @@ INTERFACE = RecordSchema(
         KeySchema("parameters", declarations(PARAMETER), "inputs that other components can set"),
         KeySchema("outputs", declarations(OUTPUT), "values that other components can read"),
         KeySchema("variables", declarations(VARIABLE), "values that other components can read and set"),
+        KeySchema("assume", EXPRESSION, "condition that its outputs always fulfill (docs/analysis.md)"),
     ),
 )
 AGENT = RecordSchema(

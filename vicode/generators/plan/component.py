@@ -188,7 +188,7 @@ class _ComponentPlanner:
 
     def uses_action_done(self) -> bool:
         """Whether an expression of the design contains `action_done`."""
-        return any("action_done" in expression.text for expression in iter_expressions(self.design))
+        return any("action_done" in each.text for each in iter_expressions(self.design) if each.path[0] != "properties")
 
     def _called_designs(self, state: State) -> tuple[str, ...]:
         actions = (*self.design.common.actions, *state.all_actions)

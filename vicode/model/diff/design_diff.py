@@ -23,12 +23,12 @@ from vicode.model.diff.item_diff import (
 )
 from vicode.model.edits import rename_state, rename_use
 from vicode.model.merge.matching import find_renamed_states, find_renamed_uses
-from vicode.model.words import describe_action, describe_value
+from vicode.model.words import describe_action, describe_property, describe_value
 
 _SECTIONS = ("parameters", "outputs", "variables")
 _PHASES = {"enter": "enter action", "actions": "action", "leave": "leave action"}
 _APART = {
-    Design: ("component", "uses", *_SECTIONS, "common", "states", "frames", "notes"),
+    Design: ("component", "uses", *_SECTIONS, "common", "states", "properties", "frames", "notes"),
     State: ("name", "requires", "modulates", *_PHASES, "transitions"),
     CommonSection: ("actions", "transitions"),
 }
@@ -94,6 +94,14 @@ def _diff_content(old: Design, new: Design) -> Iterator[Change]:
         subject=lambda state: f"state {state.name}",
         content=_describe_state,
         compare=_diff_state,
+    )
+    yield from diff_ordered(
+        ("properties",),
+        old.properties,
+        new.properties,
+        subject=lambda _promised: "property",
+        content=describe_property,
+        compare=lambda _there, here, before, after: diff_values(here, "property", before, after, describe_property),
     )
     yield from diff_keyed(
         ("frames",),

@@ -64,6 +64,12 @@ def build_scope(project: Project, design: Design | None) -> Scope:
     )
 
 
+def build_interface_scope(project: Project, interface: Interface) -> Scope:
+    """Return the scope of an assumption about a component: its own names, constants and enumerations."""
+    own = (interface.variables, interface.outputs, interface.parameters)
+    return _build_scope(project.enumerations, project.constants, (), *own)
+
+
 def constant_scopes(project: Project) -> Iterator[Scope]:
     """Yield the scope of each constant: enumerations and the constants before it."""
     empty = _build_scope(project.enumerations, ())

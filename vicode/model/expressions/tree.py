@@ -3,8 +3,8 @@
 `type` is "bool", "int", "float", the name of an enumeration, or UNKNOWN after an error. `span` refers to the text.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 from vicode.findings import Span
 
@@ -202,3 +202,24 @@ def walk(node: Expr) -> Iterator[Expr]:
     yield node
     for child in children(node):
         yield from walk(child)
+
+
+def map_tree(node: Expr, change: Callable[[Expr], Expr]) -> Expr:
+    """Apply a change to a tree, from its leaves to its root."""
+    match node:
+        case Not(operand=operand) | Minus(operand=operand):
+            node = replace(node, operand=map_tree(operand, change))
+        case Binary(left=left, right=right):
+            node = replace(node, left=map_tree(left, change), right=map_tree(right, change))
+        case Comparison(operands=operands) | Logic(operands=operands):
+            node = replace(node, operands=tuple(map_tree(each, change) for each in operands))
+        case Ternary(test=test, then=then, otherwise=otherwise):
+            test, then, otherwise = (map_tree(each, change) for each in (test, then, otherwise))
+            node = replace(node, test=test, then=then, otherwise=otherwise)
+        case FunctionCall(arguments=arguments):
+            node = replace(node, arguments=tuple(map_tree(each, change) for each in arguments))
+        case OutputRef(arguments=pairs) if pairs:
+            node = replace(node, arguments=tuple((name, map_tree(value, change)) for name, value in pairs))
+        case _:
+            pass
+    return change(node)

@@ -21,7 +21,7 @@ from vicode.model.project import Project
 from vicode.model.traversal import iter_actions, iter_transitions
 
 _POSITIONS = (("at",), ("label_at",))
-_ORDERED = {"transitions", "then", "otherwise", "enter", "actions", "leave"}
+_ORDERED = {"transitions", "then", "otherwise", "enter", "actions", "leave", "properties"}
 # File keys that differ from field names. Empty: the field has no key in the file.
 _FILE_KEYS: dict[str, DesignPath] = {
     "guard": (),

@@ -13,6 +13,9 @@ from vicode.model.design import (
     Declaration,
     Design,
     Guard,
+    InvariantProperty,
+    Property,
+    ReachProperty,
     RunCode,
     State,
 )
@@ -75,6 +78,7 @@ def _rewrite(design: Design, rewriter: "_ReferenceRewriter") -> Design:
         members=rewriter.code(design.members, "members"),
         common=common,
         states=tuple(rewriter.state(state) for state in design.states),
+        properties=tuple(rewriter.promised(each) for each in design.properties),
     )
 
 
@@ -152,6 +156,15 @@ class _ReferenceRewriter:
     def _guard(self, guard: Guard) -> Guard:
         code = self.code(guard.code, "predicate") if guard.code else None
         return replace(guard, when=self.expression(guard.when), after=self.expression(guard.after), code=code)
+
+    def promised(self, promised: Property) -> Property:
+        match promised:
+            case ReachProperty(within=within) if within:
+                return replace(promised, within=self.expression(within))
+            case InvariantProperty(holds=holds):
+                return replace(promised, holds=self.expression(holds))
+            case _:
+                return promised
 
     def state(self, state: State) -> State:
         return replace(

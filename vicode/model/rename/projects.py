@@ -7,6 +7,7 @@ from typing import TypeVar
 from vicode.model.design import Declaration, Design
 from vicode.model.project import Enumeration, Interface, Project
 from vicode.model.rename.designs import rename_in_declarations, rename_in_design
+from vicode.model.rename.expressions import rename_in_expression
 from vicode.model.rename.references import ReferenceKind, ReferenceRename, SymbolRef
 
 _Holder = TypeVar("_Holder", Design, Interface)
@@ -116,6 +117,9 @@ def _references_through_alias(
 def _rename_declaration(holder: _Holder, symbol: SymbolRef, new: str) -> _Holder:
     """Rename a symbol where a design or interface declares it."""
     old = symbol.name
+    if symbol.section != "arguments" and isinstance(holder, Interface):
+        own = ReferenceRename(kind=ReferenceKind.OWN, old=old, new=new)
+        holder = replace(holder, assume=rename_in_expression(holder.assume, own))
     match symbol.section:
         case "uses":
             if isinstance(holder, Interface):
@@ -191,6 +195,7 @@ def _rename_in_project_declarations(project: Project, rename: ReferenceRename) -
             parameters=rename_in_declarations(each.parameters, rename),
             outputs=rename_in_declarations(each.outputs, rename),
             variables=rename_in_declarations(each.variables, rename),
+            assume=rename_in_expression(each.assume, rename),
         )
         for each in project.components
     )

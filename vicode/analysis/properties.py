@@ -1,0 +1,262 @@
+"""Judges the properties of a design: what is guaranteed for all inputs, and what a run breaks.
+
+What no live transition allows is impossible. What the graph allows is possible only if a run of the reference
+interpreter shows it: such a run is a counterexample, and without one the property is not decided.
+"""
+
+import math
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from functools import cached_property
+from graphlib import CycleError, TopologicalSorter
+from itertools import pairwise
+
+from vicode.analysis.counterexamples import CounterexampleSearch
+from vicode.analysis.guards import Basis
+from vicode.analysis.invariants import prove_invariant
+from vicode.analysis.machines import LiveTransition, MachineAnalysis
+from vicode.analysis.property_monitor import within_ns
+from vicode.analysis.walk import DEFAULT_TICK_NS, WalkStep
+from vicode.model.design import (
+    Design,
+    InvariantProperty,
+    NeverProperty,
+    Property,
+    ReachProperty,
+    RecoveryProperty,
+)
+from vicode.model.project import Project
+
+_ROUNDS = 20
+
+
+class PropertyVerdict(StrEnum):
+    """What is known about a property."""
+
+    GUARANTEED = "guaranteed"
+    """It holds for all inputs."""
+    FAIR = "fair"
+    """It holds if each state that may be left is left at some time, and each transition that may be taken is taken."""
+    FOUND = "found"
+    """The way back was replayed from each state."""
+    FAILS = "fails"
+    """A replayed run breaks it."""
+    UNDECIDED = "not decided"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Judgement:
+    """What is known about a property.
+
+    Attributes:
+        promised: The property.
+        verdict: What is known.
+        at_most_ns: The longest time until a state is reached, if it is guaranteed.
+        lasso: States that can be active in this order without reaching a state; the last one is active for ever, or
+            the states from its earlier occurrence on repeat.
+        steps: The run that breaks the property.
+        basis: What a proof rests on.
+    """
+
+    promised: Property
+    verdict: PropertyVerdict
+    at_most_ns: int | None = None
+    lasso: tuple[str, ...] = ()
+    steps: tuple[WalkStep, ...] = ()
+    basis: Basis = field(default_factory=Basis)
+
+
+class PropertyAnalysis:
+    """Judges the properties of a design without errors.
+
+    Args:
+        project: The project, with all designs.
+        machine: The machine of one of them.
+    """
+
+    def __init__(self, project: Project, machine: MachineAnalysis) -> None:
+        self._project = project
+        self._machine = machine
+        self._design = machine.design
+        self._search = CounterexampleSearch(project, machine)
+        hertz = machine.design.frequency_hz
+        self._period_ns = round(1e9 / hertz) if hertz else DEFAULT_TICK_NS
+
+    def judge_all(self) -> Iterator[Judgement]:
+        """Yield what is known about each property, in their order."""
+        return (self.judge(each) for each in self._design.properties)
+
+    def judge(self, promised: Property) -> Judgement:
+        """What is known about one property."""
+        match promised:
+            case ReachProperty():
+                return self._judge_reach(promised)
+            case NeverProperty():
+                return self._judge_never(promised)
+            case RecoveryProperty():
+                return self._judge_recovery(promised)
+            case InvariantProperty():
+                return self._judge_invariant(promised)
+
+    @cached_property
+    def _edges(self) -> dict[str, list[LiveTransition]]:
+        """The first live transition to each target, of the states that may be active."""
+        return {
+            name: list({each.target: each for each in reversed(self._machine.live_in(name))}.values())
+            for name in self._machine.reachable
+        }
+
+    def _after(self, begin: str, goals: Collection[str]) -> dict[str, list[LiveTransition]]:
+        """A shortest way to each state that can be active after one, without a goal on the way.
+
+        The state itself has the way without transitions; goals that can be reached are in the result.
+        """
+        ways: dict[str, list[LiveTransition]] = {begin: []}
+        pending = [begin]
+        for name in pending:
+            for edge in self._edges.get(name, ()) if name not in goals or name == begin else ():
+                if edge.target not in ways:
+                    ways[edge.target] = [*ways[name], edge]
+                    pending.append(edge.target)
+        return ways
+
+    # Reaching a state
+
+    def _judge_reach(self, promised: ReachProperty) -> Judgement:
+        begin, goal = promised.after or self._design.initial, promised.reach
+        if begin not in self._machine.reachable or (begin == goal and not promised.after):
+            return Judgement(promised=promised, verdict=PropertyVerdict.GUARANTEED, at_most_ns=0)
+        ways = self._after(begin, {goal})
+        passed = [name for name in ways if name != goal or name == begin]
+        limit_ns = within_ns(self._machine.guards.conditions.table, promised)
+        longest = self._find_longest(begin, goal, passed)
+        if longest is not None and (limit_ns is None or longest <= limit_ns):
+            return Judgement(promised=promised, verdict=PropertyVerdict.GUARANTEED, at_most_ns=longest)
+        lost = [name for name in passed if not self._leads_to(name, goal)]
+        for name in lost:
+            steps = self._search.lose(promised, begin, ways[name])
+            if steps:
+                states = (begin, *(edge.target for edge in ways[name]))
+                return Judgement(promised=promised, verdict=PropertyVerdict.FAILS, lasso=states, steps=steps)
+        lasso = () if longest is not None else self._find_lasso(begin, goal, passed, ways)
+        if limit_ns is None and not lost:
+            return Judgement(promised=promised, verdict=PropertyVerdict.FAIR, lasso=lasso)
+        if limit_ns is not None:
+            slow = [ways[name] for name in sorted(passed, key=self._longest_in, reverse=True)]
+            for way in (*slow, self._repeat(lasso)):
+                steps = self._search.exceed(promised, begin, way, limit_ns)
+                if steps:
+                    return Judgement(promised=promised, verdict=PropertyVerdict.FAILS, lasso=lasso, steps=steps)
+        return Judgement(promised=promised, verdict=PropertyVerdict.UNDECIDED, at_most_ns=longest, lasso=lasso)
+
+    def _leads_to(self, name: str, goal: str) -> bool:
+        """Whether a transition leads from a state to a goal, perhaps through others."""
+        return any(edge.target == goal or goal in self._after(edge.target, {goal}) for edge in self._edges[name])
+
+    def _longest_in(self, state: str) -> float:
+        """The longest time in a state in ns, as whole periods; infinite if it may be active for ever."""
+        time = self._machine.time_in(state)
+        if time is None or time.at_most_ns is None:
+            return math.inf
+        return max(1, math.ceil(time.at_most_ns / self._period_ns)) * self._period_ns
+
+    def _find_longest(self, begin: str, goal: str, passed: Collection[str]) -> int | None:
+        """The longest time from the entry into a state until a goal is reached; None if there is none."""
+        following = {name: {edge.target for edge in self._edges[name]} - {goal} for name in passed}
+        times = {name: self._longest_in(name) for name in passed}
+        try:
+            order = list(TopologicalSorter(following).static_order())
+        except CycleError:
+            return None
+        for name in order:
+            times[name] += max((times[each] for each in following[name]), default=0)
+        return None if math.isinf(times[begin]) else int(times[begin])
+
+    def _find_lasso(
+        self, begin: str, goal: str, passed: Collection[str], ways: dict[str, list[LiveTransition]]
+    ) -> tuple[str, ...]:
+        """States that may be active for ever without the goal: one that may be held, or a cycle."""
+        for name in passed:
+            if math.isinf(self._longest_in(name)):
+                return (begin, *(edge.target for edge in ways[name]))
+        for name in passed:
+            for edge in self._edges[name]:
+                back = {} if edge.target == goal else self._after(edge.target, {goal})
+                if name in back:
+                    cycle = (edge.target, *(each.target for each in back[name]))
+                    return (begin, *(each.target for each in ways[name]), *cycle)
+        return ()
+
+    def _repeat(self, lasso: tuple[str, ...]) -> list[LiveTransition]:
+        """The transitions along a lasso, with its cycle some times."""
+        if not lasso:
+            return []
+        first = lasso.index(lasso[-1])
+        states = (*lasso, *(lasso[first + 1 :] * _ROUNDS))
+        return [
+            next(edge for edge in self._edges[state] if edge.target == following)
+            for state, following in pairwise(states)
+        ]
+
+    # The others
+
+    def _judge_never(self, promised: NeverProperty) -> Judgement:
+        begin, never, before = promised.after or self._design.initial, promised.never, promised.before
+        ways = self._after(begin, {before}) if begin in self._machine.reachable else {}
+        if begin == never and promised.after:
+            # It is active again after some transition.
+            again = [
+                [*ways[name], edge]
+                for name in ways
+                if name != before
+                for edge in self._edges[name]
+                if edge.target == never
+            ]
+            way = min(again, key=len, default=None)
+        else:
+            way = ways.get(never) if begin != before or promised.after else None
+        if way is None:
+            return Judgement(promised=promised, verdict=PropertyVerdict.GUARANTEED)
+        steps = self._search.follow(promised, begin, way)
+        states = (begin, *(edge.target for edge in way))
+        verdict = PropertyVerdict.FAILS if steps else PropertyVerdict.UNDECIDED
+        return Judgement(promised=promised, verdict=verdict, lasso=states, steps=steps)
+
+    def _judge_recovery(self, promised: RecoveryProperty) -> Judgement:
+        goal = promised.can_reach
+        for name in self._machine.reachable:
+            if name != goal and not self._leads_to(name, goal):
+                steps = self._search.go_to(name)
+                verdict = PropertyVerdict.FAILS if steps else PropertyVerdict.UNDECIDED
+                return Judgement(promised=promised, verdict=verdict, lasso=(name,), steps=steps)
+        is_found = all(self._search.go_to(name, goal) for name in self._machine.reachable)
+        return Judgement(promised=promised, verdict=PropertyVerdict.FOUND if is_found else PropertyVerdict.UNDECIDED)
+
+    def _judge_invariant(self, promised: InvariantProperty) -> Judgement:
+        basis = prove_invariant(self._machine, promised.holds)
+        if basis is not None:
+            return Judgement(promised=promised, verdict=PropertyVerdict.GUARANTEED, basis=basis)
+        steps = self._search.explore(promised)
+        return Judgement(
+            promised=promised,
+            verdict=PropertyVerdict.FAILS if steps else PropertyVerdict.UNDECIDED,
+            steps=steps,
+        )
+
+
+def judge_properties(project: Project, design: Design) -> tuple[Judgement, ...]:
+    """Judge the properties of a design, with the assumptions without which the verdicts would differ."""
+    machine = MachineAnalysis(project, design)
+    judged = tuple(PropertyAnalysis(project, machine).judge_all())
+    assumptions = machine.guards.conditions.table.assumptions
+    if not assumptions or not judged:
+        return judged
+    components = tuple(replace(each, assume="") for each in project.components)
+    plain = replace(project, components=components)
+    without = PropertyAnalysis(plain, MachineAnalysis(plain, design)).judge_all()
+    facts = tuple(f"assumed of {each.text}" for each in assumptions)
+    return tuple(
+        each if each.verdict is other.verdict or each.basis.facts else replace(each, basis=Basis(facts=facts))
+        for each, other in zip(judged, without, strict=True)
+    )

@@ -1,0 +1,44 @@
+"""Rules for the properties of a design: what is promised and not kept."""
+
+from collections.abc import Iterator
+
+from vicode.analysis.properties import Judgement, PropertyVerdict, judge_properties
+from vicode.analysis.walk import WalkStep
+from vicode.findings import Finding, FindingSubject, get_rule
+from vicode.model.design import Design
+from vicode.model.project import Project
+from vicode.model.words import describe_property
+
+_MOST_CHANGES = 8
+
+
+def find_broken_properties(project: Project, design: Design) -> Iterator[Finding]:
+    """D441, D442: properties that a run breaks, or about which nothing certain is known."""
+    for index, judged in enumerate(judge_properties(project, design)):
+        subject = FindingSubject(component=design.component, path=("properties", index))
+        phrase = describe_property(judged.promised)
+        if judged.verdict is PropertyVerdict.FAILS:
+            message = f"'{phrase}' does not hold: {describe_run(judged.steps)}"
+            fix = "change the behavior or the property"
+            yield Finding(rule=get_rule("D441"), message=message, fix=fix, subject=subject)
+        elif judged.verdict is PropertyVerdict.UNDECIDED:
+            message = f"'{phrase}' is not proved{_explain(judged)}"
+            fix = "simplify the guards, or test it with runs: vicode trace check"
+            yield Finding(rule=get_rule("D442"), message=message, fix=fix, subject=subject)
+
+
+def _explain(judged: Judgement) -> str:
+    if judged.at_most_ns is not None:
+        return f": it may take {judged.at_most_ns / 1e9:g} s"
+    return f": {' → '.join(judged.lasso)} may be possible" if judged.lasso else ""
+
+
+def describe_run(steps: tuple[WalkStep, ...]) -> str:
+    """The states of a run with the times at which they were entered, and the last inputs."""
+    entered = [
+        step for before, step in zip((None, *steps), steps, strict=False) if not before or before.state != step.state
+    ]
+    texts = [f"{step.state} at {step.time_ns / 1e9:g} s" for step in entered]
+    texts = texts if len(texts) <= _MOST_CHANGES else [*texts[:2], "…", *texts[3 - _MOST_CHANGES :]]
+    end = "" if not steps or steps[-1] is entered[-1] else f", still at {steps[-1].time_ns / 1e9:g} s"
+    return f"{', '.join(texts)}{end}"
