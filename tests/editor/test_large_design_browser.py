@@ -11,8 +11,8 @@ from vicode.store import save_design, write_text
 def test_a_large_design_is_drawn_and_its_panels_follow(editor: str, page: Page, project: Path) -> None:
     write_text(project / "forward" / "ring.yaml", save_design(ring_design(600, chords=1), ""))
     page.goto(editor + "design/forward/Ring", timeout=60_000)
-    expect(page.locator(".vicode-canvas[data-ready]")).to_be_visible(timeout=40_000)
-    expect(page.get_by_label("Inspector").get_by_text("Initial state")).to_be_visible(timeout=40_000)
+    expect(page.locator(".vicode-canvas[data-ready]")).to_be_visible(timeout=120_000)
+    expect(page.get_by_label("Inspector").get_by_text("Initial state")).to_be_visible(timeout=120_000)
     expect(page.get_by_label("Findings").get_by_label("Filter")).to_be_visible()
     # The panels took some of the room: what nobody has moved is fitted in again.
     page.wait_for_function(

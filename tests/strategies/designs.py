@@ -19,6 +19,11 @@ from vicode.model.design import (
     DiagramFrame,
     DiagramNote,
     Guard,
+    InvariantProperty,
+    NeverProperty,
+    Property,
+    ReachProperty,
+    RecoveryProperty,
     RunCode,
     State,
     Stay,
@@ -147,6 +152,13 @@ states: st.SearchStrategy[State] = st.builds(
     leave=_tuples(actions, 2),
     transitions=_tuples(decisions),
 )
+_no_name = st.just("") | names
+properties: st.SearchStrategy[Property] = (
+    st.builds(ReachProperty, reach=names, after=_no_name, within=st.just("") | expressions)
+    | st.builds(NeverProperty, never=names, after=_no_name, before=_no_name)
+    | st.builds(RecoveryProperty, can_reach=names)
+    | st.builds(InvariantProperty, holds=expressions)
+)
 uses = st.builds(Use, alias=names, component=names, at=points)
 _fields: dict[str, st.SearchStrategy[Any]] = {
     "component": names,
@@ -161,6 +173,7 @@ _fields: dict[str, st.SearchStrategy[Any]] = {
     "outputs": _unique(outputs, "name", 2),
     "variables": _unique(declarations(), "name", 2),
     "initial": st.just("") | names,
+    "properties": _tuples(properties, 2),
     "module": code,
     "members": code,
     "frames": _unique(
@@ -201,6 +214,7 @@ interfaces = st.builds(
     parameters=_unique(declarations(is_tunable=True), "name", 2),
     outputs=_unique(outputs, "name", 2),
     variables=_unique(declarations(), "name", 2),
+    assume=st.just("") | expressions,
 )
 agents = st.builds(
     Agent,

@@ -7,7 +7,7 @@ from typing import Any
 from vicode.analysis.conditions import STATE_TIME
 from vicode.analysis.interval_diagrams import BEFORE_NAN, TooLargeError
 from vicode.analysis.machines import LiveTransition, MachineAnalysis
-from vicode.analysis.property_monitor import ObservedStep, create_monitors
+from vicode.analysis.property_monitor import ObservedStep, create_monitor
 from vicode.analysis.walk import Walk, WalkStep
 from vicode.model.design import InvariantProperty, Property
 from vicode.model.project import Project
@@ -31,9 +31,11 @@ class CounterexampleSearch:
         self._machine = machine
         self._design = machine.design
 
-    def lose(self, promised: Property, begin: str, way: _Way) -> tuple[WalkStep, ...]:
-        """A run along a way at the end of which the property still waits for its state."""
+    def lose(self, promised: Property, begin: str, way: _Way, hold_ns: int) -> tuple[WalkStep, ...]:
+        """A run along a way at the end of which the property still waits; its last state lasts longer than a time."""
         walk = self._walk(begin, way)
+        if walk is not None and hold_ns and not self._hold(walk, hold_ns):
+            return ()
         is_there = walk is not None and walk.state == (way[-1].target if way else begin)
         return tuple(walk.steps) if walk and is_there and self._replay(promised, walk.steps)[1] else ()
 
@@ -47,10 +49,14 @@ class CounterexampleSearch:
         walk = self._walk(begin, way, limit_ns)
         return tuple(walk.steps) if walk and self._replay(promised, walk.steps)[0] else ()
 
-    def go_to(self, *states: str) -> tuple[WalkStep, ...]:
-        """A run that visits states one after another."""
+    def go_to(self, *states: str, hold_ns: int = 0) -> tuple[WalkStep, ...]:
+        """A run that visits states one after another; the last one lasts longer than a time."""
         walk = self._create_walk()
-        is_there = walk is not None and all(walk.go_to(state) for state in states)
+        is_there = (
+            walk is not None
+            and all(walk.go_to(state) for state in states)
+            and (not hold_ns or self._hold(walk, hold_ns))
+        )
         return tuple(walk.steps) if walk is not None and is_there else ()
 
     def explore(self, promised: InvariantProperty) -> tuple[WalkStep, ...]:
@@ -89,17 +95,19 @@ class CounterexampleSearch:
                 return None
             way = way[1:]
         for edge in way:
-            self._hold(walk, limit_ns)
+            if limit_ns:
+                self._hold(walk, limit_ns)
             same = [each for each in self._machine.live_in(walk.state) if each.target == edge.target]
             if not any(walk.take(each) for each in same):
                 break
-        self._hold(walk, limit_ns)
+        if limit_ns:
+            self._hold(walk, limit_ns)
         return walk
 
     def _hold(self, walk: Walk, limit_ns: int) -> bool:
         """Stay in the active state beyond a time, or as long as possible."""
         time = self._machine.time_in(walk.state)
-        if time is None or limit_ns == 0:
+        if time is None:
             return False
         longest = limit_ns + walk.tick_ns if time.at_most_ns is None else min(limit_ns, time.at_most_ns - 1)
         count = min(longest // walk.tick_ns, _MOST_HELD)
@@ -114,15 +122,16 @@ class CounterexampleSearch:
 
     def _replay(self, promised: Property, steps: Sequence[WalkStep]) -> tuple[bool, bool]:
         """Whether a run breaks a property, and whether the property waits for a state at its end."""
-        monitor = next(each for each in create_monitors(self._project, self._design) if each.promised == promised)
+        monitor = create_monitor(self._machine.guards.conditions.table, promised)
         is_broken, before = False, ""
         for step in steps:
-            is_start = not before
-            observed = ObservedStep(
-                time_ns=step.time_ns, state=step.state, is_start=is_start, is_entered=step.state != before
-            )
-            is_broken = monitor.observe(observed, _unknown) or is_broken
-            before = step.state
+            # The initial state may be left in the first iteration.
+            for state in (step.state,) if before else dict.fromkeys((self._design.initial, step.state)):
+                observed = ObservedStep(
+                    time_ns=step.time_ns, state=state, is_start=not before, is_entered=state != before
+                )
+                is_broken = monitor.observe(observed, _unknown) or is_broken
+                before = state
         return is_broken, monitor.since_ns is not None
 
 

@@ -4,6 +4,7 @@ A transition is live if it is not proved that it can never be taken. The graph o
 of state that is possible, and possibly more: a state that it does not reach is never active.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,6 +15,9 @@ from vicode.analysis.interval_diagrams import BEFORE_NAN, FALSE, TRUE, Interval,
 from vicode.findings import DesignPath
 from vicode.model.design import Design, Transition
 from vicode.model.project import Project
+
+_LATE_NS = 10**15
+"""A time in a state after which also computed times are beyond the constants of a design."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,6 +46,21 @@ class TimeInState:
 
     at_least_ns: int
     at_most_ns: int | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SettledState:
+    """A state in which all timers have elapsed.
+
+    Attributes:
+        from_ns: The time after which no timer changes anything.
+        may_stay: Whether it may be active for so long.
+        live: The transitions that may still be taken.
+    """
+
+    from_ns: int
+    may_stay: bool
+    live: tuple[LiveTransition, ...]
 
 
 class MachineAnalysis:
@@ -89,6 +108,23 @@ class MachineAnalysis:
         self.guards.conditions.diagrams.begin_question()
         try:
             return self._find_time(state)
+        except (TooLargeError, RecursionError):
+            return None
+
+    def settled(self, state: str) -> "SettledState | None":
+        """What is possible once no timer of a state changes anything; None if its diagrams are too large."""
+        diagrams = self.guards.conditions.diagrams
+        diagrams.begin_question()
+        try:
+            stays, edges = self.staying(state), self.live_in(state)
+            cuts = diagrams.find_cuts((stays, *(each.taken for each in edges))).get(STATE_TIME, ())
+            last_ns = max((int(number) for number, _side in cuts if math.isfinite(number)), default=0)
+            late = diagrams.test(STATE_TIME, (((max(last_ns, _LATE_NS) + 1, 0), BEFORE_NAN),))
+            return SettledState(
+                from_ns=last_ns,
+                may_stay=self.guards.is_possible(diagrams.both(stays, late)),
+                live=tuple(each for each in edges if self.guards.is_possible(diagrams.both(each.taken, late))),
+            )
         except (TooLargeError, RecursionError):
             return None
 

@@ -5,7 +5,7 @@ interpreter shows it: such a run is a counterexample, and without one the proper
 """
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
@@ -15,7 +15,7 @@ from itertools import pairwise
 from vicode.analysis.counterexamples import CounterexampleSearch
 from vicode.analysis.guards import Basis
 from vicode.analysis.invariants import prove_invariant
-from vicode.analysis.machines import LiveTransition, MachineAnalysis
+from vicode.analysis.machines import LiveTransition, MachineAnalysis, SettledState
 from vicode.analysis.property_monitor import within_ns
 from vicode.analysis.walk import DEFAULT_TICK_NS, WalkStep
 from vicode.model.design import (
@@ -80,6 +80,7 @@ class PropertyAnalysis:
         self._machine = machine
         self._design = machine.design
         self._search = CounterexampleSearch(project, machine)
+        self._settled_states: dict[str, SettledState | None] = {}
         hertz = machine.design.frequency_hz
         self._period_ns = round(1e9 / hertz) if hertz else DEFAULT_TICK_NS
 
@@ -135,7 +136,7 @@ class PropertyAnalysis:
             return Judgement(promised=promised, verdict=PropertyVerdict.GUARANTEED, at_most_ns=longest)
         lost = [name for name in passed if not self._leads_to(name, goal)]
         for name in lost:
-            steps = self._search.lose(promised, begin, ways[name])
+            steps = self._search.lose(promised, begin, ways[name], self._time_to_lose(name, goal))
             if steps:
                 states = (begin, *(edge.target for edge in ways[name]))
                 return Judgement(promised=promised, verdict=PropertyVerdict.FAILS, lasso=states, steps=steps)
@@ -151,8 +152,24 @@ class PropertyAnalysis:
         return Judgement(promised=promised, verdict=PropertyVerdict.UNDECIDED, at_most_ns=longest, lasso=lasso)
 
     def _leads_to(self, name: str, goal: str) -> bool:
-        """Whether a transition leads from a state to a goal, perhaps through others."""
-        return any(edge.target == goal or goal in self._after(edge.target, {goal}) for edge in self._edges[name])
+        """Whether transitions lead from a state to a goal, perhaps through others, however long it was active."""
+        settled = self._settled(name)
+        ways = [self._edges[name]] if settled is None or not settled.may_stay else [self._edges[name], settled.live]
+        return all(self._can_lead(edges, goal) for edges in ways)
+
+    def _can_lead(self, edges: Iterable[LiveTransition], goal: str) -> bool:
+        return any(edge.target == goal or goal in self._after(edge.target, {goal}) for edge in edges)
+
+    def _time_to_lose(self, name: str, goal: str) -> int:
+        """How long a state must be active until no transitions lead from it to a goal, in ns; 0 if they never do."""
+        settled = self._settled(name)
+        is_lost_at_once = not self._can_lead(self._edges[name], goal)
+        return 0 if is_lost_at_once or settled is None else settled.from_ns + self._period_ns
+
+    def _settled(self, name: str) -> SettledState | None:
+        if name not in self._settled_states:
+            self._settled_states[name] = self._machine.settled(name)
+        return self._settled_states[name]
 
     def _longest_in(self, state: str) -> float:
         """The longest time in a state in ns, as whole periods; infinite if it may be active for ever."""
@@ -224,14 +241,19 @@ class PropertyAnalysis:
         return Judgement(promised=promised, verdict=verdict, lasso=states, steps=steps)
 
     def _judge_recovery(self, promised: RecoveryProperty) -> Judgement:
-        goal = promised.can_reach
-        for name in self._machine.reachable:
-            if name != goal and not self._leads_to(name, goal):
-                steps = self._search.go_to(name)
-                verdict = PropertyVerdict.FAILS if steps else PropertyVerdict.UNDECIDED
-                return Judgement(promised=promised, verdict=verdict, lasso=(name,), steps=steps)
-        is_found = all(self._search.go_to(name, goal) for name in self._machine.reachable)
-        return Judgement(promised=promised, verdict=PropertyVerdict.FOUND if is_found else PropertyVerdict.UNDECIDED)
+        goal, verdict = promised.can_reach, PropertyVerdict.UNDECIDED
+        lost = sorted(name for name in self._machine.reachable if name != goal and not self._leads_to(name, goal))
+        for name in lost:
+            steps = self._search.go_to(name, hold_ns=self._time_to_lose(name, goal))
+            if steps:
+                return Judgement(promised=promised, verdict=PropertyVerdict.FAILS, lasso=(name,), steps=steps)
+        if not lost and all(self._has_way_back(name, goal) for name in self._machine.reachable):
+            verdict = PropertyVerdict.FOUND
+        return Judgement(promised=promised, verdict=verdict, lasso=tuple(lost[:1]))
+
+    def _has_way_back(self, name: str, goal: str) -> bool:
+        """Whether a run leads from a state to a goal; the initial state may be left before it can be seen."""
+        return bool(self._search.go_to(name, goal) or (name == self._design.initial and self._search.go_to(goal)))
 
     def _judge_invariant(self, promised: InvariantProperty) -> Judgement:
         basis = prove_invariant(self._machine, promised.holds)

@@ -38,12 +38,14 @@ class PropertyMonitor:
         promised: The property.
         within_ns: The time of its `within`; None if it has none.
         fulfilled: How often its state was reached; for a condition, in how many steps it held.
+        unknown: In how many steps a condition was not known.
         since_ns: Since when `reach` is due, or `never` is watched; None if nothing is expected.
     """
 
     promised: Property
     within_ns: int | None = None
     fulfilled: int = 0
+    unknown: int = 0
     since_ns: int | None = None
     _is_late: bool = False
     _is_broken: bool = False
@@ -63,10 +65,10 @@ class PropertyMonitor:
             case InvariantProperty(holds=condition):
                 value = holds(condition)
                 self.fulfilled += value is True
+                self.unknown += value is None
                 was_broken, self._is_broken = self._is_broken, value is False
                 return self._is_broken and not was_broken
             case _:
-                # Whether there is a way back shows in no single run.
                 return False
 
     def _observe_reach(self, promised: ReachProperty, step: ObservedStep) -> bool:
@@ -99,10 +101,13 @@ class PropertyMonitor:
 def create_monitors(project: Project, design: Design) -> tuple[PropertyMonitor, ...]:
     """Create a monitor for each property of a design, in their order."""
     table = build_quantities(project, design)
-    return tuple(
-        PropertyMonitor(promised=each, within_ns=within_ns(table, each) if isinstance(each, ReachProperty) else None)
-        for each in design.properties
-    )
+    return tuple(create_monitor(table, each) for each in design.properties)
+
+
+def create_monitor(table: QuantityTable, promised: Property) -> PropertyMonitor:
+    """Create a monitor for a property of the design to which a table belongs."""
+    limit_ns = within_ns(table, promised) if isinstance(promised, ReachProperty) else None
+    return PropertyMonitor(promised=promised, within_ns=limit_ns)
 
 
 def within_ns(table: QuantityTable, promised: ReachProperty) -> int | None:

@@ -120,12 +120,11 @@ def run(args: argparse.Namespace) -> int:
 
             start_watching(args, folder)
         if args.trace != "-":
-            return _run_process(_command(opened, (component, class_path), folder, args), is_plain=args.plain)
+            return _run_process(opened, _command(opened, (component, class_path), folder, args), is_plain=args.plain)
         with _duplicate_stdout() as descriptor, contextlib.redirect_stdout(sys.stderr):
             args.trace = f"/dev/fd/{descriptor}"
-            return _run_process(
-                _command(opened, (component, class_path), folder, args), is_plain=True, kept=(descriptor,)
-            )
+            command = _command(opened, (component, class_path), folder, args)
+            return _run_process(opened, command, is_plain=True, kept=(descriptor,))
 
 
 @contextlib.contextmanager
@@ -184,8 +183,9 @@ def _origin(opened: LoadedProject, component: str) -> list[str]:
     return ["--design", origin.design, *(["--revision", origin.revision] if origin.revision else [])]
 
 
-def _run_process(command: list[str], *, is_plain: bool, kept: tuple[int, ...] = ()) -> int:
+def _run_process(opened: LoadedProject, command: list[str], *, is_plain: bool, kept: tuple[int, ...] = ()) -> int:
     from vicode.runs.foreground import follow_process
+    from vicode.runs.property_watch import watch_properties
     from vicode.simulation.environment import fresh_environment
     from vicode.traces.descriptions import describe_summary
 
@@ -208,13 +208,14 @@ def _run_process(command: list[str], *, is_plain: bool, kept: tuple[int, ...] = 
         from vicode.cli.live_view import LiveTracePrinter
 
         printer = LiveTracePrinter()
-    end = follow_process(child, printer)
+    watch = watch_properties(opened.open_project.project, printer)
+    end = follow_process(child, watch or printer)
     if end.summary is not None:
         width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
         print(describe_summary(end.summary, width), end="", flush=True)
     if end.problem:
         print(end.problem, file=sys.stderr)
-    return end.exit_code
+    return end.exit_code or int(watch is not None and watch.broken > 0)
 
 
 class PlainTracePrinter:

@@ -1,4 +1,4 @@
-"""Statistics of traces, the differences of two of them, and export to MCAP."""
+"""Statistics of traces, their properties, the differences of two of them, and export to MCAP."""
 
 import argparse
 from collections import Counter
@@ -11,6 +11,7 @@ from vicode.findings import escape_text
 
 if TYPE_CHECKING:
     from vicode.model.design import Design
+    from vicode.runs.property_check import PropertyResult
     from vicode.traces.statistics import RunHistory, StateStatistics
 
 
@@ -19,6 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, add, act in (
         ("stats", _add_stats, _stats),
+        ("check", _add_check, _check),
         ("diff", _add_diff, _diff),
         ("export", _add_export, _export),
     ):
@@ -39,6 +41,11 @@ def _add_stats(parser: argparse.ArgumentParser) -> None:
     add("--design", metavar="PATH", help="design or folder: also list what was never entered or taken")
     add("--component", metavar="NAME", help="only this component")
     add("--svg", metavar="FILE", help="draw the numbers on the diagram of the design; needs --design")
+
+
+def _add_check(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("traces", metavar="TRACE", nargs="+", help="traces, or names of records of robots")
+    parser.add_argument("--design", metavar="PATH", default=".", help="design or folder (default: the current folder)")
 
 
 def _add_diff(parser: argparse.ArgumentParser) -> None:
@@ -81,6 +88,36 @@ def _stats(args: argparse.Namespace) -> int:
     if args.svg:
         _draw(args, components[0], states, transitions, designs)
     return 0
+
+
+def _check(args: argparse.Namespace) -> int:
+    """Check the properties of the designs, and what is assumed of their inputs, in recorded runs."""
+    from vicode.runs.property_check import PropertyCheck
+    from vicode.services.project_loader import load_projects
+    from vicode.traces.reader import TraceError, open_runs
+
+    projects = [each.open_project.project for each in load_projects([args.design])]
+    is_broken, count = False, 0
+    try:
+        for run in open_runs(map(Path, args.traces)):
+            checks = [PropertyCheck(project) for project in projects]
+            first_ns = None
+            for iteration in run.iterations():
+                first_ns = iteration.time_ns if first_ns is None else first_ns
+                for check in checks:
+                    check.observe(iteration)
+            results = [result for check in checks for result in check.results]
+            count = max(count, len(results))
+            if len(args.traces) > 1:
+                _print(f"{run.files[0]}:")
+            for result in results:
+                is_broken = is_broken or bool(result.broken_ns)
+                _print(describe_result(result, first_ns or 0))
+    except TraceError as error:
+        raise OSError(f"{error}") from error
+    if not count:
+        raise OSError(f"{args.design}: no design has properties, and nothing is assumed of a component")
+    return int(is_broken)
 
 
 def _diff(args: argparse.Namespace) -> int:
@@ -149,6 +186,17 @@ def _find_designs(path: str, components: Sequence[str]) -> "dict[str, Design]":
     if not found:
         raise OSError(f"{path} has no design of {', '.join(components)}")
     return found
+
+
+def describe_result(result: "PropertyResult", first_ns: int) -> str:
+    """What a run says about a property, in a line; times are relative to the first iteration."""
+    subject = f"{result.component}: {result.phrase}"
+    if result.unknown and not result.broken_ns and not result.kept:
+        return f"{'no values':>16}  {subject}; record with --values"
+    if not result.broken_ns:
+        return f"{'kept':>7} {result.kept:6} ×  {subject}" if result.kept else f"{'not tested':>16}  {subject}"
+    at = (result.broken_ns[0] - first_ns) / 1e9
+    return f"{'BROKEN':>7} {len(result.broken_ns):6} ×  {subject}; first at {at:.2f} s"
 
 
 def _print(line: str) -> None:

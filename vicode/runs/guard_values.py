@@ -64,6 +64,13 @@ def guard_values(
     return GuardValues(design, build_scope(project, design), {**constants, **values}, iteration)
 
 
+def read_recorded(iteration: IterationResult, component: str, project: Project) -> dict[str, Any]:
+    """The recorded values of one component in an iteration, and the constants; empty if it has none."""
+    recorded = iteration.values().get(component) or {}
+    found = {name: _plain(value) for name, value in recorded.items()}
+    return {**evaluate_constants(project), **{name: value for name, value in found.items() if value is not None}}
+
+
 def evaluate_guards(
     project: Project, design: Design, iteration: IterationResult, steps: Steps, tuned: Mapping[str, Any] | None = None
 ) -> dict[str, dict[str, Any]]:
