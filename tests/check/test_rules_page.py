@@ -27,7 +27,7 @@ FRAME = dict(EXAMPLE.findall(TEXT.split("\n## ")[0]))
 LANGUAGES_FRAME = FRAME | dict(EXAMPLE.findall(TEXT.split("\n## L:")[1].split("\n### ")[0]))
 XABSL_FRAME = dict(EXAMPLE.findall(TEXT.split("\n## X:")[1].split("\n### ")[0]))
 # Rules that only `check --deep` runs.
-DEEP = {"D435", "P214"}
+DEEP = {"D435", "D441", "D442", "P214"}
 _DEEP_WORDS = ", only with `vicode check --deep`"
 # Where an example replaces a file, the frame declares items that nothing uses.
 ALLOWED_NOTES = {"X642", "X644"}

@@ -23,12 +23,15 @@ def restless_threads() -> Iterator[None]:
     """Whatever Python code runs while garbage is collected, in the middle of a tree, lets another thread on."""
     interval, thresholds = sys.getswitchinterval(), gc.get_threshold()
     sys.setswitchinterval(1e-6)
+    # What other tests left is not collected again and again.
+    gc.freeze()
     gc.set_threshold(50)
     gc.callbacks.append(pause)
     yield
     gc.callbacks.remove(pause)
     sys.setswitchinterval(interval)
     gc.set_threshold(*thresholds)
+    gc.unfreeze()
 
 
 def test_threads_parse_concurrently() -> None:

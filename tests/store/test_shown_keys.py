@@ -122,7 +122,7 @@ NOT_SHOWN: Mapping[Callable[[Project], object], Mapping[str, str]] = {
     draw: {
         "*.id": "written by the editor",
         **dict.fromkeys(("Stay.*", "DecisionGroup.*"), "labels show guards only; other decisions are not drawn"),
-        **dict.fromkeys(("Design.*", "Declaration.*"), "the form of the design shows them"),
+        **dict.fromkeys(("Design.*", "Declaration.*", "*Property.*"), "the form of the design shows them"),
         **dict.fromkeys(("Project.*", "Enumeration.*", "Interface.*", "Agent.*"), "the diagram is that of a design"),
         **dict.fromkeys(("Profile.*", "ProfileClass.*", "RemoteReference.*", "BridgeSettings.*"), _FOR_RUNS),
     },

@@ -1,7 +1,8 @@
 """Runs of the reference interpreter that break a property, confirmed by its monitor."""
 
 import random
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from vicode.analysis.conditions import STATE_TIME
@@ -22,77 +23,74 @@ class CounterexampleSearch:
     """Looks for runs that break a property; an empty result means that none was found.
 
     Args:
-        project: The project, with all designs.
+        project: The project, with all designs; None to find nothing.
         machine: The machine of the design that is the root.
     """
 
-    def __init__(self, project: Project, machine: MachineAnalysis) -> None:
+    def __init__(self, project: Project | None, machine: MachineAnalysis) -> None:
         self._project = project
         self._machine = machine
         self._design = machine.design
 
     def lose(self, promised: Property, begin: str, way: _Way, hold_ns: int) -> tuple[WalkStep, ...]:
         """A run along a way at the end of which the property still waits; its last state lasts longer than a time."""
-        walk = self._walk(begin, way)
-        if walk is not None and hold_ns and not self._hold(walk, hold_ns):
-            return ()
-        is_there = walk is not None and walk.state == (way[-1].target if way else begin)
-        return tuple(walk.steps) if walk and is_there and self._replay(promised, walk.steps)[1] else ()
 
-    def follow(self, promised: Property, begin: str, way: _Way) -> tuple[WalkStep, ...]:
-        """A run along a way that breaks the property."""
-        walk = self._walk(begin, way)
-        return tuple(walk.steps) if walk and self._replay(promised, walk.steps)[0] else ()
+        def search(walk: Walk) -> bool:
+            is_there = self._follow(walk, begin, way) and walk.state == (way[-1].target if way else begin)
+            return is_there and (not hold_ns or self._hold(walk, hold_ns)) and self._replay(promised, walk.steps)[1]
 
-    def exceed(self, promised: Property, begin: str, way: _Way, limit_ns: int) -> tuple[WalkStep, ...]:
-        """A run along a way in which the states last as long as possible, beyond a time."""
-        walk = self._walk(begin, way, limit_ns)
-        return tuple(walk.steps) if walk and self._replay(promised, walk.steps)[0] else ()
+        return self._find(search)
+
+    def follow(self, promised: Property, begin: str, way: _Way, limit_ns: int = 0) -> tuple[WalkStep, ...]:
+        """A run along a way that breaks the property; with a limit, each state lasts as long as possible up to it."""
+        return self._find(
+            lambda walk: self._follow(walk, begin, way, limit_ns) and self._replay(promised, walk.steps)[0]
+        )
 
     def go_to(self, *states: str, hold_ns: int = 0) -> tuple[WalkStep, ...]:
         """A run that visits states one after another; the last one lasts longer than a time."""
-        walk = self._create_walk()
-        is_there = (
-            walk is not None
-            and all(walk.go_to(state) for state in states)
-            and (not hold_ns or self._hold(walk, hold_ns))
+        return self._find(
+            lambda walk: all(walk.go_to(state) for state in states) and (not hold_ns or self._hold(walk, hold_ns))
         )
-        return tuple(walk.steps) if walk is not None and is_there else ()
 
     def explore(self, promised: InvariantProperty) -> tuple[WalkStep, ...]:
         """A run at the end of which a condition is false, among some random ones, always the same."""
-        for seed in range(_RANDOM_RUNS):
-            walk, generator = self._create_walk(), random.Random(seed)
-            if walk is None:
-                return ()
-            walk.step({}, 0)
-            for _ in range(_RANDOM_STEPS):
-                if not walk.holds(promised.holds):
-                    return tuple(walk.steps)
-                edges = list(self._machine.live_in(walk.state))
-                generator.shuffle(edges)
-                if generator.random() < 0.4 and self._hold(walk, walk.tick_ns):
-                    continue
-                if not any(walk.take(edge) for edge in edges) and not self._hold(walk, walk.tick_ns):
-                    break
-        return ()
+        runs = (
+            self._find(partial(self._wander, condition=promised.holds, generator=random.Random(seed)))
+            for seed in range(_RANDOM_RUNS)
+        )
+        return next((steps for steps in runs if steps), ())
 
-    def _create_walk(self) -> Walk | None:
+    def _find(self, search: Callable[[Walk], bool]) -> tuple[WalkStep, ...]:
+        """The steps of a run that is successful; none if it is not, or the designs cannot be interpreted."""
+        if self._project is None:
+            return ()
         try:
-            return Walk(self._project, self._machine)
+            walk = Walk(self._project, self._machine)
+            return tuple(walk.steps) if search(walk) else ()
         except NotInterpretableError:
-            return None
+            return ()
 
-    def _walk(self, begin: str, way: _Way, limit_ns: int = 0) -> Walk | None:
-        """A run to a state and along a way, as far as possible; None if the state was not reached."""
-        walk = self._create_walk()
-        if walk is None:
-            return None
+    def _wander(self, walk: Walk, *, condition: str, generator: random.Random) -> bool:
+        """Take random transitions until a condition is false."""
+        walk.step({}, 0)
+        for _ in range(_RANDOM_STEPS):
+            if not walk.holds(condition):
+                return True
+            edges = list(self._machine.live_in(walk.state))
+            generator.shuffle(edges)
+            if generator.random() < 0.4 and self._hold(walk, walk.tick_ns):
+                continue
+            if not any(walk.take(edge) for edge in edges) and not self._hold(walk, walk.tick_ns):
+                break
+        return False
+
+    def _follow(self, walk: Walk, begin: str, way: _Way, limit_ns: int = 0) -> bool:
+        """Go to a state and along a way, as far as possible; whether the state was reached."""
         if not walk.go_to(begin):
             # The initial state may be left in the first iteration.
-            walk = self._create_walk()
-            if walk is None or not way or begin != self._design.initial or not walk.go_to(way[0].target):
-                return None
+            if not way or begin != self._design.initial or walk.steps or not walk.go_to(way[0].target):
+                return False
             way = way[1:]
         for edge in way:
             if limit_ns:
@@ -102,7 +100,7 @@ class CounterexampleSearch:
                 break
         if limit_ns:
             self._hold(walk, limit_ns)
-        return walk
+        return True
 
     def _hold(self, walk: Walk, limit_ns: int) -> bool:
         """Stay in the active state beyond a time, or as long as possible."""

@@ -73,13 +73,13 @@ class PropertyAnalysis:
     Args:
         project: The project, with all designs.
         machine: The machine of one of them.
+        may_search: Whether to search for counterexamples; without them, only proofs are found.
     """
 
-    def __init__(self, project: Project, machine: MachineAnalysis) -> None:
-        self._project = project
+    def __init__(self, project: Project, machine: MachineAnalysis, *, may_search: bool = True) -> None:
         self._machine = machine
         self._design = machine.design
-        self._search = CounterexampleSearch(project, machine)
+        self._search = CounterexampleSearch(project if may_search else None, machine)
         self._settled_states: dict[str, SettledState | None] = {}
         hertz = machine.design.frequency_hz
         self._period_ns = round(1e9 / hertz) if hertz else DEFAULT_TICK_NS
@@ -100,6 +100,10 @@ class PropertyAnalysis:
             case InvariantProperty():
                 return self._judge_invariant(promised)
 
+    def _edges_of(self, name: str) -> list[LiveTransition]:
+        """The first live transition to each target; none of a state that does not exist."""
+        return self._edges.get(name, [])
+
     @cached_property
     def _edges(self) -> dict[str, list[LiveTransition]]:
         """The first live transition to each target, of the states that may be active."""
@@ -116,7 +120,7 @@ class PropertyAnalysis:
         ways: dict[str, list[LiveTransition]] = {begin: []}
         pending = [begin]
         for name in pending:
-            for edge in self._edges.get(name, ()) if name not in goals or name == begin else ():
+            for edge in self._edges_of(name) if name not in goals or name == begin else ():
                 if edge.target not in ways:
                     ways[edge.target] = [*ways[name], edge]
                     pending.append(edge.target)
@@ -146,7 +150,7 @@ class PropertyAnalysis:
         if limit_ns is not None:
             slow = [ways[name] for name in sorted(passed, key=self._longest_in, reverse=True)]
             for way in (*slow, self._repeat(lasso)):
-                steps = self._search.exceed(promised, begin, way, limit_ns)
+                steps = self._search.follow(promised, begin, way, limit_ns)
                 if steps:
                     return Judgement(promised=promised, verdict=PropertyVerdict.FAILS, lasso=lasso, steps=steps)
         return Judgement(promised=promised, verdict=PropertyVerdict.UNDECIDED, at_most_ns=longest, lasso=lasso)
@@ -154,7 +158,9 @@ class PropertyAnalysis:
     def _leads_to(self, name: str, goal: str) -> bool:
         """Whether transitions lead from a state to a goal, perhaps through others, however long it was active."""
         settled = self._settled(name)
-        ways = [self._edges[name]] if settled is None or not settled.may_stay else [self._edges[name], settled.live]
+        ways = (
+            [self._edges_of(name)] if settled is None or not settled.may_stay else [self._edges_of(name), settled.live]
+        )
         return all(self._can_lead(edges, goal) for edges in ways)
 
     def _can_lead(self, edges: Iterable[LiveTransition], goal: str) -> bool:
@@ -163,7 +169,7 @@ class PropertyAnalysis:
     def _time_to_lose(self, name: str, goal: str) -> int:
         """How long a state must be active until no transitions lead from it to a goal, in ns; 0 if they never do."""
         settled = self._settled(name)
-        is_lost_at_once = not self._can_lead(self._edges[name], goal)
+        is_lost_at_once = not self._can_lead(self._edges_of(name), goal)
         return 0 if is_lost_at_once or settled is None else settled.from_ns + self._period_ns
 
     def _settled(self, name: str) -> SettledState | None:
@@ -180,7 +186,7 @@ class PropertyAnalysis:
 
     def _find_longest(self, begin: str, goal: str, passed: Collection[str]) -> int | None:
         """The longest time from the entry into a state until a goal is reached; None if there is none."""
-        following = {name: {edge.target for edge in self._edges[name]} - {goal} for name in passed}
+        following = {name: {edge.target for edge in self._edges_of(name)} - {goal} for name in passed}
         times = {name: self._longest_in(name) for name in passed}
         try:
             order = list(TopologicalSorter(following).static_order())
@@ -198,7 +204,7 @@ class PropertyAnalysis:
             if math.isinf(self._longest_in(name)):
                 return (begin, *(edge.target for edge in ways[name]))
         for name in passed:
-            for edge in self._edges[name]:
+            for edge in self._edges_of(name):
                 back = {} if edge.target == goal else self._after(edge.target, {goal})
                 if name in back:
                     cycle = (edge.target, *(each.target for each in back[name]))
@@ -212,7 +218,7 @@ class PropertyAnalysis:
         first = lasso.index(lasso[-1])
         states = (*lasso, *(lasso[first + 1 :] * _ROUNDS))
         return [
-            next(edge for edge in self._edges[state] if edge.target == following)
+            next(edge for edge in self._edges_of(state) if edge.target == following)
             for state, following in pairwise(states)
         ]
 
@@ -227,7 +233,7 @@ class PropertyAnalysis:
                 [*ways[name], edge]
                 for name in ways
                 if name != before
-                for edge in self._edges[name]
+                for edge in self._edges_of(name)
                 if edge.target == never
             ]
             way = min(again, key=len, default=None)

@@ -27,6 +27,23 @@ def find_broken_properties(project: Project, design: Design) -> Iterator[Finding
             yield Finding(rule=get_rule("D442"), message=message, fix=fix, subject=subject)
 
 
+def describe_judgement(judged: Judgement) -> str:
+    """What is known about a property, in words."""
+    match judged.verdict:
+        case PropertyVerdict.GUARANTEED if judged.at_most_ns:
+            return f"guaranteed, after at most {judged.at_most_ns / 1e9:g} s"
+        case PropertyVerdict.GUARANTEED:
+            return "guaranteed"
+        case PropertyVerdict.FAIR:
+            return f"if the robot does not remain for ever in: {' → '.join(judged.lasso)}"
+        case PropertyVerdict.FOUND:
+            return "there is a way from each state"
+        case PropertyVerdict.FAILS:
+            return f"does not hold: {describe_run(judged.steps)}"
+        case PropertyVerdict.UNDECIDED:
+            return "not proved"
+
+
 def _explain(judged: Judgement) -> str:
     if judged.at_most_ns is not None:
         return f": it may take {judged.at_most_ns / 1e9:g} s"

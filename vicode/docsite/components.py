@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from vicode.analysis.machines import MachineAnalysis
+from vicode.analysis.properties import PropertyAnalysis
+from vicode.check.properties import describe_judgement
 from vicode.docsite.decisions import CodeLinks, code_blocks, numbered_decisions, pseudocode_lines, transition_rows
 from vicode.docsite.diagrams import draw_decision_tree, draw_design, draw_neighborhood
 from vicode.docsite.doc_text import render_doc
@@ -25,7 +27,7 @@ from vicode.docsite.views import (
     UseRow,
 )
 from vicode.model.design import COMMON, Action, Assign, Call, Design, RunCode, State, Transition
-from vicode.model.words import describe_fields
+from vicode.model.words import describe_fields, describe_property
 
 _PHASES = {"enter": "On entry", "actions": "In each iteration", "leave": "On exit"}
 _SHOWN = (
@@ -65,6 +67,10 @@ def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView
         legend=(),
         transitions=tuple(tuple(rows) for _source, rows in groupby(transitions, key=lambda row: row.source)),
         columns=frozenset(name for row in transitions for name in ("timer", "doc_html") if getattr(row, name)),
+        properties=tuple(
+            (describe_property(each.promised), describe_judgement(each))
+            for each in PropertyAnalysis(project, machine, may_search=False).judge_all()
+        ),
         common=_common(design, linker, inputs) if has_common else None,
         states=tuple(_state(machine, state, linker, inputs) for state in design.states),
         neighborhood_svg=draw_neighborhood(design, project, addresses),

@@ -189,6 +189,8 @@ class LanguageView:
 class ComponentPageView:
     """The page of a design; `transitions` are grouped by source, `columns` are the non-empty columns.
 
+    `properties` are pairs of a property and what is proved about it.
+
     `root_of` are the agents with this root, `agents` those that can activate it.
     """
 
@@ -199,6 +201,7 @@ class ComponentPageView:
     legend: tuple[TextSpan, ...]
     transitions: tuple[tuple[TransitionRow, ...], ...]
     columns: frozenset[str]
+    properties: tuple[tuple[str, str], ...]
     common: StateView | None
     states: tuple[StateView, ...]
     neighborhood_svg: str

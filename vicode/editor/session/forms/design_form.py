@@ -13,6 +13,7 @@ from vicode.editor.session.forms.nodes import (
     ItemLink,
     Node,
     OptionList,
+    Paragraph,
     Row,
     Section,
     Title,
@@ -23,6 +24,7 @@ from vicode.editor.session.forms.project_form import project_section
 from vicode.editor.session.forms.state_form import uses_xabsl
 from vicode.model.design import COMMON, Design
 from vicode.model.project import Project
+from vicode.model.words import describe_property
 
 _SECTIONS: tuple[tuple[DeclarationList, str, str], ...] = (
     ("parameters", "Parameters", "values set by the states that modulate this component"),
@@ -57,11 +59,20 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
         Heading(text="Uses", hint="components this design requires or modulates"),
         Uses(rows=tuple(UseLine(alias=use.alias, component=use.component) for use in design.uses)),
         *declared,
+        *_properties(design),
         Heading(text="Every state", hint="transitions and actions before those of each state"),
         ItemLink(label="Common transitions and actions", caption=_describe_common(design), opens=("common", COMMON)),
         _code(project, design),
         project_section(project),
     )
+
+
+def _properties(design: Design) -> tuple[Node, ...]:
+    """The properties, which are edited in the file."""
+    if not design.properties:
+        return ()
+    lines = (Paragraph(text=describe_property(each), look="small") for each in design.properties)
+    return (Heading(text="Properties", hint="what it promises; edited in the file"), *lines)
 
 
 def _xabsl(design: Design) -> Section:
