@@ -14,6 +14,8 @@ from vicode.model.design import (
     Declaration,
     Design,
     DiagramNote,
+    InvariantProperty,
+    ReachProperty,
     RunCode,
     State,
     Stay,
@@ -113,6 +115,8 @@ def _rewrite_item(item: Any, at: int, path: DesignPath, rewrite: Rewrite) -> Any
         case (str(name), str(text)):
             return (name, rewrite(text)) if name == key and not rest else item
         case Transition() | Stay() | DecisionGroup() | Assign() | Call() | RunCode() if at == key:
+            return _rewrite(item, rest, rewrite)
+        case ReachProperty() | InvariantProperty() if at == key:
             return _rewrite(item, rest, rewrite)
         case _:
             return item
