@@ -16,7 +16,7 @@ from vicode.semantics import NotInterpretableError
 
 _Way = Sequence[LiveTransition]
 _MOST_HELD = 5_000
-_RANDOM_RUNS, _RANDOM_STEPS = 12, 60
+_RANDOM_RUNS, _RANDOM_STEPS = 8, 50
 
 
 class CounterexampleSearch:
@@ -77,12 +77,10 @@ class CounterexampleSearch:
         for _ in range(_RANDOM_STEPS):
             if not walk.holds(condition):
                 return True
-            edges = list(self._machine.live_in(walk.state))
+            edges = list(self._machine.live_in(walk.state)) if generator.random() < 0.5 else []
             generator.shuffle(edges)
-            if generator.random() < 0.4 and self._hold(walk, walk.tick_ns):
-                continue
-            if not any(walk.take(edge) for edge in edges) and not self._hold(walk, walk.tick_ns):
-                break
+            if not any(walk.take(edge) for edge in edges):
+                walk.step({}, walk.steps[-1].time_ns + walk.tick_ns)
         return False
 
     def _follow(self, walk: Walk, begin: str, way: _Way, limit_ns: int = 0) -> bool:
