@@ -105,7 +105,9 @@ class CounterexampleSearch:
         time = self._machine.time_in(walk.state)
         if time is None:
             return False
-        longest = limit_ns + walk.tick_ns if time.at_most_ns is None else min(limit_ns, time.at_most_ns - 1)
+        longest = limit_ns + walk.tick_ns
+        if time.at_most_ns is not None:
+            longest = min(longest, time.at_most_ns - 1)
         count = min(longest // walk.tick_ns, _MOST_HELD)
         diagrams = self._machine.guards.conditions.diagrams
         diagrams.begin_question()

@@ -148,7 +148,10 @@ class PropertyAnalysis:
         if limit_ns is None and not lost:
             return Judgement(promised=promised, verdict=PropertyVerdict.FAIR, lasso=lasso)
         if limit_ns is not None:
-            slow = [ways[name] for name in sorted(passed, key=self._longest_in, reverse=True)]
+            slow = [
+                [*ways[name], *(edge for edge in self._edges_of(name) if edge.target == goal)]
+                for name in sorted(passed, key=self._longest_in, reverse=True)
+            ]
             for way in (*slow, self._repeat(lasso)):
                 steps = self._search.follow(promised, begin, way, limit_ns)
                 if steps:
