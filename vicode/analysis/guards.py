@@ -249,7 +249,7 @@ class GuardAnalysis:
         concerned = (
             each.decision.guard for each in listed if any(path[: len(each.path)] == each.path for path in paths)
         )
-        facts = self.conditions.describe_constants(concerned)
+        facts = self.conditions.table.describe_constants(concerned)
         if not facts or (proved.path, proved.verdict) in self._proved_without_constants:
             return proved
         return replace(proved, basis=replace(proved.basis, facts=(*proved.basis.facts, *facts)))

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from vicode.check.context import RuleContext
-from vicode.check.typed_expressions import literal_value
 from vicode.findings import DesignPath, Finding, did_you_mean
 from vicode.model.design import Assign, Declaration
 from vicode.model.expressions import BOOL, FLOAT, INT, UNKNOWN, Scope
@@ -53,27 +52,17 @@ def validate_declaration(
         yield from validate_declaration(argument, (*path, "arguments", argument.name), scope)
 
 
-def find_out_of_range_values(context: RuleContext) -> Iterator[Finding]:
-    """D427: a literal outside the declared range."""
-    for expression in context.expressions:
-        receiver = expression.receiver
-        if receiver is None or receiver.range is None or not expression.is_sound or expression.tree is None:
-            continue
-        message = validate_range(receiver, literal_value(expression.tree, context.scope))
-        if message:
-            fix = "change the value or the range"
-            yield context.make_finding("D427", expression.path, message, fix, span=expression.tree.span)
-
-
-def validate_range(declaration: Declaration, value: float | None) -> str:
-    """Return a message if a value is outside the range of a declaration, otherwise an empty string."""
-    if value is None or declaration.range is None:
+def validate_range(declaration: Declaration, least: float | None, greatest: float | None = None) -> str:
+    """Return a message if a value, or each value between two, is outside the range of a declaration, otherwise ""."""
+    greatest = least if greatest is None else greatest
+    if least is None or greatest is None or declaration.range is None:
         return ""
     low, high = declaration.range
-    if low <= value <= high or not low <= high:
+    if not low <= high or (least <= high and low <= greatest):
         return ""
+    value = f"{least:g}" if least == greatest else f"a value from {least:g} to {greatest:g}"
     unit = f" {declaration.unit}" if declaration.unit else ""
-    return f"{value:g} is outside the range of '{declaration.name}' ({low:g} to {high:g}{unit})"
+    return f"{value} is outside the range of '{declaration.name}' ({low:g} to {high:g}{unit})"
 
 
 def find_unused_declarations(context: RuleContext) -> Iterator[Finding]:
@@ -94,4 +83,4 @@ def find_unused_declarations(context: RuleContext) -> Iterator[Finding]:
 
 
 RULES = (find_bad_declarations, find_bad_frequency)
-WARNINGS = (find_out_of_range_values, find_unused_declarations)
+WARNINGS = (find_unused_declarations,)
