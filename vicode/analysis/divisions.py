@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from vicode.analysis.choices import lower_to_choices
 from vicode.analysis.conditions import STATE_TIME
-from vicode.analysis.examples import describe_example, find_example
+from vicode.analysis.examples import Example, find_example
 from vicode.analysis.interval_diagrams import FALSE, TRUE, Node, TooLargeError
 from vicode.analysis.machines import MachineAnalysis
 from vicode.findings import DesignPath
@@ -32,10 +32,10 @@ from vicode.model.expressions import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ZeroDivision:
-    """A division, and values for which its divisor is zero, as text; none if it always is."""
+    """A division, and values for which its divisor is zero; none if it always is."""
 
     division: Binary
-    example: tuple[str, ...]
+    example: Example
 
 
 class DivisionSearch:
@@ -71,16 +71,16 @@ class DivisionSearch:
         value = self._conditions.table.value_of(divisor)
         if value is not None:
             is_reached = value == 0 and self._machine.guards.is_possible(condition)
-            return ZeroDivision(division=division, example=()) if is_reached else None
+            return ZeroDivision(division=division, example={}) if is_reached else None
         zero = self._conditions.compare(divisor, "==", Number(value=0, type=INT, span=divisor.span))
         case = self._diagrams.both(condition, zero)
         others = self._diagrams.without(condition, zero)
         if case == FALSE or (self._machine.guards.is_possible(others) and not self._has_ranges(divisor)):
             return None
         example = find_example(self._conditions, case)
-        if not example or any(self._conditions.quantities[level].name in self._assigned for level in example):
+        if not example or any(name in self._assigned for name in example):
             return None
-        return ZeroDivision(division=division, example=tuple(describe_example(self._conditions, example)))
+        return ZeroDivision(division=division, example=example)
 
     def _has_ranges(self, divisor: Expr) -> bool:
         """Whether a divisor is a value with a declared range, or a choice of such values.

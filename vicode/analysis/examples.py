@@ -9,13 +9,13 @@ from itertools import islice, product
 
 from vicode.analysis.conditions import Conditions
 from vicode.analysis.interval_diagrams import BEFORE_NAN, Interval, Node, TooLargeError
-from vicode.analysis.quantities import NANOSECONDS, Quantity, QuantityTable, Value
-from vicode.model.expressions import BOOL, FLOAT, INT
+from vicode.analysis.quantities import NANOSECONDS, Quantity, QuantityTable, Value, is_leaf
+from vicode.model.expressions import BOOL, FLOAT, INT, walk
 
-_MOST_BOXES, _MOST_CHOICES = 16, 64
+_MOST_BOXES, _MOST_CHOICES, _MOST_INTS = 16, 256, 32
 
-Example = Mapping[int, Value]
-"""Values by level; those of enumerations are names of elements, times are in the unit of the design."""
+Example = Mapping[str, Value]
+"""Values by name; those of enumerations are names of elements, times are in the unit of the design."""
 
 
 def find_example(conditions: Conditions, node: Node) -> Example | None:
@@ -29,29 +29,34 @@ def find_example(conditions: Conditions, node: Node) -> Example | None:
     return next((found for box in boxes for found in _find_in_box(conditions, box)), None)
 
 
-def describe_example(conditions: Conditions, example: Example) -> list[str]:
-    """The values as text, such as "ball.x = 0"."""
-    shown = sorted(example.items(), reverse=True)
-    return [f"{conditions.quantities[level].name} = {_show(value)}" for level, value in shown]
-
-
-def _show(value: Value) -> str:
-    return str(value) if isinstance(value, bool | str) else f"{value:g}"
+def describe_value(value: Value) -> str:
+    """A value as text."""
+    return str(value) if isinstance(value, bool | str) else f"{value:.12g}"
 
 
 def _find_in_box(conditions: Conditions, box: Mapping[int, Interval]) -> Iterator[Example]:
     computed = {level: conditions.computed[level] for level in box if level in conditions.computed}
-    read = {level for each in computed.values() for level in each.reads}
-    levels = sorted({*box, *read} - set(computed))
+    known = {level: interval for level, interval in box.items() if level not in computed}
+    # A design reads those of greater levels first.
+    read = {conditions.quantities[level].name: (conditions.quantities[level], known[level]) for level in sorted(known)}
     table = conditions.table
-    quantities = [conditions.quantities[level] for level in levels]
-    intervals = [box.get(level, each.domain) for level, each in zip(levels, quantities, strict=True)]
-    choices = [choose_values(each, interval, table) for each, interval in zip(quantities, intervals, strict=True)]
+    for tree in (tree for each in computed.values() for tree in each.trees):
+        for quantity in (table.quantity(node) for node in walk(tree) if is_leaf(node) and table.value_of(node) is None):
+            read.setdefault(quantity.name, (quantity, quantity.domain))
+    choices = [_choose_from_all(quantity, interval, table) for quantity, interval in read.values()]
     for values in islice(product(*choices), _MOST_CHOICES):
-        named = {each.name: value for each, value in zip(quantities, values, strict=True)}
-        found = ([table.value_of(tree, named) for tree in each.trees] for each in computed.values())
+        example = dict(zip(read, values, strict=True))
+        found = ([table.value_of(tree, example) for tree in each.trees] for each in computed.values())
         if all(_is_in(numbers, box[level]) for level, numbers in zip(computed, found, strict=True)):
-            yield dict(zip(levels, values, strict=True))
+            yield dict(reversed(example.items()))
+
+
+def _choose_from_all(quantity: Quantity, interval: Interval, table: QuantityTable) -> Iterator[Value]:
+    """Plain values first, then more whole numbers: a computed value may be one of them for others than the plain."""
+    yield from choose_values(quantity, interval, table)
+    if quantity.type == INT:
+        low, high = max(interval[0], quantity.domain[0])[0], min(interval[1], quantity.domain[1])[0]
+        yield from range(int(low), int(min(high, low + _MOST_INTS)))
 
 
 def _is_in(found: list[Value | None], interval: Interval) -> bool:
@@ -68,11 +73,12 @@ def choose_values(quantity: Quantity, interval: Interval, table: QuantityTable) 
     low = max(interval[0], quantity.domain[0])
     high = min(interval[1], quantity.domain[1], BEFORE_NAN)
     if quantity.type == BOOL:
-        yield low[0] >= 1
+        yield from (value for value in (False, True) if low <= (int(value), 0) < high)
     elif quantity.type == INT:
         yield from _plain_ints(int(low[0]), int(high[0]) - 1)
     elif quantity.type == NANOSECONDS:
-        yield low[0] / table.ns_per_unit
+        last = high if math.isinf(high[0]) else ((high[0] - 1) / table.ns_per_unit, 1)
+        yield from _plain_floats((low[0] / table.ns_per_unit, 0), last)
     elif quantity.type == FLOAT:
         yield from _plain_floats(low, high)
     else:
@@ -89,7 +95,11 @@ def _plain_floats(low: tuple[float, int], high: tuple[float, int]) -> Iterator[f
     least = low[0] if low[1] == 0 else math.nextafter(low[0], math.inf)
     greatest = high[0] if high[1] == 1 else math.nextafter(high[0], -math.inf)
     least, greatest = max(least, -1e15), min(greatest, 1e15)
-    middle = min(max(0.0, least), greatest) if math.isinf(low[0]) or math.isinf(high[0]) else (least + greatest) / 2
+    if math.isinf(low[0]) or math.isinf(high[0]):
+        # Not the very end of the interval, which is hard to read.
+        middle = min(least + 1, greatest) if least > 0 else max(greatest - 1, least) if greatest < 0 else 0.0
+    else:
+        middle = (least + greatest) / 2
     plain = [0.0] if least <= 0 <= greatest else []
     for digits in range(-15, 16):
         rounded = round(middle, digits)

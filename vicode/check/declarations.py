@@ -66,20 +66,24 @@ def validate_range(declaration: Declaration, least: float | None, greatest: floa
 
 
 def find_unused_declarations(context: RuleContext) -> Iterator[Finding]:
-    """D424: parameters that are never read, variables and outputs that are neither read nor set."""
-    used = context.code_identifiers.union(*(expression.analysis.names for expression in context.expressions))
-    assigned = {
+    """D424, D437, D438: declarations that are never read or never set; hand-written code does both to all it names."""
+    read = context.code_identifiers.union(*(expression.analysis.names for expression in context.expressions))
+    assigned = context.code_identifiers.union(
         name for placed in context.actions if isinstance(placed.action, Assign) for name, _text in placed.action.values
-    }
+    )
     for section, declaration in context.design.declarations():
-        name = declaration.name
-        if section == "parameters" and name not in used:
-            message = f"parameter '{name}' is never read"
-        elif section != "parameters" and name not in used and name not in assigned:
-            message = f"{section.removesuffix('s')} '{name}' is neither read nor set"
-        else:
-            continue
-        yield context.make_finding("D424", (section, name), message, "use it or delete it", is_key=True)
+        name, kind = declaration.name, section.removesuffix("s")
+        code, problem, fix = "D424", "", "use it or delete it"
+        if kind == "parameter":
+            problem = "" if name in read else "never read"
+        elif name not in read and name not in assigned:
+            problem = "neither read nor set"
+        elif name not in assigned:
+            code, problem, fix = "D437", "never set: it keeps its initial value", "set it, or use a constant"
+        elif kind == "variable" and name not in read:
+            code, problem, fix = "D438", "set but never read", "read it, make it an output, or delete it"
+        if problem:
+            yield context.make_finding(code, (section, name), f"{kind} '{name}' is {problem}", fix, is_key=True)
 
 
 RULES = (find_bad_declarations, find_bad_frequency)

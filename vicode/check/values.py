@@ -1,9 +1,11 @@
 """Rules for values: divisions by zero, values outside of ranges, times that a component cannot keep."""
 
 from collections.abc import Iterator
+from itertools import islice
 
 from vicode.analysis.bounds import find_bounds
 from vicode.analysis.divisions import DivisionSearch, ZeroDivision
+from vicode.analysis.examples import describe_value
 from vicode.analysis.guards import TestedDecision
 from vicode.analysis.interval_diagrams import BEFORE_NAN, TooLargeError
 from vicode.check.context import RuleContext
@@ -39,7 +41,8 @@ def find_divisions_by_zero(context: RuleContext) -> Iterator[Finding]:
 def _describe_division(found: ZeroDivision, *, is_xabsl: bool) -> str:
     results = _RESULTS | _XABSL_RESULTS if is_xabsl else _RESULTS
     more = f" and {len(found.example) - _MOST_VALUES} more" if len(found.example) > _MOST_VALUES else ""
-    values = f" with {', '.join(found.example[:_MOST_VALUES])}{more}" if found.example else ""
+    shown = (f"{name} = {describe_value(value)}" for name, value in islice(found.example.items(), _MOST_VALUES))
+    values = f" with {', '.join(shown)}{more}" if found.example else ""
     return f"this divides by 0{values}: the result is {results[found.division.operator]}"
 
 
@@ -76,7 +79,7 @@ def _find_ends(context: RuleContext, tree: Expr) -> tuple[float | None, float | 
 
 
 def find_short_times(context: RuleContext) -> Iterator[Finding]:
-    """D438: a timer or a window of the time in a state that is shorter than the period of the component."""
+    """D439: a timer or a window of the time in a state that is shorter than the period of the component."""
     hertz, guards = context.design.frequency_hz, context.machine.guards
     # With `resume`, the time in a state includes pauses.
     if hertz is None or not 0 < hertz < float("inf") or context.design.resume:
@@ -89,12 +92,12 @@ def find_short_times(context: RuleContext) -> Iterator[Finding]:
         if isinstance(seconds, int | float) and 0 < seconds * guards.conditions.table.ns_per_unit < period:
             message = f"this time is over before the component works again, {1 / hertz:g} s later"
             fix = "use a longer time or a higher frequency"
-            yield context.make_finding("D438", (*each.path, "after"), message, fix)
+            yield context.make_finding("D439", (*each.path, "after"), message, fix)
         elif "state_time" in guard.when:
             message = _judge_window(context, each, period)
             fix = "test only the start of the time, or use a longer time"
             if message:
-                yield context.make_finding("D438", (*each.path, "when"), message, fix)
+                yield context.make_finding("D439", (*each.path, "when"), message, fix)
 
 
 def _judge_window(context: RuleContext, tested: TestedDecision, period: int) -> str:

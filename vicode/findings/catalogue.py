@@ -112,7 +112,8 @@ _RECORDS = (
     ("D435", "alternating-states", Severity.WARNING, "states that alternate while the inputs hold still"),
     ("D436", "division-by-zero", Severity.WARNING, "division by zero for values that the declarations allow"),
     ("D437", "never-set", Severity.NOTE, "variable or output that is never set"),
-    ("D438", "short-time", Severity.WARNING, "time in a state that is shorter than the period of the component"),
+    ("D438", "never-read", Severity.NOTE, "variable that is set but never read"),
+    ("D439", "short-time", Severity.WARNING, "time in a state that is shorter than the period of the component"),
     # XABSL as a target language
     ("L701", "not-in-xabsl", Severity.ERROR, "feature that XABSL does not support"),
     ("L702", "other-result-in-xabsl", Severity.ERROR, "expression with a different result in XABSL"),
