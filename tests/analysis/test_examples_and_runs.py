@@ -8,7 +8,7 @@ from itertools import product
 
 import pytest
 
-from vicode.analysis.divisions import DivisionSearch, ZeroDivision
+from vicode.analysis.divisions import DivisionSearch
 from vicode.analysis.examples import Example
 from vicode.analysis.machines import MachineAnalysis
 from vicode.analysis.overlaps import find_overlaps
@@ -89,15 +89,15 @@ def draw_design(rng: random.Random) -> Design:
     return Design(component="Drawn", parameters=PARAMETERS, variables=variables, initial="A", states=states)
 
 
-def find_divisions(design: Design) -> dict[int, tuple[DesignPath, ZeroDivision]]:
-    """The divisions by zero, by their dividend."""
+def find_divisions(design: Design) -> dict[int, tuple[DesignPath, Example]]:
+    """The paths and examples of divisions by zero, by their dividend."""
     context = build_context(Project(name="p", designs=(design,)), design)
     search = DivisionSearch(context.machine, {"v", "w"})
     return {
-        int(found.division.left.value): (expression.path, found)  # type: ignore[union-attr]
+        int(division.left.value): (expression.path, example)  # type: ignore[union-attr]
         for expression in context.expressions
         if expression.tree is not None
-        for found in search.find(expression.tree, expression.path)
+        for division, example in search.find(expression.tree, expression.path)
     }
 
 
@@ -111,14 +111,14 @@ def split_time(example: Example) -> tuple[dict[str, Value], int]:
 def test_divisions_by_zero_happen_with_the_values_found(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     design = draw_design(random.Random(seed))
     robot = Robot(design, monkeypatch)
-    for dividend, (path, found) in find_divisions(design).items():
-        values, time_ns = split_time(found.example)
+    for dividend, (path, example) in find_divisions(design).items():
+        values, time_ns = split_time(example)
         # An action runs after a guard that leads to its state, too.
         sources = (str(path[1]),) if path[2] == "transitions" else NAMES
         times = (time_ns,) if path[2] == "transitions" else (time_ns, TICK_NS, 3 * TICK_NS)
         # What the example leaves out may have any value.
         runs = product(sources, times, ({**inputs, **values} for inputs in INPUTS))
-        assert any(dividend in _divided(robot, *run) for run in runs), (path, found)
+        assert any(dividend in _divided(robot, *run) for run in runs), (path, example)
 
 
 def _divided(robot: Robot, state: str, time_ns: int, inputs: Mapping[str, Value]) -> set[float]:
@@ -175,9 +175,9 @@ def test_guards_that_hold_together_are_found_and_the_first_is_taken(seed: int, m
         return {(holding[0], other) for other in holding[1:] if taken == f"T{holding[0]}"}
 
     guards = MachineAnalysis(Project(name="p", designs=(design,)), design).guards
-    found = {(int(each.first[-1]), int(each.second[-1])): each for each in find_overlaps(guards, "A")}
-    for pair, each in found.items():
-        values, time_ns = split_time(each.example)
+    found = {(int(first[-1]), int(second[-1])): example for first, second, example in find_overlaps(guards, "A")}
+    for pair, example in found.items():
+        values, time_ns = split_time(example)
         assert all(pair in find_pairs(time_ns, {**inputs, **values}) for inputs in INPUTS)
     explored = product((TICK_NS, 3 * TICK_NS), INPUTS)
     assert found.keys() == {pair for time_ns, inputs in explored for pair in find_pairs(time_ns, inputs)}

@@ -30,7 +30,7 @@ XABSL_FRAME = dict(EXAMPLE.findall(TEXT.split("\n## X:")[1].split("\n### ")[0]))
 DEEP = {"D435", "P214"}
 _DEEP_WORDS = ", only with `vicode check --deep`"
 # Examples are short: nothing reads, sets or uses some items that they or the frame declare.
-ALLOWED_NOTES = {"X642", "X644", "D437", "D438"}
+ALLOWED_NOTES = {"X642", "X644", "D444", "D445"}
 EXAMPLES = {code: EXAMPLE.findall(text) for code, text in SECTIONS.items()}
 
 

@@ -49,19 +49,15 @@ _FIRST_COMPUTED = 1_000_000
 """The least level of a computed value. A new variable is tested before those that are known: so a list of decisions
 grows at the top of its diagram, and what is below is shared.
 """
-_NODES_OF_A_QUESTION, _MAX_NODES = 30_000, 400_000
-_MAX_CELLS = 512
+_NODES_OF_A_QUESTION, _MAX_NODES, _MAX_CELLS = 30_000, 400_000, 512
 _NO_SPAN = (0, 0)
 _MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 _STATE_TIME = ElapsedTime(kind="state", span=_NO_SPAN)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ComputedQuantity:
-    """A quantity that is computed: the levels of what it reads, and its trees (two if it is their order).
-
-    Without trees, nothing is known about it.
-    """
+class _Computed:
+    """A quantity that is computed: the levels of what it reads, and its trees (two if it is their order)."""
 
     reads: tuple[int, ...]
     trees: tuple[Expr, ...]
@@ -79,7 +75,7 @@ class Conditions:
         self.diagrams = IntervalDiagrams(_NODES_OF_A_QUESTION, _MAX_NODES)
         self.quantities: dict[int, Quantity] = {STATE_TIME: table.quantity(_STATE_TIME)}
         self._levels: dict[Shape, int] = {shape_of(_STATE_TIME): STATE_TIME}
-        self.computed: dict[int, ComputedQuantity] = {}
+        self._computed: dict[int, _Computed] = {}
         self._texts: dict[tuple[str, str], Node] = {}
         self._plain_cases: dict[Node, bool] = {FALSE: False, TRUE: True}
         self.unknown = self._add_unknown()
@@ -96,6 +92,18 @@ class Conditions:
         # Hand-written code may give another result each time.
         return node if guard.code is None else self.diagrams.both(node, self._add_unknown())
 
+    def of_condition(self, tree: Expr) -> Node:
+        """The diagram of a bool without errors.
+
+        Raises:
+            TooLargeError: The diagram has too many nodes.
+        """
+        return self._of(tree)
+
+    def trees_of(self, level: int) -> tuple[Expr, ...] | None:
+        """What computes a value, two trees if it is their order, none if it is unknown; None for what is read."""
+        return self._computed[level].trees if level in self._computed else None
+
     def _of_text(self, text: str, type_: str) -> Node:
         """The diagram of an expression, or of the timer that it sets; an expression with errors can be anything."""
         if (text, type_) not in self._texts:
@@ -103,7 +111,7 @@ class Conditions:
             if parsed.tree is None or parsed.diagnostics:
                 node = self._add_unknown()
             else:
-                node = self.of_tree(parsed.tree) if type_ == BOOL else self._of_timer(parsed.tree)
+                node = self._of(parsed.tree) if type_ == BOOL else self._of_timer(parsed.tree)
             self._texts[text, type_] = node
         return self._texts[text, type_]
 
@@ -116,7 +124,7 @@ class Conditions:
         if found is None:
             level, branches = self.diagrams.branches(node)
             # Unknown conditions are not related to anything.
-            found = (level < _FIRST_COMPUTED or not self.computed[level].trees) and any(
+            found = (level < _FIRST_COMPUTED or not self._computed[level].trees) and any(
                 self._meets_domain(level, interval) and self.has_plain_case(child) for interval, child in branches
             )
             self._plain_cases[node] = found
@@ -137,20 +145,20 @@ class Conditions:
         cuts = self.diagrams.find_cuts(nodes)
         levels = set(cuts)
         for level in cuts:
-            if level in self.computed:
-                levels.update(self.computed[level].reads)
+            if level in self._computed:
+                levels.update(self._computed[level].reads)
         result = TRUE
         for level in sorted(levels, reverse=True):
             domain = self._domain(level, with_nan=with_nan, is_ignored=level in ignored)
             result = self.diagrams.both(self.diagrams.test(level, (domain,)), result)
-            if level in self.computed:
+            if level in self._computed:
                 result = self.diagrams.both(self._relate(level, cuts, ignored), result)
         return result
 
     def levels_with_range(self, node: Node) -> list[int]:
         """The quantities with a declared range on which a diagram may depend."""
         tested = set(self.diagrams.find_cuts((node,)))
-        read = {each for level in tested if level in self.computed for each in self.computed[level].reads}
+        read = {each for level in tested if level in self._computed for each in self._computed[level].reads}
         return sorted((level for level in tested | read if self.quantities[level].has_range), reverse=True)
 
     def describe_range(self, level: int) -> str:
@@ -169,7 +177,7 @@ class Conditions:
     def _of_timer(self, tree: Expr) -> Node:
         value = self.table.value_of(tree)
         if not isinstance(value, int | float):
-            return self.compare(_STATE_TIME, ">=", tree)
+            return self._compare(_STATE_TIME, ">=", tree)
         ns = value * self.table.ns_per_unit
         if math.isnan(ns):
             return FALSE
@@ -179,24 +187,24 @@ class Conditions:
         """A condition about which nothing is known."""
         level = self._next_computed()
         self.quantities[level] = Quantity(name="", type=BOOL, domain=((0, 0), (2, 0)))
-        self.computed[level] = ComputedQuantity(reads=(), trees=())
+        self._computed[level] = _Computed(reads=(), trees=())
         return self._test_bool(level)
 
-    def of_tree(self, node: Expr) -> Node:
-        """The diagram of a bool without errors."""
+    def _of(self, node: Expr) -> Node:
+        """The diagram of a bool."""
         value = self.table.value_of(node)
         if value is not None:
             return TRUE if value else FALSE
         match node:
             case Not(operand=operand):
-                return self.diagrams.negate(self.of_tree(operand))
+                return self.diagrams.negate(self._of(operand))
             case Logic(operator=operator, operands=operands):
-                return self._join(operator, map(self.of_tree, operands))
+                return self._join(operator, map(self._of, operands))
             case Ternary(test=test, then=then, otherwise=otherwise):
-                return self.diagrams.if_then_else(self.of_tree(test), self.of_tree(then), self.of_tree(otherwise))
+                return self.diagrams.if_then_else(self._of(test), self._of(then), self._of(otherwise))
             case Comparison(operators=operators, operands=operands):
                 triples = zip(operands, operators, operands[1:], strict=False)
-                return self._join("and", (self.compare(a, operator, b) for a, operator, b in triples))
+                return self._join("and", (self._compare(a, operator, b) for a, operator, b in triples))
             case FunctionCall(function="is_nan", arguments=(operand,)) if is_leaf(operand) and operand.type == FLOAT:
                 return self._test(self._level(operand), NumberSet(intervals=(), has_nan=True))
             case _:
@@ -210,13 +218,12 @@ class Conditions:
 
     # Comparisons
 
-    def compare(self, left: Expr, operator: str, right: Expr) -> Node:
-        """The diagram of a comparison of two trees without errors."""
+    def _compare(self, left: Expr, operator: str, right: Expr) -> Node:
         left, right = lower_to_choices(left), lower_to_choices(right)
         if isinstance(left, Ternary) and self.table.value_of(left) is None:
-            return self._choose(left, lambda branch: self.compare(branch, operator, right))
+            return self._choose(left, lambda branch: self._compare(branch, operator, right))
         if isinstance(right, Ternary) and self.table.value_of(right) is None:
-            return self._choose(right, lambda branch: self.compare(left, operator, branch))
+            return self._choose(right, lambda branch: self._compare(left, operator, branch))
         a, b = self.table.value_of(left), self.table.value_of(right)
         if left.type not in (INT, FLOAT):
             return self._compare_choices(left, operator, right)
@@ -227,14 +234,12 @@ class Conditions:
         return self._compare_order(left, operator, right)
 
     def _choose(self, choice: Ternary, of_branch: Callable[[Expr], Node]) -> Node:
-        return self.diagrams.if_then_else(
-            self.of_tree(choice.test), of_branch(choice.then), of_branch(choice.otherwise)
-        )
+        return self.diagrams.if_then_else(self._of(choice.test), of_branch(choice.then), of_branch(choice.otherwise))
 
     def _compare_choices(self, left: Expr, operator: str, right: Expr) -> Node:
         """Bools, or elements of an enumeration; only == and != are defined."""
         if left.type == BOOL:
-            a, b = self.of_tree(left), self.of_tree(right)
+            a, b = self._of(left), self._of(right)
             equal = self.diagrams.if_then_else(a, b, self.diagrams.negate(b))
         elif not self.table.elements(left.type):
             return self._add_unknown()
@@ -295,7 +300,7 @@ class Conditions:
         if level is None:
             reads = self._reads(left, right)
             level = self._levels["order", *shapes] = self._next_computed()
-            self.computed[level] = ComputedQuantity(reads=reads, trees=(left, right))
+            self._computed[level] = _Computed(reads=reads, trees=(left, right))
             is_int = left.type == right.type == INT
             domain = (BEFORE_ALL, BEFORE_NAN if is_int else AFTER_ALL)
             self.quantities[level] = Quantity(name="", type=FLOAT, domain=domain)
@@ -315,18 +320,18 @@ class Conditions:
         shape = shape_of(node)
         if shape not in self._levels:
             if is_leaf(node):
-                level = _FIRST_COMPUTED - (len(self.quantities) - len(self.computed))
+                level = _FIRST_COMPUTED - (len(self.quantities) - len(self._computed))
             else:
                 is_number = node.type in (INT, FLOAT)
                 reads = self._reads(node) if is_number else ()
                 level = self._next_computed()
-                self.computed[level] = ComputedQuantity(reads=reads, trees=(node,) if is_number else ())
+                self._computed[level] = _Computed(reads=reads, trees=(node,) if is_number else ())
             self._levels[shape] = level
             self.quantities[level] = self.table.quantity(node)
         return self._levels[shape]
 
     def _next_computed(self) -> int:
-        return 2 * _FIRST_COMPUTED - len(self.computed)
+        return 2 * _FIRST_COMPUTED - len(self._computed)
 
     def _reads(self, *nodes: Expr) -> tuple[int, ...]:
         found = {self._level(each) for node in nodes for each in walk(node) if self._is_free_number(each)}
@@ -354,7 +359,7 @@ class Conditions:
 
     def _relate(self, level: int, cuts: Mapping[int, set[Position]], ignored: Collection[int]) -> Node:
         """The values that a computed value has together with those that it is computed from."""
-        reads = self.computed[level].reads
+        reads = self._computed[level].reads
         cells = {each: self._cells(each, cuts.get(each, ()), is_ignored=each in ignored) for each in reads}
         while math.prod(map(len, cells.values())) > _MAX_CELLS:
             largest = max(cells, key=lambda each: len(cells[each]))
@@ -377,7 +382,7 @@ class Conditions:
         return self.diagrams.choose(first, cuts, tuple(children))
 
     def _bounds(self, level: int, chosen: Mapping[int, Interval]) -> list[Interval]:
-        computed = self.computed[level]
+        computed = self._computed[level]
         if not computed.trees:
             return [(BEFORE_ALL, AFTER_ALL)]
         by_shape = {shape_of(tree): cell for each, cell in chosen.items() if (tree := self.quantities[each].tree)}

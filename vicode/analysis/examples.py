@@ -5,7 +5,7 @@ A diagram contains too much where values are computed, so an example is checked:
 
 import math
 from collections.abc import Iterator, Mapping
-from itertools import islice, product
+from itertools import chain, islice, product
 
 from vicode.analysis.conditions import Conditions
 from vicode.analysis.interval_diagrams import BEFORE_NAN, Interval, Node, TooLargeError
@@ -35,37 +35,28 @@ def describe_value(value: Value) -> str:
 
 
 def _find_in_box(conditions: Conditions, box: Mapping[int, Interval]) -> Iterator[Example]:
-    computed = {level: conditions.computed[level] for level in box if level in conditions.computed}
-    known = {level: interval for level, interval in box.items() if level not in computed}
+    table, read = conditions.table, dict[str, tuple[Quantity, Interval]]()
+    trees = {level: found for level in box if (found := conditions.trees_of(level)) is not None}
     # A design reads those of greater levels first.
-    read = {conditions.quantities[level].name: (conditions.quantities[level], known[level]) for level in sorted(known)}
-    table = conditions.table
-    for tree in (tree for each in computed.values() for tree in each.trees):
-        for quantity in (table.quantity(node) for node in walk(tree) if is_leaf(node) and table.value_of(node) is None):
-            read.setdefault(quantity.name, (quantity, quantity.domain))
-    choices = [_choose_from_all(quantity, interval, table) for quantity, interval in read.values()]
+    for level in sorted(box.keys() - trees.keys(), reverse=True):
+        read[conditions.quantities[level].name] = (conditions.quantities[level], box[level])
+    for node in (node for tree in chain(*trees.values()) for node in walk(tree)):
+        if is_leaf(node) and table.value_of(node) is None:
+            read.setdefault(table.quantity(node).name, (table.quantity(node), table.quantity(node).domain))
+    choices = [choose_values(quantity, interval, table) for quantity, interval in read.values()]
     for values in islice(product(*choices), _MOST_CHOICES):
         example = dict(zip(read, values, strict=True))
-        found = ([table.value_of(tree, example) for tree in each.trees] for each in computed.values())
-        if all(_is_in(numbers, box[level]) for level, numbers in zip(computed, found, strict=True)):
-            yield dict(reversed(example.items()))
-
-
-def _choose_from_all(quantity: Quantity, interval: Interval, table: QuantityTable) -> Iterator[Value]:
-    """Plain values first, then more whole numbers: a computed value may be one of them for others than the plain."""
-    yield from choose_values(quantity, interval, table)
-    if quantity.type == INT:
-        low, high = max(interval[0], quantity.domain[0])[0], min(interval[1], quantity.domain[1])[0]
-        yield from range(int(low), int(min(high, low + _MOST_INTS)))
+        if all(_is_in([table.value_of(tree, example) for tree in trees[level]], box[level]) for level in trees):
+            yield example
 
 
 def _is_in(found: list[Value | None], interval: Interval) -> bool:
     """Whether a number, or the order of two, is in an interval."""
-    numbers = [each for each in found if isinstance(each, int | float) and not math.isnan(each)]
+    numbers = [each for each in found if isinstance(each, int | float)]
     if not numbers or len(numbers) < len(found):
         return False
     number = numbers[0] if len(numbers) == 1 else (numbers[0] > numbers[1]) - (numbers[0] < numbers[1])
-    return interval[0] <= (number, 0) < interval[1]
+    return not any(map(math.isnan, numbers)) and interval[0] <= (number, 0) < interval[1]
 
 
 def choose_values(quantity: Quantity, interval: Interval, table: QuantityTable) -> Iterator[Value]:
@@ -87,7 +78,7 @@ def choose_values(quantity: Quantity, interval: Interval, table: QuantityTable) 
 
 def _plain_ints(low: int, high: int) -> Iterator[int]:
     nearest = min(max(0, low), high)
-    yield from dict.fromkeys((nearest, low, high, (low + high) // 2))
+    yield from dict.fromkeys((nearest, low, high, (low + high) // 2, *range(low, min(high, low + _MOST_INTS))))
 
 
 def _plain_floats(low: tuple[float, int], high: tuple[float, int]) -> Iterator[float]:

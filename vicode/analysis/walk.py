@@ -20,7 +20,7 @@ from vicode.model.project import Project
 from vicode.semantics import InputFunction, Interpreter, RobotMemory, Value
 
 DEFAULT_TICK_NS = 20_000_000
-_MOST_BOXES, _MOST_CHOICES = 16, 12
+_MOST_BOXES, _MOST_CHOICES, _MOST_VALUES = 16, 12, 4
 
 Inputs = Mapping[tuple[str, str], Value]
 """Values by component and name: outputs of components without a design, parameters of the root."""
@@ -225,7 +225,7 @@ class Walk:
                 return None
 
     def _choose(self, quantity: Quantity, interval: Interval) -> Iterator[Value]:
-        for value in choose_values(quantity, interval, self._conditions.table):
+        for value in islice(choose_values(quantity, interval, self._conditions.table), _MOST_VALUES):
             yield f"{quantity.type}.{value}" if isinstance(value, str) else value
 
     def _point(self, quantity: Quantity, value: Value) -> Interval:

@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from vicode.analysis.alternation import Alternation
+from vicode.analysis.examples import describe_value
 from vicode.analysis.projects import ProjectAnalysis
 from vicode.findings import Finding, FindingSubject, Note, get_rule
 from vicode.model.design import Design
@@ -86,5 +87,5 @@ def _describe_inputs(alternation: Alternation, names: _Names) -> Iterator[str]:
     """The inputs that were set last, when the states began to alternate."""
     set_last = next((step.inputs for step in reversed(alternation.steps) if step.inputs), {})
     for (component, name), value in set_last.items():
-        shown = f"{value:g}" if isinstance(value, float) else str(value)
-        yield f"{names.input(component, name)} = {shown.rpartition('.')[2] if isinstance(value, str) else shown}"
+        shown = value.rpartition(".")[2] if isinstance(value, str) else value
+        yield f"{names.input(component, name)} = {describe_value(shown)}"

@@ -66,11 +66,9 @@ def validate_range(declaration: Declaration, least: float | None, greatest: floa
 
 
 def find_unused_declarations(context: RuleContext) -> Iterator[Finding]:
-    """D424, D437, D438: declarations that are never read or never set; hand-written code does both to all it names."""
+    """D424, D444, D445: declarations that are never read or never set; hand-written code does both to all it names."""
     read = context.code_identifiers.union(*(expression.analysis.names for expression in context.expressions))
-    assigned = context.code_identifiers.union(
-        name for placed in context.actions if isinstance(placed.action, Assign) for name, _text in placed.action.values
-    )
+    assigned = find_set_names(context)
     for section, declaration in context.design.declarations():
         name, kind = declaration.name, section.removesuffix("s")
         code, problem, fix = "D424", "", "use it or delete it"
@@ -79,11 +77,19 @@ def find_unused_declarations(context: RuleContext) -> Iterator[Finding]:
         elif name not in read and name not in assigned:
             problem = "neither read nor set"
         elif name not in assigned:
-            code, problem, fix = "D437", "never set: it keeps its initial value", "set it, or use a constant"
+            code, problem, fix = "D444", "never set: it keeps its initial value", "set it, or use a constant"
         elif kind == "variable" and name not in read:
-            code, problem, fix = "D438", "set but never read", "read it, make it an output, or delete it"
+            code, problem, fix = "D445", "set but never read", "read it, make it an output, or delete it"
         if problem:
             yield context.make_finding(code, (section, name), f"{kind} '{name}' is {problem}", fix, is_key=True)
+
+
+def find_set_names(context: RuleContext) -> frozenset[str]:
+    """The names that actions set, and all that hand-written code contains."""
+    actions = (placed.action for placed in context.actions)
+    return context.code_identifiers.union(
+        name for action in actions if isinstance(action, Assign) for name, _text in action.values
+    )
 
 
 RULES = (find_bad_declarations, find_bad_frequency)

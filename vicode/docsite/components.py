@@ -183,11 +183,11 @@ def _overlaps(state: State, machine: MachineAnalysis, linker: NameLinker) -> Ric
     orders = {located.path: str(order) for order, located in numbered_decisions(machine.design)}
     found = tuple(islice(find_overlaps(machine.guards, state.name), _MOST_OVERLAPS + 1))
     parts: list[TextSpan] = []
-    for each in found if len(found) <= _MOST_OVERLAPS else ():
-        links = [TextSpan(text=orders[path], href=f"#{path_anchor(path)}") for path in (each.first, each.second)]
+    for first, second, example in found if len(found) <= _MOST_OVERLAPS else ():
+        links = [TextSpan(text=orders[path], href=f"#{path_anchor(path)}") for path in (first, second)]
         parts += [TextSpan(text="; ")] if parts else []
         parts += [links[0], TextSpan(text=" and "), links[1], TextSpan(text=", with ")]
-        for index, (name, value) in enumerate(each.example.items()):
+        for index, (name, value) in enumerate(example.items()):
             parts += [TextSpan(text=", ")] if index else []
             parts += [*linker.expression(name), TextSpan(text=f" = {describe_value(value)}")]
     return (*parts, TextSpan(text=": the first one is taken")) if parts else ()
