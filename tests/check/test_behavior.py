@@ -1,5 +1,6 @@
 """`check --deep`: states that alternate, judged with their callers; designs that no agent activates."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -164,3 +165,26 @@ def test_a_behavior_is_checked_without_an_import(tmp_path: Path, capsys: pytest.
     assert "turn.xabsl:7:7: warning D435 alternating-states: 'look' and 'turn_to_it'" in shown
     assert "ball.angle = " in shown
     assert "turn.xabsl:27:3: warning D421" in shown
+
+
+def test_what_is_never_active_is_marked_and_comes_last(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    early = """\
+vicode: 1
+component: Early
+initial: A
+states:
+  A: {transitions: [{stay: true, when: 1 > 2}, {to: C}]}
+"""
+    lost = "  B: {final: true, transitions: [{stay: true, when: 2 > 3}]}\n"
+    player = early.replace("Early", "Player").replace(", {to: C}", "") + lost
+    for name, text in {"project": _PROJECT, "early": early, "player": player}.items():
+        (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
+    assert main(["check", "--deep", "--json", str(tmp_path)]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert [(each["component"], each["code"]) for each in found] == [
+        *(("Early", "P214"), ("Early", "D402")),
+        *(("Player", "D422"), ("Player", "D433"), ("Player", "D421"), ("", "P210")),
+        *(("Early", "D433"), ("Player", "D433")),
+    ]
+    is_marked = [each["message"].endswith("(never active)") for each in found]
+    assert is_marked == [False] * 6 + [True] * 2

@@ -3,26 +3,59 @@ that no agent activates.
 """
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from vicode.analysis.alternation import Alternation
 from vicode.analysis.examples import describe_value
 from vicode.analysis.projects import ProjectAnalysis
-from vicode.findings import Finding, FindingSubject, Note, get_rule
+from vicode.check import check_project
+from vicode.findings import Finding, FindingSubject, Note, Severity, get_rule
 from vicode.model.design import Design
 from vicode.model.project import Project
 
 _MOST_INPUTS = 6
 
 
-def find_behavior(
+def check_behavior(
     project: Project, components: Collection[str] | None = None, *, are_names_xabsl: bool = False
+) -> tuple[Finding, ...]:
+    """The findings of all rules; those about designs and states that are never active say so, and are sorted last.
+
+    With `are_names_xabsl`, messages contain the names that an imported behavior has in XABSL.
+    """
+    analysis = ProjectAnalysis(project)
+    deep = find_behavior(project, components, are_names_xabsl=are_names_xabsl, analysis=analysis)
+    found = (*check_project(project, components), *deep)
+    return tuple(
+        replace(each, message=f"{each.message} (never active)", is_inactive=True)
+        if _is_inactive(analysis, each)
+        else each
+        for each in found
+    )
+
+
+def _is_inactive(analysis: ProjectAnalysis, finding: Finding) -> bool:
+    subject, says_so = finding.subject, finding.rule.code in ("P214", "D421")
+    # An error prevents code generation.
+    if subject is None or subject.component not in analysis.machines or says_so or finding.severity is Severity.ERROR:
+        return False
+    is_in_state = len(subject.path) > 1 and subject.path[0] == "states"
+    machine = analysis.machines[subject.component]
+    return subject.component not in analysis.active or (is_in_state and subject.path[1] not in machine.reachable)
+
+
+def find_behavior(
+    project: Project,
+    components: Collection[str] | None = None,
+    *,
+    are_names_xabsl: bool = False,
+    analysis: ProjectAnalysis | None = None,
 ) -> tuple[Finding, ...]:
     """D435 and P214 for all designs, or those of `components`.
 
     With `are_names_xabsl`, messages contain the names that an imported behavior has in XABSL.
     """
-    analysis = ProjectAnalysis(project)
+    analysis = analysis or ProjectAnalysis(project)
     names = _Names(project, are_xabsl=are_names_xabsl)
     designs = (each for each in project.designs if components is None or each.component in components)
     found: list[Finding] = []
