@@ -5,8 +5,9 @@ for an action the transitions to its state. A divisor that can be zero by its ty
 every one can: it has a declared range with zero, or the conditions leave nothing else.
 """
 
-from collections.abc import Iterator, Set
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import replace
+from functools import cached_property
 
 from vicode.analysis.choices import lower_to_choices
 from vicode.analysis.conditions import STATE_TIME
@@ -102,12 +103,19 @@ class DivisionSearch:
         if phase == "enter" and state == self._machine.design.initial:
             return TRUE
         entered = FALSE
-        for edge in (each for source in self._machine.reachable for each in self._machine.live[source]):
-            if edge.target == state:
-                entered = self._diagrams.either(entered, self._diagrams.exists(edge.taken, (STATE_TIME,)))
+        for taken in self._entries.get(state, ()):
+            entered = self._diagrams.either(entered, self._diagrams.exists(taken, (STATE_TIME,)))
         entered = self._diagrams.both(entered, self._diagrams.test(STATE_TIME, (((0, 0), (1, 0)),)))
         # A restart enters the initial state and tests it at once.
         return entered if phase == "enter" else self._diagrams.either(self._machine.staying(state), entered)
+
+    @cached_property
+    def _entries(self) -> Mapping[str, list[Node]]:
+        """The values for which transitions to each state are taken."""
+        entries: dict[str, list[Node]] = {}
+        for edge in (each for source in self._machine.reachable for each in self._machine.live[source]):
+            entries.setdefault(edge.target, []).append(edge.taken)
+        return entries
 
     def _iterate(self, node: Expr, condition: Node) -> Iterator[tuple[Binary, Node]]:
         """Yield the divisions with their conditions; an operand may be evaluated only if those before it allow it."""

@@ -14,34 +14,29 @@ from vicode.model.design import Design
 from vicode.model.project import Project
 
 _MOST_INPUTS = 6
+_INACTIVE = ("P214", "D421")
 
 
 def check_behavior(
     project: Project, components: Collection[str] | None = None, *, are_names_xabsl: bool = False
 ) -> tuple[Finding, ...]:
-    """The findings of all rules; those about designs and states that are never active say so, and are sorted last.
+    """The findings of all rules; those about designs and states that are never active say so.
 
     With `are_names_xabsl`, messages contain the names that an imported behavior has in XABSL.
     """
     analysis = ProjectAnalysis(project)
     deep = find_behavior(project, components, are_names_xabsl=are_names_xabsl, analysis=analysis)
-    found = (*check_project(project, components), *deep)
-    return tuple(
-        replace(each, message=f"{each.message} (never active)", is_inactive=True)
-        if _is_inactive(analysis, each)
-        else each
-        for each in found
-    )
+    return tuple(_mark_inactive(analysis, each) for each in (*check_project(project, components), *deep))
 
 
-def _is_inactive(analysis: ProjectAnalysis, finding: Finding) -> bool:
-    subject, says_so = finding.subject, finding.rule.code in ("P214", "D421")
-    # An error prevents code generation.
-    if subject is None or subject.component not in analysis.machines or says_so or finding.severity is Severity.ERROR:
-        return False
-    is_in_state = len(subject.path) > 1 and subject.path[0] == "states"
-    machine = analysis.machines[subject.component]
-    return subject.component not in analysis.active or (is_in_state and subject.path[1] not in machine.reachable)
+def _mark_inactive(analysis: ProjectAnalysis, finding: Finding) -> Finding:
+    component, path = (finding.subject.component, finding.subject.path) if finding.subject else ("", ())
+    # An error prevents code generation, and two rules say so themselves.
+    if component not in analysis.machines or finding.severity is Severity.ERROR or finding.rule.code in _INACTIVE:
+        return finding
+    is_reachable = path[0:1] != ("states",) or path[1] in analysis.machines[component].reachable
+    is_active = component in analysis.active and is_reachable
+    return finding if is_active else replace(finding, message=f"{finding.message} (never active)")
 
 
 def find_behavior(

@@ -180,17 +180,19 @@ def _overlaps(state: State, machine: MachineAnalysis, linker: NameLinker) -> Ric
     """Guards that can hold together, if they are few; the first one of a pair is taken."""
     if state.disabled or len(state.transitions) > _MOST_DECISIONS:
         return ()
-    orders = {located.path: str(order) for order, located in numbered_decisions(machine.design)}
     found = tuple(islice(find_overlaps(machine.guards, state.name), _MOST_OVERLAPS + 1))
+    if not 0 < len(found) <= _MOST_OVERLAPS:
+        return ()
+    orders = {located.path: str(order) for order, located in numbered_decisions(machine.design)}
     parts: list[TextSpan] = []
-    for first, second, example in found if len(found) <= _MOST_OVERLAPS else ():
+    for first, second, example in found:
         links = [TextSpan(text=orders[path], href=f"#{path_anchor(path)}") for path in (first, second)]
         parts += [TextSpan(text="; ")] if parts else []
         parts += [links[0], TextSpan(text=" and "), links[1], TextSpan(text=", with ")]
         for index, (name, value) in enumerate(example.items()):
             parts += [TextSpan(text=", ")] if index else []
             parts += [*linker.expression(name), TextSpan(text=f" = {describe_value(value)}")]
-    return (*parts, TextSpan(text=": the first one is taken")) if parts else ()
+    return (*parts, TextSpan(text=": the first one is taken"))
 
 
 def _numbered_links(found: Iterable[tuple[TextSpan, Sequence[TextSpan]]]) -> RichText:

@@ -48,7 +48,7 @@ class Finding:
     """A violation of a rule.
 
     `message` describes the problem, `fix` how to fix it. A finding with `languages` prevents generation of only those.
-    `name` is the name that quick fixes use. One that `is_inactive` is about a design or state that is never active.
+    `name` is the name that quick fixes use.
     """
 
     rule: Rule
@@ -59,7 +59,6 @@ class Finding:
     notes: tuple[Note, ...] = ()
     languages: tuple[str, ...] = ()
     name: str = ""
-    is_inactive: bool = False
 
     @property
     def suggestion(self) -> str:
@@ -75,11 +74,11 @@ class Finding:
 
 
 def sort_findings(findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """Sort by file, line, column and code, with what is inactive last, and remove duplicates."""
+    """Sort by file, line, column and code, and remove duplicates."""
 
-    def key(finding: Finding) -> tuple[bool, str, int, int, str, str]:
+    def key(finding: Finding) -> tuple[str, int, int, str, str]:
         location = finding.location or SourceLocation(file="", line=0, column=0)
-        return (finding.is_inactive, location.file, location.line, location.column, finding.rule.code, finding.message)
+        return (location.file, location.line, location.column, finding.rule.code, finding.message)
 
     return tuple(sorted(dict.fromkeys(findings), key=key))
 
