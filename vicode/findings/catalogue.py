@@ -111,7 +111,7 @@ _RECORDS = (
     ("D434", "needless-guard", Severity.NOTE, "guard that always holds"),
     ("D435", "alternating-states", Severity.WARNING, "states that alternate while the inputs hold still"),
     ("D443", "division-by-zero", Severity.WARNING, "division by zero for values that the declarations allow"),
-    ("D444", "never-set", Severity.NOTE, "variable or output that is never set"),
+    ("D444", "never-assigned", Severity.NOTE, "variable or output that is never set"),
     ("D445", "never-read", Severity.NOTE, "variable that is set but never read"),
     ("D446", "short-time", Severity.WARNING, "time in a state that is shorter than the period of the component"),
     # XABSL as a target language
