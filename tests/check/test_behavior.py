@@ -1,5 +1,6 @@
 """`check --deep`: states that alternate, judged with their callers; designs that no agent activates."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -164,3 +165,24 @@ def test_a_behavior_is_checked_without_an_import(tmp_path: Path, capsys: pytest.
     assert "turn.xabsl:7:7: warning D435 alternating-states: 'look' and 'turn_to_it'" in shown
     assert "ball.angle = " in shown
     assert "turn.xabsl:27:3: warning D421" in shown
+
+
+def test_what_is_never_active_is_marked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    early = """\
+vicode: 1
+component: Early
+initial: A
+states:
+  A: {transitions: [{stay: true, when: 1 > 2}, {to: C}]}
+"""
+    lost = "  B: {final: true, transitions: [{stay: true, when: 2 > 3}]}\n"
+    player = early.replace("Early", "Player").replace(", {to: C}", "") + lost
+    for name, text in {"project": _PROJECT, "early": early, "player": player}.items():
+        (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
+    assert main(["check", "--deep", "--json", str(tmp_path)]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert [(each["component"], each["code"], "(never active)" in each["message"]) for each in found] == [
+        *(("Early", "P214", False), ("Early", "D433", True), ("Early", "D402", False)),
+        *(("Player", "D422", False), ("Player", "D433", False), ("Player", "D421", False), ("Player", "D433", True)),
+        ("", "P210", False),
+    ]

@@ -45,7 +45,7 @@ def test_span_covers_the_invalid_name_in_an_expression() -> None:
     transitions = (Transition(to="Rest", guard=guard),)
     design = _design(
         states=(State(name="Wait", transitions=transitions), State(name="Rest", final=True)),
-        variables=(Declaration(name="tries", initial="0"),),
+        parameters=(Declaration(name="tries", initial="0"),),
     )
     finding = _only(check_design(Project(name="p"), design))
     assert finding.fix == "did you mean 'tries'?"

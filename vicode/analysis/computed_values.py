@@ -53,6 +53,10 @@ class ComputedValues:
     def add(self, level: int, reads: tuple[int, ...], trees: tuple[Expr, ...]) -> None:
         self._reads[level], self._trees[level] = reads, trees
 
+    def trees_of(self, level: int) -> tuple[Expr, ...]:
+        """What computes a value, two trees if it is their order, none if it is unknown."""
+        return self._trees[level]
+
     def is_related(self, level: int) -> bool:
         """Whether a computed value depends on others."""
         return bool(self._trees[level])

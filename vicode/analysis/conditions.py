@@ -49,7 +49,6 @@ from vicode.model.expressions import (
     Minus,
     Not,
     Ternary,
-    Variable,
     parse_expression,
     walk,
 )
@@ -105,6 +104,10 @@ class Conditions:
             TooLargeError: The diagram has too many nodes.
         """
         return self._of(tree)
+
+    def trees_of(self, level: int) -> tuple[Expr, ...] | None:
+        """What computes a value, two trees if it is their order, none if it is unknown; None for what is read."""
+        return self._computed.trees_of(level) if level in self._computed else None
 
     def _of_text(self, text: str, type_: str) -> Node:
         """The diagram of an expression, or of the timer that it sets; an expression with errors can be anything."""
@@ -186,14 +189,6 @@ class Conditions:
         quantity = self.quantities[level]
         (low, _), (high, side) = quantity.domain
         return f"{quantity.name} from {low:g} to {high - (quantity.type == INT and side == 0):g}"
-
-    def describe_constants(self, guards: Iterable[Guard]) -> tuple[str, ...]:
-        """The values of the constants in guards as text, such as "LIMIT is 3"."""
-        texts = (text for guard in guards for text in (guard.when, guard.after) if text)
-        trees = (parse_expression(text, self.table.scope, None).tree for text in texts)
-        nodes = (node for tree in trees if tree is not None for node in walk(tree))
-        names = dict.fromkeys(node.name for node in nodes if isinstance(node, Variable))
-        return tuple(f"{name} is {self.table.constants[name]}" for name in names if name in self.table.constants)
 
     def _domain(self, level: int, *, with_nan: bool, is_ignored: bool) -> Interval:
         quantity = self.quantities[level]

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
+from itertools import chain
 
 from vicode.analysis.conditions import Conditions
 from vicode.analysis.interval_diagrams import FALSE, TRUE, Node, TooLargeError
@@ -87,6 +88,11 @@ class GuardAnalysis:
             for state in design.states
             if not state.disabled
         }
+
+    @property
+    def listed(self) -> Iterator[TestedDecision]:
+        """All decisions, common ones first."""
+        return chain(self.common, *self.states.values())
 
     def taken(self, each: TestedDecision) -> Node:
         """The values for which a transition or stay ends the decision."""
@@ -249,7 +255,7 @@ class GuardAnalysis:
         concerned = (
             each.decision.guard for each in listed if any(path[: len(each.path)] == each.path for path in paths)
         )
-        facts = self.conditions.describe_constants(concerned)
+        facts = self.conditions.table.describe_constants(concerned)
         if not facts or (proved.path, proved.verdict) in self._proved_without_constants:
             return proved
         return replace(proved, basis=replace(proved.basis, facts=(*proved.basis.facts, *facts)))

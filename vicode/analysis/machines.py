@@ -141,22 +141,26 @@ class MachineAnalysis:
                 stays = diagrams.without(stays, each.taken)
         return stays
 
+    def find_times(self, node: Node) -> list[Interval]:
+        """The times in a state for which some values are in a diagram.
+
+        Raises:
+            TooLargeError: The diagram has too many nodes.
+        """
+        possible = self.guards.conditions.possible((node,), with_nan=False)
+        return self.guards.conditions.diagrams.intervals_of(
+            self.guards.conditions.diagrams.both(node, possible), STATE_TIME
+        )
+
     def _find_time(self, state: str) -> TimeInState:
         leaving = FALSE
         for each in self.live_in(state):
             leaving = self.guards.conditions.diagrams.either(leaving, each.taken)
-        leaves, stays = (self._find_times(node) for node in (leaving, self.staying(state)))
+        leaves, stays = (self.find_times(node) for node in (leaving, self.staying(state)))
         last = stays[-1][1] if stays else (0, 0)
         return TimeInState(
             at_least_ns=int(max(0, leaves[0][0][0])) if leaves else 0,
             at_most_ns=None if last >= BEFORE_NAN else int(last[0]),
-        )
-
-    def _find_times(self, node: Node) -> list[Interval]:
-        """The times in the state for which some values are in a diagram."""
-        possible = self.guards.conditions.possible((node,), with_nan=False)
-        return self.guards.conditions.diagrams.intervals_of(
-            self.guards.conditions.diagrams.both(node, possible), STATE_TIME
         )
 
     def _find_live(self, state: str) -> list[LiveTransition]:

@@ -1,11 +1,12 @@
 """What guards compare: inputs, variables, times and computed values, with the values that they can have."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 from vicode.analysis.interval_diagrams import AFTER_ALL, BEFORE_ALL, BEFORE_NAN, Interval, Position
-from vicode.model.design import Declaration, Design
+from vicode.model.design import Declaration, Design, Guard
 from vicode.model.expressions import (
     BOOL,
     FLOAT,
@@ -32,6 +33,7 @@ from vicode.model.expressions import (
     is_type_only,
     map_tree,
     parse_expression,
+    walk,
 )
 from vicode.model.project import Project
 
@@ -92,9 +94,18 @@ class QuantityTable:
     assumptions: tuple["Assumption", ...] = ()
     _quantities: dict[Shape, Quantity] = field(default_factory=dict)
 
-    def value_of(self, node: Expr) -> Value | None:
-        """The value of an expression of constants; None if it depends on anything else."""
-        return evaluate(node, self.constants, xabsl_arithmetic=self.is_xabsl)
+    def value_of(self, node: Expr, values: Mapping[str, Value] = MappingProxyType({})) -> Value | None:
+        """The value of an expression of constants and of quantities with these values; None if it reads others."""
+        known = {**self.constants, **values} if values else self.constants
+        return evaluate(node, known, xabsl_arithmetic=self.is_xabsl)
+
+    def describe_constants(self, guards: Iterable[Guard]) -> tuple[str, ...]:
+        """The values of the constants in guards as text, such as "LIMIT is 3"."""
+        texts = (text for guard in guards for text in (guard.when, guard.after) if text)
+        trees = (parse_expression(text, self.scope, None).tree for text in texts)
+        nodes = (node for tree in trees if tree is not None for node in walk(tree))
+        names = dict.fromkeys(node.name for node in nodes if isinstance(node, Variable))
+        return tuple(f"{name} is {self.constants[name]}" for name in names if name in self.constants)
 
     def elements(self, type_: str) -> tuple[str, ...]:
         return self.scope.enumerations.get(type_, ())

@@ -11,16 +11,17 @@ from itertools import islice, product
 from types import MappingProxyType
 
 from vicode.analysis.conditions import STATE_TIME, Conditions
-from vicode.analysis.interval_diagrams import BEFORE_NAN, Interval, Node, TooLargeError
+from vicode.analysis.examples import choose_values
+from vicode.analysis.interval_diagrams import Interval, Node, TooLargeError
 from vicode.analysis.machines import LiveTransition, MachineAnalysis
 from vicode.analysis.quantities import Quantity
 from vicode.findings import DesignPath
-from vicode.model.expressions import BOOL, FLOAT, INT, OutputRef, Variable
+from vicode.model.expressions import BOOL, FLOAT, OutputRef, Variable
 from vicode.model.project import Project
 from vicode.semantics import InputFunction, Interpreter, RobotMemory, Value
 
 DEFAULT_TICK_NS = 20_000_000
-_MOST_BOXES, _MOST_CHOICES = 16, 12
+_MOST_BOXES, _MOST_CHOICES, _MOST_VALUES = 16, 12, 4
 
 Inputs = Mapping[tuple[str, str], Value]
 """Values by component and name: outputs of components without a design, parameters of the root."""
@@ -234,6 +235,10 @@ class Walk:
             case _:
                 return None
 
+    def _choose(self, quantity: Quantity, interval: Interval) -> Iterator[Value]:
+        for value in islice(choose_values(quantity, interval, self._conditions.table), _MOST_VALUES):
+            yield f"{quantity.type}.{value}" if isinstance(value, str) else value
+
     def _point(self, quantity: Quantity, value: Value) -> Interval:
         if isinstance(value, str):
             elements = self._conditions.table.elements(quantity.type)
@@ -242,39 +247,6 @@ class Walk:
             return ((float(value), 0), (float(value), 1))
         return ((int(value), 0), (int(value) + 1, 0))
 
-    def _choose(self, quantity: Quantity, interval: Interval) -> Iterator[Value]:
-        """Values in an interval, plain ones first."""
-        low = max(interval[0], quantity.domain[0])
-        high = min(interval[1], quantity.domain[1], BEFORE_NAN)
-        if quantity.type == BOOL:
-            yield low[0] >= 1
-        elif quantity.type == INT:
-            yield from _plain_ints(int(low[0]), int(high[0]) - 1)
-        elif quantity.type == FLOAT:
-            yield from _plain_floats(low, high)
-        else:
-            yield f"{quantity.type}.{self._conditions.table.elements(quantity.type)[int(low[0])]}"
-
 
 def _always(value: Value) -> InputFunction:
     return lambda _arguments: value
-
-
-def _plain_ints(low: int, high: int) -> Iterator[int]:
-    nearest = min(max(0, low), high)
-    yield from dict.fromkeys((nearest, low, high, (low + high) // 2))
-
-
-def _plain_floats(low: tuple[float, int], high: tuple[float, int]) -> Iterator[float]:
-    """The number with the fewest digits in the interval, then its ends and middle."""
-    least = low[0] if low[1] == 0 else math.nextafter(low[0], math.inf)
-    greatest = high[0] if high[1] == 1 else math.nextafter(high[0], -math.inf)
-    least, greatest = max(least, -1e15), min(greatest, 1e15)
-    middle = min(max(0.0, least), greatest) if math.isinf(low[0]) or math.isinf(high[0]) else (least + greatest) / 2
-    plain = [0.0] if least <= 0 <= greatest else []
-    for digits in range(-15, 16):
-        rounded = round(middle, digits)
-        if least <= rounded <= greatest:
-            plain.append(rounded)
-            break
-    yield from dict.fromkeys(each for each in (*plain, middle, least, greatest) if least <= each <= greatest)

@@ -113,10 +113,10 @@ def _run_rules(context: RuleContext, warnings: tuple[DesignRule, ...]) -> tuple[
 
 
 def _all_warnings() -> tuple[DesignRule, ...]:
-    # Those about decisions need the analysis, which generating and running do not import.
-    from vicode.check import decisions  # noqa: PLC0415
+    # Those about decisions and values need the analysis, which generating and running do not import.
+    from vicode.check import decisions, values  # noqa: PLC0415
 
-    return (*DESIGN_WARNINGS, *decisions.WARNINGS)
+    return (*DESIGN_WARNINGS, *decisions.WARNINGS, *values.WARNINGS)
 
 
 def _xabsl_rules() -> tuple[tuple[Callable[[Project], Iterator[Finding]], ...], tuple[DesignRule, ...]]:

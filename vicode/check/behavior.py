@@ -3,26 +3,55 @@ that no agent activates.
 """
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from vicode.analysis.alternation import Alternation
+from vicode.analysis.examples import describe_value
 from vicode.analysis.projects import ProjectAnalysis
+from vicode.check import check_project
 from vicode.check.properties import find_broken_properties
-from vicode.findings import Finding, FindingSubject, Note, get_rule
+from vicode.findings import Finding, FindingSubject, Note, Severity, get_rule
 from vicode.model.design import Design
 from vicode.model.project import Project
 
 _MOST_INPUTS = 6
+_INACTIVE = ("P214", "D421")
+
+
+def check_behavior(
+    project: Project, components: Collection[str] | None = None, *, are_names_xabsl: bool = False
+) -> tuple[Finding, ...]:
+    """The findings of all rules; those about designs and states that are never active say so.
+
+    With `are_names_xabsl`, messages contain the names that an imported behavior has in XABSL.
+    """
+    analysis = ProjectAnalysis(project)
+    deep = find_behavior(project, components, are_names_xabsl=are_names_xabsl, analysis=analysis)
+    return tuple(_mark_inactive(analysis, each) for each in (*check_project(project, components), *deep))
+
+
+def _mark_inactive(analysis: ProjectAnalysis, finding: Finding) -> Finding:
+    component, path = (finding.subject.component, finding.subject.path) if finding.subject else ("", ())
+    # An error prevents code generation, and two rules say so themselves.
+    if component not in analysis.machines or finding.severity is Severity.ERROR or finding.rule.code in _INACTIVE:
+        return finding
+    is_reachable = path[0:1] != ("states",) or path[1] in analysis.machines[component].reachable
+    is_active = component in analysis.active and is_reachable
+    return finding if is_active else replace(finding, message=f"{finding.message} (never active)")
 
 
 def find_behavior(
-    project: Project, components: Collection[str] | None = None, *, are_names_xabsl: bool = False
+    project: Project,
+    components: Collection[str] | None = None,
+    *,
+    are_names_xabsl: bool = False,
+    analysis: ProjectAnalysis | None = None,
 ) -> tuple[Finding, ...]:
     """D435, D441, D442 and P214 for all designs, or those of `components`.
 
     With `are_names_xabsl`, messages contain the names that an imported behavior has in XABSL.
     """
-    analysis = ProjectAnalysis(project)
+    analysis = analysis or ProjectAnalysis(project)
     names = _Names(project, are_xabsl=are_names_xabsl)
     designs = (each for each in project.designs if components is None or each.component in components)
     found: list[Finding] = []
@@ -88,5 +117,5 @@ def _describe_inputs(alternation: Alternation, names: _Names) -> Iterator[str]:
     """The inputs that were set last, when the states began to alternate."""
     set_last = next((step.inputs for step in reversed(alternation.steps) if step.inputs), {})
     for (component, name), value in set_last.items():
-        shown = f"{value:g}" if isinstance(value, float) else str(value)
-        yield f"{names.input(component, name)} = {shown.rpartition('.')[2] if isinstance(value, str) else shown}"
+        shown = value.rpartition(".")[2] if isinstance(value, str) else value
+        yield f"{names.input(component, name)} = {describe_value(shown)}"

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from vicode.check.context import RuleContext
-from vicode.check.typed_expressions import literal_value
 from vicode.findings import DesignPath, Finding, did_you_mean
 from vicode.model.design import Assign, Declaration
 from vicode.model.expressions import BOOL, FLOAT, INT, UNKNOWN, Scope
@@ -53,45 +52,45 @@ def validate_declaration(
         yield from validate_declaration(argument, (*path, "arguments", argument.name), scope)
 
 
-def find_out_of_range_values(context: RuleContext) -> Iterator[Finding]:
-    """D427: a literal outside the declared range."""
-    for expression in context.expressions:
-        receiver = expression.receiver
-        if receiver is None or receiver.range is None or not expression.is_sound or expression.tree is None:
-            continue
-        message = validate_range(receiver, literal_value(expression.tree, context.scope))
-        if message:
-            fix = "change the value or the range"
-            yield context.make_finding("D427", expression.path, message, fix, span=expression.tree.span)
-
-
-def validate_range(declaration: Declaration, value: float | None) -> str:
-    """Return a message if a value is outside the range of a declaration, otherwise an empty string."""
-    if value is None or declaration.range is None:
+def validate_range(declaration: Declaration, least: float | None, greatest: float | None = None) -> str:
+    """Return a message if a value, or each value between two, is outside the range of a declaration, otherwise ""."""
+    greatest = least if greatest is None else greatest
+    if least is None or greatest is None or declaration.range is None:
         return ""
     low, high = declaration.range
-    if low <= value <= high or not low <= high:
+    if not low <= high or (least <= high and low <= greatest):
         return ""
+    value = f"{least:g}" if least == greatest else f"a value from {least:g} to {greatest:g}"
     unit = f" {declaration.unit}" if declaration.unit else ""
-    return f"{value:g} is outside the range of '{declaration.name}' ({low:g} to {high:g}{unit})"
+    return f"{value} is outside the range of '{declaration.name}' ({low:g} to {high:g}{unit})"
 
 
 def find_unused_declarations(context: RuleContext) -> Iterator[Finding]:
-    """D424: parameters that are never read, variables and outputs that are neither read nor set."""
-    used = context.code_identifiers.union(*(expression.analysis.names for expression in context.expressions))
-    assigned = {
-        name for placed in context.actions if isinstance(placed.action, Assign) for name, _text in placed.action.values
-    }
+    """D424, D444, D445: declarations that are never read or never set; hand-written code does both to all it names."""
+    read = context.code_identifiers.union(*(expression.analysis.names for expression in context.expressions))
+    assigned = find_set_names(context)
     for section, declaration in context.design.declarations():
-        name = declaration.name
-        if section == "parameters" and name not in used:
-            message = f"parameter '{name}' is never read"
-        elif section != "parameters" and name not in used and name not in assigned:
-            message = f"{section.removesuffix('s')} '{name}' is neither read nor set"
-        else:
-            continue
-        yield context.make_finding("D424", (section, name), message, "use it or delete it", is_key=True)
+        name, kind = declaration.name, section.removesuffix("s")
+        code, problem, fix = "D424", "", "use it or delete it"
+        if kind == "parameter":
+            problem = "" if name in read else "never read"
+        elif name not in read and name not in assigned:
+            problem = "neither read nor set"
+        elif name not in assigned:
+            code, problem, fix = "D444", "never set: it keeps its initial value", "set it, or use a constant"
+        elif kind == "variable" and name not in read:
+            code, problem, fix = "D445", "set but never read", "read it, make it an output, or delete it"
+        if problem:
+            yield context.make_finding(code, (section, name), f"{kind} '{name}' is {problem}", fix, is_key=True)
+
+
+def find_set_names(context: RuleContext) -> frozenset[str]:
+    """The names that actions set, and all that hand-written code contains."""
+    actions = (placed.action for placed in context.actions)
+    return context.code_identifiers.union(
+        name for action in actions if isinstance(action, Assign) for name, _text in action.values
+    )
 
 
 RULES = (find_bad_declarations, find_bad_frequency)
-WARNINGS = (find_out_of_range_values, find_unused_declarations)
+WARNINGS = (find_unused_declarations,)

@@ -1,7 +1,7 @@
 """Graphs of the components of a project: which component uses or steps which."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -57,14 +57,32 @@ class ComponentGraph:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComponentGraphs:
-    """Components as nodes; the edges of a design lead to the components it uses or steps."""
+    """Components as nodes; the edges of a design lead to the components it uses or steps.
+
+    `together` are the components that each state of a design steps, with the design; "" for the roots of agents.
+    """
 
     uses: ComponentGraph
     steps: ComponentGraph
+    together: tuple[tuple[str, frozenset[str]], ...]
+    _stepped_with: dict[str, frozenset[str]] = field(default_factory=dict)
 
     def transitive_steps(self, component: str) -> set[str]:
         """Return all components that stepping a component may step, without the component itself."""
         return self.steps.descendants(component)
+
+    def stepped_with(self, component: str) -> frozenset[str]:
+        """Return the components that are stepped whenever a design steps a component, in whichever state."""
+        if self.is_in_cycle(component):
+            return frozenset()
+        if component not in self._stepped_with:
+            found = []
+            for caller, stepped in self.together:
+                if component in stepped:
+                    others = stepped - {component}
+                    found.append(others.union(self.stepped_with(caller), *map(self.transitive_steps, others)))
+            self._stepped_with[component] = frozenset.intersection(*found) if found else frozenset()
+        return self._stepped_with[component]
 
     def is_in_cycle(self, component: str) -> bool:
         """Whether stepping a component may step it again, which is reported as a cycle."""
@@ -95,7 +113,17 @@ def build_graphs(project: Project) -> ComponentGraphs:
                 for name, design in designs.items()
             }
         ),
+        together=(
+            *(("", frozenset({agent.root})) for agent in project.agents),
+            *((name, stepped) for name, design in designs.items() for stepped in _steps_by_state(design)),
+        ),
     )
+
+
+def _steps_by_state(design: Design) -> Iterator[frozenset[str]]:
+    steps = tuple(iter_steps(design))
+    for state in (state for state in design.states if not state.disabled):
+        yield frozenset(step.component for step in steps if step.state in (state.name, COMMON))
 
 
 def iter_steps(design: Design) -> Iterator[StepSite]:

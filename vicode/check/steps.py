@@ -100,13 +100,15 @@ def _has_frequency(context: RuleContext, component: str) -> bool:
 def find_unstepped_reads(context: RuleContext) -> Iterator[Finding]:
     """D426: an output that is read in a state in which nothing steps its component.
 
-    Only the states count in which neither the state, the common actions, code nor a stepped component steps it.
+    Only the states count in which neither the state, the common actions, code nor a stepped component steps it, unless
+    all callers do.
     """
     own: dict[str, set[str]] = {}
     for step in context.steps:
         own.setdefault(step.state, set()).add(step.component)
     somewhere = set().union(*own.values())
-    always = own.pop(COMMON, set()) | _stepped_by_code(context)
+    with_it = context.graphs.stepped_with(context.design.component)
+    always = own.pop(COMMON, set()) | _stepped_by_code(context) | with_it
     stepped = {
         state.name: _with_descendants(context, always | own.get(state.name, set()))
         for state in context.design.states

@@ -2,9 +2,11 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import groupby, islice
 
+from vicode.analysis.examples import describe_value
 from vicode.analysis.machines import MachineAnalysis
+from vicode.analysis.overlaps import find_overlaps
 from vicode.analysis.properties import PropertyAnalysis
 from vicode.check.properties import describe_judgement
 from vicode.docsite.decisions import CodeLinks, code_blocks, numbered_decisions, pseudocode_lines, transition_rows
@@ -30,6 +32,7 @@ from vicode.model.design import COMMON, Action, Assign, Call, Design, RunCode, S
 from vicode.model.words import describe_fields, describe_property
 
 _PHASES = {"enter": "On entry", "actions": "In each iteration", "leave": "On exit"}
+_MOST_DECISIONS, _MOST_OVERLAPS = 12, 3
 _SHOWN = (
     *("component", "doc", "xabsl_name", "frequency_hz", "resume", "arithmetic", "time_unit", "initial"),
     *("color", "requires"),
@@ -161,6 +164,7 @@ def _state_facts(machine: MachineAnalysis, state: State, linker: NameLinker) -> 
     if design.common.transitions:
         yield "Tested first", (TextSpan(text="common transitions", href="#common"),)
     yield from _times(state, machine, linker)
+    yield "Can hold together", _overlaps(state, machine, linker)
     yield "Requires", join_spans(linker.alias(alias) for alias in state.requires)
 
 
@@ -176,6 +180,25 @@ def _times(state: State, machine: MachineAnalysis, linker: NameLinker) -> Iterat
         yield "Lasts", (TextSpan(text="one iteration"),)
     elif time.at_most_ns is not None:
         yield "Lasts at most", linker.duration(f"{time.at_most_ns / ns_per_unit:.6g}")
+
+
+def _overlaps(state: State, machine: MachineAnalysis, linker: NameLinker) -> RichText:
+    """Guards that can hold together, if they are few; the first one of a pair is taken."""
+    if state.disabled or len(state.transitions) > _MOST_DECISIONS:
+        return ()
+    found = tuple(islice(find_overlaps(machine.guards, state.name), _MOST_OVERLAPS + 1))
+    if not 0 < len(found) <= _MOST_OVERLAPS:
+        return ()
+    orders = {located.path: str(order) for order, located in numbered_decisions(machine.design)}
+    parts: list[TextSpan] = []
+    for first, second, example in found:
+        links = [TextSpan(text=orders[path], href=f"#{path_anchor(path)}") for path in (first, second)]
+        parts += [TextSpan(text="; ")] if parts else []
+        parts += [links[0], TextSpan(text=" and "), links[1], TextSpan(text=", with ")]
+        for index, (name, value) in enumerate(example.items()):
+            parts += [TextSpan(text=", ")] if index else []
+            parts += [*linker.expression(name), TextSpan(text=f" = {describe_value(value)}")]
+    return (*parts, TextSpan(text=": the first one is taken"))
 
 
 def _numbered_links(found: Iterable[tuple[TextSpan, Sequence[TextSpan]]]) -> RichText:

@@ -119,6 +119,10 @@ _RECORDS = (
         Severity.WARNING,
         "property that is neither guaranteed nor broken by a run that was found",
     ),
+    ("D443", "division-by-zero", Severity.WARNING, "division by zero for values that the declarations allow"),
+    ("D444", "never-assigned", Severity.NOTE, "variable or output that is never set"),
+    ("D445", "never-read", Severity.NOTE, "variable that is set but never read"),
+    ("D446", "short-time", Severity.WARNING, "time in a state that is shorter than the period of the component"),
     # XABSL as a target language
     ("L701", "not-in-xabsl", Severity.ERROR, "feature that XABSL does not support"),
     ("L702", "other-result-in-xabsl", Severity.ERROR, "expression with a different result in XABSL"),

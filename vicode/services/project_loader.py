@@ -94,9 +94,9 @@ def _load_check(*, with_warnings: bool, deep: bool) -> "_Check":
     if not deep:
         return check_project
 
-    from vicode.check.behavior import find_behavior
+    from vicode.check.behavior import check_behavior
 
-    return lambda project, components: (*check_project(project, components), *find_behavior(project, components))
+    return check_behavior
 
 
 def _hint(paths: Sequence[str]) -> str:

@@ -3,14 +3,13 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from vicode.check import check_project
-from vicode.check.behavior import find_behavior
+from vicode.check.behavior import check_behavior
 from vicode.findings import DesignPath, Finding, FindingSubject, SourceLocation, sort_findings
 from vicode.importers import import_behavior
 from vicode.xabsl.compiler import CompileResult
 from vicode.xabsl.source_loader import ProgramSource
 
-_CODES = frozenset({"D423", "D433", "D434", "D435", "P214"})
+_CODES = frozenset({"D423", "D433", "D434", "D435", "D443", "P214"})
 """The rules that XABSL files do not have themselves."""
 
 
@@ -19,7 +18,7 @@ def find_in_behavior(source: ProgramSource, compiled: CompileResult) -> tuple[Fi
     if compiled.program is None:
         return ()
     imported = import_behavior(source, compiled, "behavior")
-    found = (*check_project(imported.project), *find_behavior(imported.project, are_names_xabsl=True))
+    found = check_behavior(imported.project, are_names_xabsl=True)
     places = {
         made.component: {path: source.files[made.file].tokens.location(token) for token, path in reversed(made.anchors)}
         for made in imported.designs

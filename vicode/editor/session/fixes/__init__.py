@@ -42,7 +42,7 @@ UNFIXABLE: Mapping[str, str] = {
     "D432": "whether to rename the state or the method is not certain",
     "D425": "where to step the component is not certain",
     "D435": "which of the guards to change is not certain",
-    "P214": _AMBIGUOUS,
+    **dict.fromkeys(("P214", "D443", "D444", "D445", "D446"), _AMBIGUOUS),
     **dict.fromkeys(("G501", "G502", "G503", "G504", "G505", "G506"), "Generate shows and writes generated files"),
 }
 """The reason for every rule without a quick fix."""
