@@ -97,7 +97,7 @@ def compare(judged: Judgement, expected: PropertyVerdict) -> None:
     allowed = {
         PropertyVerdict.GUARANTEED: kept,
         PropertyVerdict.FAIR: kept[1:],
-        PropertyVerdict.FOUND: (PropertyVerdict.FOUND, PropertyVerdict.UNDECIDED),
+        PropertyVerdict.FOUND: (PropertyVerdict.FOUND, *kept[1:]),
         PropertyVerdict.FAILS: (PropertyVerdict.FAILS, PropertyVerdict.UNDECIDED),
     }
     assert judged.verdict in allowed[expected], judged

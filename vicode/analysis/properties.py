@@ -37,7 +37,9 @@ class PropertyVerdict(StrEnum):
     GUARANTEED = "guaranteed"
     """It holds for all inputs."""
     FAIR = "fair"
-    """It holds if each state that may be left is left at some time, and each transition that may be taken is taken."""
+    """It holds if each state that may be left is left at some time, and each transition that may be taken is taken; for
+    a way back, the guards always allow one.
+    """
     FOUND = "found"
     """The way back was replayed from each state."""
     FAILS = "fails"
@@ -250,13 +252,15 @@ class PropertyAnalysis:
         return Judgement(promised=promised, verdict=verdict, lasso=states, steps=steps)
 
     def _judge_recovery(self, promised: RecoveryProperty) -> Judgement:
-        goal, verdict = promised.can_reach, PropertyVerdict.UNDECIDED
+        goal, verdict = promised.can_reach, PropertyVerdict.FAIR
         lost = sorted(name for name in self._machine.reachable if name != goal and not self._leads_to(name, goal))
         for name in lost:
             steps = self._search.go_to(name, hold_ns=self._time_to_lose(name, goal))
             if steps:
                 return Judgement(promised=promised, verdict=PropertyVerdict.FAILS, lasso=(name,), steps=steps)
-        if not lost and all(self._has_way_back(name, goal) for name in self._machine.reachable):
+        if lost:
+            verdict = PropertyVerdict.UNDECIDED
+        elif all(self._has_way_back(name, goal) for name in self._machine.reachable):
             verdict = PropertyVerdict.FOUND
         return Judgement(promised=promised, verdict=verdict, lasso=tuple(lost[:1]))
 

@@ -34,6 +34,8 @@ def describe_judgement(judged: Judgement) -> str:
             return f"guaranteed, after at most {judged.at_most_ns / 1e9:g} s"
         case PropertyVerdict.GUARANTEED:
             return "guaranteed"
+        case PropertyVerdict.FAIR if not judged.lasso:
+            return "the guards always allow a way"
         case PropertyVerdict.FAIR:
             return f"if the robot does not remain for ever in: {' → '.join(judged.lasso)}"
         case PropertyVerdict.FOUND:
