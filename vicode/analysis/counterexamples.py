@@ -15,7 +15,7 @@ from vicode.model.project import Project
 from vicode.semantics import NotInterpretableError
 
 _Way = Sequence[LiveTransition]
-_MOST_HELD = 5_000
+_MOST_HELD, _MOST_STEPS = 5_000, 20_000
 _RANDOM_RUNS, _RANDOM_STEPS = 8, 50
 
 
@@ -67,9 +67,23 @@ class CounterexampleSearch:
             return ()
         try:
             walk = Walk(self._project, self._machine)
-            return tuple(walk.steps) if search(walk) else ()
+            return self._fill(self._project, walk.steps) if search(walk) else ()
         except NotInterpretableError:
             return ()
+
+    def _fill(self, project: Project, steps: Sequence[WalkStep]) -> tuple[WalkStep, ...]:
+        """The run with an iteration in each period; none if that is another run."""
+        walk, state = Walk(project, self._machine), self._design.initial
+        for step in steps:
+            while walk.steps and walk.steps[-1].time_ns + walk.tick_ns < step.time_ns:
+                walk.step({}, walk.steps[-1].time_ns + walk.tick_ns)
+                if walk.state != state or len(walk.steps) > _MOST_STEPS:
+                    return ()
+            walk.step(step.inputs, step.time_ns)
+            state = walk.state
+            if state != step.state:
+                return ()
+        return tuple(walk.steps)
 
     def _wander(self, walk: Walk, *, condition: str, generator: random.Random) -> bool:
         """Take random transitions until a condition is false."""
