@@ -1,0 +1,180 @@
+"""What a team can do: where robots wait forever, and how often each step can be taken.
+
+The search explores one stubborn set of each configuration. From a strongly connected component that nothing leaves, it
+explores what is enabled and not taken in it, until nothing is: then each step is taken in every order of the others in
+which it can be. Hence the search finds all deadlocks, each way for robots to wait forever while others go on, and the
+liveness levels of all steps (A. Valmari, *Stop it, and be stubborn!*, 2015).
+"""
+
+from collections import deque
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from enum import IntEnum
+from functools import cached_property
+
+from vicode.analysis.products import Configuration, Place, Product, Step
+
+
+class Liveness(IntEnum):
+    """How often a step can be taken, in the terms of Petri nets; L2 and L3 are the same in a finite product."""
+
+    L0 = 0
+    """never"""
+    L1 = 1
+    """at some time"""
+    L3 = 3
+    """again and again"""
+    L4 = 4
+    """again, whatever was done before"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Waiting:
+    """Robots wait forever.
+
+    Attributes:
+        at: The states of the robots, in their order.
+        waiting: The local state of those that wait.
+        component: The component that waits.
+        place: What it cannot enter.
+        run: The steps that lead there; the shortest ones if no robot can move on.
+    """
+
+    at: tuple[int, ...]
+    waiting: int
+    component: str
+    place: Place
+    run: tuple[int, ...]
+
+
+class TooManyConfigurationsError(Exception):
+    """The search was ended: nothing is known of the team."""
+
+
+class TeamSearch:
+    """The configurations that a team can reach, reduced.
+
+    Args:
+        product: The team.
+        limit: The number of configurations.
+
+    Raises:
+        TooManyConfigurationsError: There are more.
+    """
+
+    def __init__(self, product: Product, limit: int) -> None:
+        self.product = product
+        self._limit = limit
+        start = tuple(sorted(product.start))
+        self._before: dict[Configuration, tuple[Configuration, int] | None] = {start: None}
+        self.edges: dict[Configuration, dict[int, Configuration]] = {start: {}}
+        self._explore(start, product.find_stubborn(start, product.list_enabled(start)))
+        while ignored := list(self._find_ignored()):
+            for at, number in ignored:
+                self._explore(at, product.find_stubborn(at, (number,)))
+
+    def find_waiting(self) -> Iterator[Waiting]:
+        """Yield where robots wait forever, nearest to the start first."""
+        order = {at: index for index, at in enumerate(self._before)}
+        for component in sorted(self._final_components, key=lambda each: min(map(order.__getitem__, each))):
+            at = min(component, key=order.__getitem__)
+            run, robots = self._find_run(at), self.product.start
+            for number in run:
+                robots = self.product.take(number, robots)
+            taken = [self.product.steps[number] for number in self._taken_in(component)]
+            for state in dict.fromkeys(robots):
+                for name in self.product.states[state]:
+                    for place in self._find_blocked(state, name, taken):
+                        yield Waiting(at=robots, waiting=state, component=name, place=place, run=run)
+
+    @cached_property
+    def levels(self) -> Mapping[int, Liveness]:
+        """The level of each step."""
+        levels = dict.fromkeys(range(len(self.product.steps)), Liveness.L0)
+        for component in self._components:
+            for at in component:
+                for number, after in self.edges[at].items():
+                    levels[number] = max(levels[number], Liveness.L3 if after in component else Liveness.L1)
+        always = set.intersection(*(self._taken_in(each) for each in self._final_components))
+        return levels | dict.fromkeys(always, Liveness.L4)
+
+    def _explore(self, at: Configuration, numbers: Collection[int]) -> None:
+        pending = deque([(at, numbers)])
+        while pending:
+            at, numbers = pending.popleft()
+            for number in numbers:
+                after = tuple(sorted(self.product.take(number, at)))
+                self.edges[at][number] = after
+                if after not in self._before:
+                    if len(self._before) >= self._limit:
+                        raise TooManyConfigurationsError
+                    self._before[after] = (at, number)
+                    self.edges[after] = {}
+                    pending.append((after, self.product.find_stubborn(after, self.product.list_enabled(after))))
+
+    def _find_ignored(self) -> Iterator[tuple[Configuration, int]]:
+        """A step that is enabled but never taken, for each strongly connected component that nothing leaves."""
+        self._components = tuple(find_components(self.edges))
+        final = (each for each in self._components if all(to in each for at in each for to in self.edges[at].values()))
+        self._final_components = tuple(final)
+        for component in self._final_components:
+            # What is never taken commutes with all that is, so it is enabled in each configuration.
+            at = next(iter(component))
+            ignored = set(self.product.list_enabled(at)) - self._taken_in(component)
+            if ignored:
+                yield at, min(ignored)
+
+    def _taken_in(self, component: Collection[Configuration]) -> set[int]:
+        return set().union(*(self.edges[at] for at in component))
+
+    def _find_blocked(self, state: int, name: str, taken: Collection[Step]) -> Iterable[Place]:
+        """What a component of a robot waits to enter, if it keeps its state whatever is taken again and again."""
+        states, steps = self.product.states, self.product.steps
+        pending, seen = [state], {state}
+        while pending:
+            source = pending.pop()
+            targets = {step.moves[source].target for step in taken if source in step.moves} - seen
+            if any(states[each].get(name) != states[state][name] for each in targets):
+                return ()
+            pending += targets
+            seen |= targets
+        places = (steps[number].place for each in sorted(seen) for number in sorted(self.product.leaving[each]))
+        return dict.fromkeys(place for place in places if place[0] == name)
+
+    def _find_run(self, at: Configuration) -> tuple[int, ...]:
+        run: list[int] = []
+        while before := self._before[at]:
+            at, number = before
+            run.append(number)
+        return tuple(reversed(run))
+
+
+def find_components(edges: Mapping[Configuration, Mapping[int, Configuration]]) -> Iterator[frozenset[Configuration]]:
+    """Yield the strongly connected components of a graph (R. Tarjan, 1972)."""
+    order: dict[Configuration, int] = {}
+    lowest: dict[Configuration, int] = {}
+    remaining: dict[Configuration, Iterator[Configuration]] = {}
+    opened: dict[Configuration, None] = {}
+    for root in edges:
+        path = [] if root in order else [root]
+        while path:
+            node = path[-1]
+            if node not in order:
+                order[node] = lowest[node] = len(order)
+                opened[node] = None
+                remaining[node] = iter(edges[node].values())
+            for after in remaining[node]:
+                if after not in order:
+                    path.append(after)
+                    break
+                if after in opened:
+                    lowest[node] = min(lowest[node], order[after])
+            else:
+                path.pop()
+                if path:
+                    lowest[path[-1]] = min(lowest[path[-1]], lowest[node])
+                if lowest[node] == order[node]:
+                    component: set[Configuration] = set()
+                    while node not in component:
+                        component.add(opened.popitem()[0])
+                    yield frozenset(component)
