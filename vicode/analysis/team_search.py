@@ -10,13 +10,12 @@ from collections import deque
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
-from functools import cached_property
 
 from vicode.analysis.products import Configuration, Place, Product, Step
 
 
 class Liveness(IntEnum):
-    """How often a step can be taken, in the terms of Petri nets; L2 and L3 are the same in a finite product."""
+    """How often steps can be taken, in the terms of Petri nets; L2 and L3 are the same in a finite product."""
 
     L0 = 0
     """never"""
@@ -87,16 +86,16 @@ class TeamSearch:
                     for place in self._find_blocked(state, name, taken):
                         yield Waiting(at=robots, waiting=state, component=name, place=place, run=run)
 
-    @cached_property
-    def levels(self) -> Mapping[int, Liveness]:
-        """The level of each step."""
-        levels = dict.fromkeys(range(len(self.product.steps)), Liveness.L0)
+    def find_level(self, numbers: Collection[int]) -> Liveness:
+        """The level of some steps of which one is taken."""
+        level = Liveness.L0
         for component in self._components:
-            for at in component:
-                for number, after in self.edges[at].items():
-                    levels[number] = max(levels[number], Liveness.L3 if after in component else Liveness.L1)
-        always = set.intersection(*(self._taken_in(each) for each in self._final_components))
-        return levels | dict.fromkeys(always, Liveness.L4)
+            for each in component:
+                for number, after in self.edges[each].items():
+                    if number in numbers:
+                        level = max(level, Liveness.L3 if after in component else Liveness.L1)
+        is_always = all(self._taken_in(each).intersection(numbers) for each in self._final_components)
+        return Liveness.L4 if is_always else level
 
     def _explore(self, at: Configuration, numbers: Collection[int]) -> None:
         pending = deque([(at, numbers)])
