@@ -141,11 +141,7 @@ def test_the_reduced_search_finds_what_the_full_one_finds(part: int) -> None:
         deadlocks = {named(product, at) for at, edges in search.edges.items() if not edges}
         assert deadlocks == set(full.deadlocks()), seed
         waiting = list(search.find_waiting())
-        found = {
-            (dict(enumerate(named(product, (each.waiting,))))[0][0], each.component, state)
-            for each in waiting
-            if (state := product.states[each.waiting][each.component])
-        }
+        found = {(named(product, (each.waiting,))[0][0], *each.source) for each in waiting}
         assert found == full.waiting(), seed
         for each in waiting:
             if named(product, each.at) in deadlocks:

@@ -34,14 +34,14 @@ class Waiting:
     Attributes:
         at: The states of the robots, in their order.
         waiting: The local state of those that wait.
-        component: The component that waits.
+        source: The component that waits, and its state.
         place: What it cannot enter.
         run: The steps that lead there; the shortest ones if no robot can move on.
     """
 
     at: tuple[int, ...]
     waiting: int
-    component: str
+    source: Place
     place: Place
     run: tuple[int, ...]
 
@@ -82,9 +82,9 @@ class TeamSearch:
                 robots = self.product.take(number, robots)
             taken = [self.product.steps[number] for number in self._taken_in(component)]
             for state in dict.fromkeys(robots):
-                for name in self.product.states[state]:
-                    for place in self._find_blocked(state, name, taken):
-                        yield Waiting(at=robots, waiting=state, component=name, place=place, run=run)
+                for source in self.product.states[state].items():
+                    for place in self._find_blocked(state, source[0], taken):
+                        yield Waiting(at=robots, waiting=state, source=source, place=place, run=run)
 
     def find_level(self, numbers: Collection[int]) -> Liveness:
         """The level of some steps of which one is taken."""

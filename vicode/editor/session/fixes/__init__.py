@@ -43,6 +43,8 @@ UNFIXABLE: Mapping[str, str] = {
     "D425": "where to step the component is not certain",
     "D435": "which of the guards to change is not certain",
     "P214": _AMBIGUOUS,
+    "P215": "there is nothing wrong in the designs",
+    **dict.fromkeys(("D436", "D437"), "which robot should act differently is not certain"),
     **dict.fromkeys(("G501", "G502", "G503", "G504", "G505", "G506"), "Generate shows and writes generated files"),
 }
 """The reason for every rule without a quick fix."""
