@@ -89,8 +89,8 @@ class Product:
             self.states += machine.states
         self.robots = tuple(robots)
         self.start = tuple(offsets[machine] for machine in robots)
-        self._occupying = {place: self._find_states(*place) for place in places}
-        self._near = {place: self._find_states(place[0]) for place in places}
+        self._occupying = {place: self.find_states(*place) for place in places}
+        self._near = {place: self.find_states(place[0]) for place in places}
         self.steps = tuple(self._list_steps(offsets, places))
         self.leaving: dict[int, set[int]] = {each: set() for each in range(len(self.states))}
         self._entering: dict[int, set[int]] = {each: set() for each in range(len(self.states))}
@@ -104,6 +104,14 @@ class Product:
         barriers = (number for number, step in enumerate(self.steps) if step.is_barrier)
         self._changing = {number: self._find_changing(self.steps[number]) for number in barriers}
         self._find_conflicts = cache(self._list_conflicts)
+
+    def find_states(self, component: str, name: str = "") -> frozenset[int]:
+        """The states in which a component is active, or is in one of its states."""
+        return frozenset(
+            number
+            for number, active in enumerate(self.states)
+            if component in active and name in ("", active[component])
+        )
 
     def is_enabled(self, number: int, at: Configuration) -> bool:
         """Whether a step can be taken."""
@@ -193,13 +201,6 @@ class Product:
         """The steps that change whether a robot counts at a barrier, is ready, or has entered."""
         counted = (self._near[barrier.place], self._occupying[barrier.place], frozenset(barrier.moves))
         return set().union(*(self._find_crossing(each, into=into) for each in counted for into in (True, False)))
-
-    def _find_states(self, component: str, name: str = "") -> frozenset[int]:
-        return frozenset(
-            number
-            for number, active in enumerate(self.states)
-            if component in active and name in ("", active[component])
-        )
 
     def _list_steps(self, offsets: Mapping[Machine, int], places: Mapping[Place, Cooperation]) -> Iterator[Step]:
         together: dict[Place, dict[int, Move]] = {}

@@ -111,15 +111,14 @@ def _robots(numbers: Sequence[int]) -> str:
 
 def _report_waiting(waiting: Waiting, text: _TeamText, team: TeamAnalysis, path: DesignPath) -> Finding:
     cooperation = team.places[waiting.place]
-    limit = (
-        f"{cooperation.number} robots enter together" if cooperation.is_barrier else f"{cooperation.number} can be in"
-    )
+    limit, others = ("robots enter together", "come to it") if cooperation.is_barrier else ("can be in", "leave it")
     source, place = text.place(waiting.source), text.place(waiting.place)
     run = text.run(waiting.run)
     return Finding(
         rule=get_rule("D436"),
-        message=f"a robot can wait forever in {source} for {place}, which {limit}: {text.configuration(waiting.at)}",
-        fix=f"let the robots that wait leave {source}, or the others come to {place} or leave it",
+        message=f"a robot can wait forever in {source} for {place}, which {cooperation.number} {limit}: "
+        + text.configuration(waiting.at),
+        fix=f"add a transition out of {source}, or let the other robots {others}",
         subject=FindingSubject(component=waiting.place[0], path=path),
         notes=(Note(message=f"a run of {team.size} robots: {run}"),) if run else (),
     )
@@ -141,8 +140,8 @@ def _report_undecided(team: TeamAnalysis) -> Finding:
     component, name = next(iter(team.places))
     return Finding(
         rule=get_rule("P215"),
-        message=f"whether robots can wait forever for each other was not decided: teams of {team.size} robots have more "
-        f"than {MOST_CONFIGURATIONS:,} configurations",
+        message="whether robots can wait forever for each other was not decided: "
+        f"teams of {team.size} robots have more than {MOST_CONFIGURATIONS:,} configurations",
         fix="reduce the numbers of robots in `capacity` and `synchronized`, or search the model of "
         "`vicode export --format promela` with SPIN",
         subject=FindingSubject(component=component, path=("states", name)),
