@@ -93,17 +93,14 @@ class Product:
         self._near = {place: self.find_states(place[0]) for place in places}
         self.steps = tuple(self._list_steps(offsets, places))
         self.leaving: dict[int, set[int]] = {each: set() for each in range(len(self.states))}
-        self._entering: dict[int, set[int]] = {each: set() for each in range(len(self.states))}
         for number, step in enumerate(self.steps):
-            for move in step.moves.values():
-                self.leaving[move.source].add(number)
-                self._entering[move.target].add(number)
-        self._filling = {p: self._find_crossing(s, into=True) for p, s in self._occupying.items()}
-        self._freeing = {p: self._find_crossing(s, into=False) for p, s in self._occupying.items()}
-        self._approaching = {p: self._find_crossing(s, into=True) for p, s in self._near.items()}
+            for source in step.moves:
+                self.leaving[source].add(number)
+        self._filling = tuple(self._find_crossing(states, into=True) for states in self._occupying.values())
         barriers = (number for number, step in enumerate(self.steps) if step.is_barrier)
         self._changing = {number: self._find_changing(self.steps[number]) for number in barriers}
         self._find_conflicts = cache(self._list_conflicts)
+        self._find_leading = cache(self._list_leading)
 
     def find_states(self, component: str, name: str = "") -> frozenset[int]:
         """The states in which a component is active, or is in one of its states."""
@@ -139,49 +136,57 @@ class Product:
         return tuple(after)
 
     def find_stubborn(self, at: Configuration, seeds: Iterable[int]) -> list[int]:
-        """The enabled steps of the smallest stubborn set that contains one of the seeds."""
+        """The enabled steps of the smallest stubborn set that contains one of the seeds, which are enabled."""
         best: list[int] = []
-        for seed in seeds:
-            found = self._close(at, seed)
+        enabled = frozenset(self.list_enabled(at))
+        # All steps of a robot are in the same stubborn sets.
+        for seed in {next(iter(self.steps[each].moves)): each for each in seeds}.values():
+            found = self._close(at, seed, enabled)
             if not best or len(found) < len(best):
                 best = found
             if len(best) == 1:
                 break
         return best
 
-    def _close(self, at: Configuration, seed: int) -> list[int]:
-        closed, pending, enabled = {seed}, [seed], []
+    def _close(self, at: Configuration, seed: int, enabled: frozenset[int]) -> list[int]:
+        closed, pending = {seed}, [seed]
         while pending:
             number = pending.pop()
-            if self.is_enabled(number, at):
-                enabled.append(number)
-                more = self._find_conflicts(number)
-            else:
-                more = self._find_enabling(number, at)
+            more = self._find_conflicts(number) if number in enabled else self._find_enabling(number, at)
             pending += more - closed
             closed |= more
-        return enabled
+        return sorted(closed & enabled)
 
     def _list_conflicts(self, number: int) -> set[int]:
         """The steps that do not commute with a step, or of which one prevents the other."""
         found = set().union(*(self.leaving[source] for source in self.steps[number].moves))
         found |= self._changing.get(number, set())
         found.update(barrier for barrier, changing in self._changing.items() if number in changing)
-        return found.union(*(filling for filling in self._filling.values() if number in filling))
+        return found.union(*(filling for filling in self._filling if number in filling))
 
     def _find_enabling(self, number: int, at: Configuration) -> set[int]:
-        """Steps of which one has to be taken before a step that is not enabled."""
-        step = self.steps[number]
+        """Steps that are next for some robot, of which one has to be taken before a step that is not enabled."""
+        step, starts, goal = self.steps[number], set(at), frozenset(self.steps[number].moves)
+        inside = self._occupying.get(step.place, frozenset())
         if step.cooperation is not None and step.is_barrier:
-            near = [each for each in at if each in self._near[step.place]]
-            for each in near:
-                if each not in step.moves and each not in self._occupying[step.place]:
-                    return self.leaving[each]
-            if len(near) < step.cooperation.number:
-                return self._approaching[step.place]
-        elif any(source in at for source in step.moves):
-            return self._freeing[step.place]
-        return set().union(*(self._entering[source] for source in step.moves))
+            near = self._near[step.place]
+            for each in (starts & near) - inside - goal:
+                return self.leaving[each]
+            if sum(each in near for each in at) < step.cooperation.number:
+                starts, goal = starts - near, near
+        elif starts & goal:
+            return set().union(*(self.leaving[each] for each in starts & inside))
+        return self._find_leading(goal).intersection(set().union(*(self.leaving[each] for each in starts)))
+
+    def _list_leading(self, goal: frozenset[int]) -> set[int]:
+        """The steps with which a robot can get to one of some states, sooner or later."""
+        reached, leading = set(goal), set[int]()
+        while True:
+            found = {n for n, step in enumerate(self.steps) for move in step.moves.values() if move.target in reached}
+            if found == leading:
+                return found
+            leading = found
+            reached |= {source for n in found for source, move in self.steps[n].moves.items() if move.target in reached}
 
     def _has_room(self, step: Step, at: Configuration) -> bool:
         occupied = sum(each in self._occupying[step.place] for each in at) if step.cooperation else 0

@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
+from functools import cached_property
 
 from vicode.analysis.products import Configuration, Place, Product, Step
 
@@ -63,14 +64,10 @@ class TeamSearch:
 
     def __init__(self, product: Product, limit: int) -> None:
         self.product = product
-        self._limit = limit
-        start = tuple(sorted(product.start))
-        self._before: dict[Configuration, tuple[Configuration, int] | None] = {start: None}
-        self.edges: dict[Configuration, dict[int, Configuration]] = {start: {}}
-        self._explore(start, product.find_stubborn(start, product.list_enabled(start)))
-        while ignored := list(self._find_ignored()):
-            for at, number in ignored:
-                self._explore(at, product.find_stubborn(at, (number,)))
+        self.edges: dict[Configuration, dict[int, Configuration]] = {}
+        self._components: list[frozenset[Configuration]] = []
+        self._final_components: list[frozenset[Configuration]] = []
+        self._explore(tuple(sorted(product.start)), limit)
 
     def find_waiting(self) -> Iterator[Waiting]:
         """Yield where robots wait forever, nearest to the start first."""
@@ -97,31 +94,54 @@ class TeamSearch:
         is_always = all(self._taken_in(each).intersection(numbers) for each in self._final_components)
         return Liveness.L4 if is_always else level
 
-    def _explore(self, at: Configuration, numbers: Collection[int]) -> None:
-        pending = deque([(at, numbers)])
-        while pending:
-            at, numbers = pending.popleft()
-            for number in numbers:
-                after = tuple(sorted(self.product.take(number, at)))
-                self.edges[at][number] = after
-                if after not in self._before:
-                    if len(self._before) >= self._limit:
-                        raise TooManyConfigurationsError
-                    self._before[after] = (at, number)
-                    self.edges[after] = {}
-                    pending.append((after, self.product.find_stubborn(after, self.product.list_enabled(after))))
+    def _explore(self, start: Configuration, limit: int) -> None:
+        """Find the strongly connected components by R. Tarjan's search; extend those that nothing leaves."""
+        order: dict[Configuration, int] = {}
+        lowest: dict[Configuration, int] = {}
+        next_: dict[Configuration, list[int]] = {}
+        opened: list[Configuration] = []
+        place: dict[Configuration, int] = {}
+        closed: set[Configuration] = set()
+        path = [start]
+        while path:
+            at = path[-1]
+            if at not in order:
+                if len(order) == limit:
+                    raise TooManyConfigurationsError
+                order[at] = lowest[at] = len(order)
+                place[at] = len(opened)
+                opened.append(at)
+                self.edges[at] = {}
+                next_[at] = self.product.find_stubborn(at, self.product.list_enabled(at))
+            if next_[at]:
+                number = next_[at].pop()
+                after = self.edges[at][number] = tuple(sorted(self.product.take(number, at)))
+                if after not in order:
+                    path.append(after)
+                elif after not in closed:
+                    lowest[at] = min(lowest[at], order[after])
+                continue
+            if lowest[at] == order[at]:
+                component = frozenset(opened[place[at] :])
+                next_[at] = self._find_ignored(at, component)
+                if next_[at]:
+                    continue
+                del opened[-len(component) :]
+                closed |= component
+                self._components.append(component)
+            path.pop()
+            if path:
+                lowest[path[-1]] = min(lowest[path[-1]], lowest[at])
 
-    def _find_ignored(self) -> Iterator[tuple[Configuration, int]]:
-        """A step that is enabled but never taken, for each strongly connected component that nothing leaves."""
-        self._components = tuple(find_components(self.edges))
-        final = (each for each in self._components if all(to in each for at in each for to in self.edges[at].values()))
-        self._final_components = tuple(final)
-        for component in self._final_components:
-            # What is never taken commutes with all that is, so it is enabled in each configuration.
-            at = next(iter(component))
-            ignored = set(self.product.list_enabled(at)) - self._taken_in(component)
-            if ignored:
-                yield at, min(ignored)
+    def _find_ignored(self, at: Configuration, component: frozenset[Configuration]) -> list[int]:
+        """Steps that are enabled and never taken in a component, if nothing leaves it."""
+        if any(after not in component for each in component for after in self.edges[each].values()):
+            return []
+        # What is never taken commutes with all that is, so it is enabled in each configuration.
+        ignored = set(self.product.list_enabled(at)) - self._taken_in(component)
+        if not ignored:
+            self._final_components.append(component)
+        return self.product.find_stubborn(at, ignored)
 
     def _taken_in(self, component: Collection[Configuration]) -> set[int]:
         return set().union(*(self.edges[at] for at in component))
@@ -140,40 +160,23 @@ class TeamSearch:
         places = (steps[number].place for each in sorted(seen) for number in sorted(self.product.leaving[each]))
         return dict.fromkeys(place for place in places if place[0] == name)
 
+    @cached_property
+    def _before(self) -> Mapping[Configuration, tuple[Configuration, int] | None]:
+        """The configurations, nearest to the start first, each with the one before it and the step."""
+        start = next(iter(self.edges))
+        before: dict[Configuration, tuple[Configuration, int] | None] = {start: None}
+        pending = deque([start])
+        while pending:
+            at = pending.popleft()
+            for number, after in self.edges[at].items():
+                if after not in before:
+                    before[after] = (at, number)
+                    pending.append(after)
+        return before
+
     def _find_run(self, at: Configuration) -> tuple[int, ...]:
         run: list[int] = []
         while before := self._before[at]:
             at, number = before
             run.append(number)
         return tuple(reversed(run))
-
-
-def find_components(edges: Mapping[Configuration, Mapping[int, Configuration]]) -> Iterator[frozenset[Configuration]]:
-    """Yield the strongly connected components of a graph (R. Tarjan, 1972)."""
-    order: dict[Configuration, int] = {}
-    lowest: dict[Configuration, int] = {}
-    remaining: dict[Configuration, Iterator[Configuration]] = {}
-    opened: dict[Configuration, None] = {}
-    for root in edges:
-        path = [] if root in order else [root]
-        while path:
-            node = path[-1]
-            if node not in order:
-                order[node] = lowest[node] = len(order)
-                opened[node] = None
-                remaining[node] = iter(edges[node].values())
-            for after in remaining[node]:
-                if after not in order:
-                    path.append(after)
-                    break
-                if after in opened:
-                    lowest[node] = min(lowest[node], order[after])
-            else:
-                path.pop()
-                if path:
-                    lowest[path[-1]] = min(lowest[path[-1]], lowest[node])
-                if lowest[node] == order[node]:
-                    component: set[Configuration] = set()
-                    while node not in component:
-                        component.add(opened.popitem()[0])
-                    yield frozenset(component)
