@@ -20,7 +20,7 @@ from pathlib import Path
 from statistics import median
 
 from tests.analysis.random_teams import FullProduct, draw_product
-from vicode.analysis.products import Cooperation, Machine, Move, Place, Product
+from vicode.analysis.products import Cooperation, Machine, Place, Product
 from vicode.analysis.team_search import TeamSearch
 from vicode.diagram.promela import write_promela
 from vicode.model.design import Guard, Transition
@@ -120,18 +120,17 @@ def draw_robot(rng: random.Random, name: str, states: int, number: int) -> Machi
         source, target = rng.randrange(states), rng.randrange(states)
         if target not in doors:
             moves.add((source, target))
-    listed = [Move(source=a, target=b, component="Body", to=active[b]["Body"]) for a, b in sorted(moves) if a != b]
+    listed = {(a, ("Body", active[b]["Body"])): b for a, b in sorted(moves) if a != b}
     # An arm waits in a state of its own, and is lowered after the meeting.
     for partner in {number, (number - 1) % 4}:
         arm, at = f"Arm{partner}", rng.randrange(states)
         waiting, met = len(active), len(active) + 1
         active += [{"Body": f"w{partner}", arm: "wait"}, {"Body": f"w{partner}", arm: f"meet{partner}"}]
-        listed += [
-            Move(source=at, target=waiting, component="Body", to=f"w{partner}"),
-            Move(source=waiting, target=met, component=arm, to=f"meet{partner}"),
-            Move(source=met, target=(at + 1) % states, component="Body", to=active[(at + 1) % states]["Body"]),
-        ]
-    return Machine(name=name, states=tuple(active), moves=tuple(listed))
+        after = (at + 1) % states
+        listed[at, ("Body", f"w{partner}")] = waiting
+        listed[waiting, (arm, f"meet{partner}")] = met
+        listed[met, ("Body", active[after]["Body"])] = after
+    return Machine(name=name, states=tuple(active), moves=listed)
 
 
 def search_reduced(robots: list[Machine], places: Mapping[Place, Cooperation]) -> tuple[TeamSearch, float]:
@@ -166,16 +165,16 @@ def encode(robots: list[Machine], places: Mapping[Place, Cooperation]) -> str:
     lines = [f"byte at[{len(robots)}];"]
     for index, robot in enumerate(robots):
         lines += [f"active proctype robot{index}() {{ do"]
-        for move in robot.moves:
-            rule = places.get(move.place)
+        for (source, place), target in robot.moves.items():
+            rule = places.get(place)
             if rule is None or not rule.is_barrier:
-                room = f" && {count(move.place, is_near=False)} < {rule.number}" if rule else ""
-                lines.append(f":: atomic {{ at[{index}] == {move.source}{room} -> at[{index}] = {move.target} }}")
+                room = f" && {count(place, is_near=False)} < {rule.number}" if rule else ""
+                lines.append(f":: atomic {{ at[{index}] == {source}{room} -> at[{index}] = {target} }}")
         lines += [":: false od }"]
     for number, (place, rule) in enumerate(places.items()):
         if not rule.is_barrier:
             continue
-        ready = [{move.source: move.target for move in robot.moves if move.place == place} for robot in robots]
+        ready = [{a: b for (a, entered), b in robot.moves.items() if entered == place} for robot in robots]
         waiting = " + ".join(among(index, each) for index, each in enumerate(ready))
         inside, near = count(place, is_near=False), count(place, is_near=True)
         lines.append(

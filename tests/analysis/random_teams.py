@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 import networkx as nx
 
-from vicode.analysis.products import Cooperation, Machine, Move, Place
+from vicode.analysis.products import Cooperation, Machine, Place
 from vicode.analysis.team_search import Liveness
 
 COMPONENTS, NAMES = ("Body", "Arm"), ("a", "b", "c")
@@ -43,16 +43,20 @@ class FullProduct:
     def _successors(self, at: Robots) -> Iterator[tuple[Taken, Robots]]:
         active = self.active(at)
         moves = [
-            [move for move in robot.moves if move.source == state] for robot, state in zip(self.robots, at, strict=True)
+            [(place, target) for (source, place), target in robot.moves.items() if source == state]
+            for robot, state in zip(self.robots, at, strict=True)
         ]
-        for index, move in ((index, move) for index, of_robot in enumerate(moves) for move in of_robot):
-            rule = self.places.get(move.place)
-            inside = sum(each.get(move.component) == move.to for each in active)
+        for index, (place, target) in ((index, move) for index, of_robot in enumerate(moves) for move in of_robot):
+            rule = self.places.get(place)
+            inside = sum(each.get(place[0]) == place[1] for each in active)
             if rule is None or (not rule.is_barrier and inside < rule.number):
-                yield (self.robots[index].name, move.place), (*at[:index], move.target, *at[index + 1 :])
+                yield (self.robots[index].name, place), (*at[:index], target, *at[index + 1 :])
         for place, rule in self.places.items():
             ready = {
-                index: move.target for index, of_robot in enumerate(moves) for move in of_robot if move.place == place
+                index: target
+                for index, of_robot in enumerate(moves)
+                for entered, target in of_robot
+                if entered == place
             }
             near = [index for index, each in enumerate(active) if place[0] in each]
             is_met = all(index in ready or active[index][place[0]] == place[1] for index in near)
@@ -79,7 +83,7 @@ class FullProduct:
                 states = {at[index] for at in part}
                 for component in COMPONENTS:
                     kept = {robot.states[state].get(component) for state in states}
-                    wants = any(move.source in states and move.component == component for move in robot.moves)
+                    wants = any(source in states and place[0] == component for source, place in robot.moves)
                     if len(kept) == 1 and wants:
                         found.add((robot.name, component, str(kept.pop())))
         return found
@@ -98,15 +102,15 @@ def draw_machine(rng: random.Random, name: str, count: int) -> Machine:
     for _ in range(count):
         active = {component: rng.choice(NAMES) for component in COMPONENTS if rng.random() < 0.85}
         states.append(active or {"Body": "a"})
-    moves: dict[tuple[int, Place], Move] = {}
+    moves: dict[tuple[int, Place], int] = {}
     for _ in range(rng.randint(2 * count, 5 * count)):
         source, target = rng.randrange(count), rng.randrange(count)
         for component in COMPONENTS:
             old, new = states[source].get(component), states[target].get(component)
             if old and new and old != new:
-                moves[source, (component, new)] = Move(source=source, target=target, component=component, to=new)
+                moves[source, (component, new)] = target
                 break
-    return Machine(name=name, states=tuple(states), moves=tuple(moves.values()))
+    return Machine(name=name, states=tuple(states), moves=moves)
 
 
 def draw_product(rng: random.Random, sizes: range) -> tuple[list[Machine], dict[Place, Cooperation]]:

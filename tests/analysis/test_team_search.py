@@ -30,14 +30,14 @@ def test_the_reduced_search_finds_what_the_full_one_finds(part: int) -> None:
         deadlocks = {named(product, at) for at, edges in search.edges.items() if not edges}
         assert deadlocks == set(full.deadlocks()), seed
         waiting = list(search.find_waiting())
-        found = {(named(product, (each.waiting,))[0][0], *each.source) for each in waiting}
+        found = {(named(product, (each.state,))[0][0], *each.source) for each in waiting}
         assert found == full.waiting(), seed
         for each in waiting:
-            if named(product, each.at) in deadlocks:
-                assert len(each.run) == full.deadlocks()[named(product, each.at)], seed
+            if named(product, each.robots) in deadlocks:
+                assert len(each.run) == full.deadlocks()[named(product, each.robots)], seed
         steps: dict[Taken, set[int]] = {}
         for number, step in enumerate(product.steps):
-            machine = "" if step.is_barrier else named(product, tuple(step.moves))[0][0]
+            machine = "" if step.is_barrier else named(product, tuple(step.targets))[0][0]
             steps.setdefault((machine, step.place), set()).add(number)
         levels = {key: search.find_level(numbers) for key, numbers in steps.items()}
         assert {key: level for key, level in levels.items() if level} == full.levels(), seed

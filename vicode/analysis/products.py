@@ -25,52 +25,36 @@ class Cooperation:
     is_barrier: bool
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Move:
-    """A component of a robot changes to the state `to`; `source` and `target` number the states of the robot."""
-
-    source: int
-    target: int
-    component: str
-    to: str
-
-    @property
-    def place(self) -> Place:
-        return (self.component, self.to)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Machine:
     """The machine of a robot.
 
     Attributes:
-        name: The name of its agent.
+        name: The name of its root component.
         states: The active components with their states, for each state of the robot; the first is the initial one.
-        moves: All moves that can be taken, of which no two from the same source enter the same place.
+        moves: All moves that can be taken: the numbers of two states, by the number of the first and what is entered.
     """
 
     name: str
     states: tuple[Mapping[str, str], ...]
-    moves: tuple[Move, ...]
+    moves: Mapping[tuple[int, Place], int]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Step:
-    """Moves that are taken at the same time: one of a robot, or those of all robots that enter a state together.
+    """What one robot does, or what all robots do that enter a state together.
 
     Attributes:
-        moves: The moves by their sources, which number the states of all machines.
-        place: The state that is entered.
+        targets: The next state for each state of the robots.
+        place: What is entered.
         cooperation: What is required to enter it.
+        is_barrier: Whether all robots in one of the states do the step at once.
     """
 
-    moves: Mapping[int, Move]
+    targets: Mapping[int, int]
     place: Place
     cooperation: Cooperation | None
-
-    @property
-    def is_barrier(self) -> bool:
-        return self.cooperation is not None and self.cooperation.is_barrier
+    is_barrier: bool = False
 
 
 class Product:
@@ -89,135 +73,120 @@ class Product:
             self.states += machine.states
         self.robots = tuple(robots)
         self.start = tuple(offsets[machine] for machine in robots)
-        self._occupying = {place: self.find_states(*place) for place in places}
-        self._near = {place: self.find_states(place[0]) for place in places}
-        self.steps = tuple(self._list_steps(offsets, places))
+        self.steps = tuple(_list_steps(offsets, places))
         self.leaving: dict[int, set[int]] = {each: set() for each in range(len(self.states))}
         for number, step in enumerate(self.steps):
-            for source in step.moves:
+            for source in step.targets:
                 self.leaving[source].add(number)
-        self._filling = tuple(self._find_crossing(states, into=True) for states in self._occupying.values())
-        barriers = (number for number, step in enumerate(self.steps) if step.is_barrier)
-        self._changing = {number: self._find_changing(self.steps[number]) for number in barriers}
+        self._inside = {place: self.find_states(*place) for place in places}
+        self._near = {place: self.find_states(place[0]) for place in places}
+        self._filling = tuple(self._find_crossing(states, into=True) for states in self._inside.values())
+        self._changing = {
+            number: self._find_changing(step) for number, step in enumerate(self.steps) if step.is_barrier
+        }
         self._find_conflicts = cache(self._list_conflicts)
         self._find_leading = cache(self._list_leading)
 
     def find_states(self, component: str, name: str = "") -> frozenset[int]:
         """The states in which a component is active, or is in one of its states."""
-        return frozenset(
-            number
-            for number, active in enumerate(self.states)
-            if component in active and name in ("", active[component])
-        )
-
-    def is_enabled(self, number: int, at: Configuration) -> bool:
-        """Whether a step can be taken."""
-        step = self.steps[number]
-        if step.cooperation is None or not step.is_barrier:
-            return any(source in at for source in step.moves) and self._has_room(step, at)
-        near = [each for each in at if each in self._near[step.place]]
-        return (
-            len(near) >= step.cooperation.number
-            and any(each in step.moves for each in near)
-            and all(each in step.moves or each in self._occupying[step.place] for each in near)
-        )
+        active = ((number, each.get(component)) for number, each in enumerate(self.states))
+        return frozenset(number for number, state in active if state is not None and name in ("", state))
 
     def list_enabled(self, at: Configuration) -> list[int]:
         """All steps that can be taken."""
-        candidates = sorted(set().union(*(self.leaving[each] for each in at)))
-        return [number for number in candidates if self.is_enabled(number, at)]
+        candidates = set().union(*(self.leaving[each] for each in at))
+        return [number for number in sorted(candidates) if self._is_enabled(self.steps[number], at)]
 
     def take(self, number: int, at: Sequence[int]) -> tuple[int, ...]:
         """The states of the robots after a step, in the same order."""
         step, after = self.steps[number], list(at)
-        moving = [index for index, each in enumerate(at) if each in step.moves]
+        moving = [index for index, each in enumerate(at) if each in step.targets]
         for index in moving if step.is_barrier else moving[:1]:
-            after[index] = step.moves[at[index]].target
+            after[index] = step.targets[at[index]]
         return tuple(after)
 
     def find_stubborn(self, at: Configuration, seeds: Iterable[int]) -> list[int]:
         """The enabled steps of the smallest stubborn set that contains one of the seeds, which are enabled."""
-        best: list[int] = []
         enabled = frozenset(self.list_enabled(at))
         # All steps of a robot are in the same stubborn sets.
-        for seed in {next(iter(self.steps[each].moves)): each for each in seeds}.values():
-            found = self._close(at, seed, enabled)
-            if not best or len(found) < len(best):
-                best = found
-            if len(best) == 1:
-                break
-        return best
+        seeds = {next(iter(self.steps[each].targets)): each for each in seeds}.values()
+        return min((self._close(at, seed, enabled) for seed in seeds), key=len, default=[])
+
+    def _is_enabled(self, step: Step, at: Configuration) -> bool:
+        """Whether a step can be taken for which a robot is ready."""
+        if step.cooperation is None:
+            return True
+        inside, near = self._inside[step.place], self._near[step.place]
+        if not step.is_barrier:
+            return sum(each in inside for each in at) < step.cooperation.number
+        waiting = [each for each in at if each in near]
+        return len(waiting) >= step.cooperation.number and all(
+            each in step.targets or each in inside for each in waiting
+        )
 
     def _close(self, at: Configuration, seed: int, enabled: frozenset[int]) -> list[int]:
         closed, pending = {seed}, [seed]
         while pending:
             number = pending.pop()
-            more = self._find_conflicts(number) if number in enabled else self._find_enabling(number, at)
+            more = self._find_conflicts(number) if number in enabled else self._find_enabling(self.steps[number], at)
             pending += more - closed
             closed |= more
         return sorted(closed & enabled)
 
     def _list_conflicts(self, number: int) -> set[int]:
         """The steps that do not commute with a step, or of which one prevents the other."""
-        found = set().union(*(self.leaving[source] for source in self.steps[number].moves))
+        found = set().union(*(self.leaving[source] for source in self.steps[number].targets))
         found |= self._changing.get(number, set())
         found.update(barrier for barrier, changing in self._changing.items() if number in changing)
         return found.union(*(filling for filling in self._filling if number in filling))
 
-    def _find_enabling(self, number: int, at: Configuration) -> set[int]:
+    def _find_enabling(self, step: Step, at: Configuration) -> set[int]:
         """Steps that are next for some robot, of which one has to be taken before a step that is not enabled."""
-        step, starts, goal = self.steps[number], set(at), frozenset(self.steps[number].moves)
-        inside = self._occupying.get(step.place, frozenset())
-        if step.cooperation is not None and step.is_barrier:
-            near = self._near[step.place]
+        starts, goal = set(at), frozenset(step.targets)
+        if step.cooperation is not None and (step.is_barrier or starts & goal):
+            inside, near = self._inside[step.place], self._near[step.place]
+            if not step.is_barrier:
+                return set().union(*(self.leaving[each] for each in starts & inside))
             for each in (starts & near) - inside - goal:
                 return self.leaving[each]
             if sum(each in near for each in at) < step.cooperation.number:
                 starts, goal = starts - near, near
-        elif starts & goal:
-            return set().union(*(self.leaving[each] for each in starts & inside))
-        return self._find_leading(goal).intersection(set().union(*(self.leaving[each] for each in starts)))
+        return self._find_leading(goal) & set().union(*(self.leaving[each] for each in starts))
 
     def _list_leading(self, goal: frozenset[int]) -> set[int]:
         """The steps with which a robot can get to one of some states, sooner or later."""
-        reached, leading = set(goal), set[int]()
-        while True:
-            found = {n for n, step in enumerate(self.steps) for move in step.moves.values() if move.target in reached}
-            if found == leading:
-                return found
-            leading = found
-            reached |= {source for n in found for source, move in self.steps[n].moves.items() if move.target in reached}
-
-    def _has_room(self, step: Step, at: Configuration) -> bool:
-        occupied = sum(each in self._occupying[step.place] for each in at) if step.cooperation else 0
-        return step.cooperation is None or occupied < step.cooperation.number
+        pending, reached, leading = list(goal), set(goal), set[int]()
+        while pending:
+            found = self._find_crossing(frozenset((pending.pop(),)), into=True)
+            sources = {source for number in found for source in self.steps[number].targets}
+            leading |= found
+            pending += sources - reached
+            reached |= sources
+        return leading
 
     def _find_crossing(self, states: frozenset[int], *, into: bool) -> set[int]:
         """The steps by which a robot gets into some states, or out of them."""
         return {
             number
             for number, step in enumerate(self.steps)
-            if any(
-                (move.target in states) is into and (move.source in states) is not into for move in step.moves.values()
-            )
+            for source, target in step.targets.items()
+            if (target in states) is into and (source in states) is not into
         }
 
     def _find_changing(self, barrier: Step) -> set[int]:
         """The steps that change whether a robot counts at a barrier, is ready, or has entered."""
-        counted = (self._near[barrier.place], self._occupying[barrier.place], frozenset(barrier.moves))
+        counted = (self._near[barrier.place], self._inside[barrier.place], frozenset(barrier.targets))
         return set().union(*(self._find_crossing(each, into=into) for each in counted for into in (True, False)))
 
-    def _list_steps(self, offsets: Mapping[Machine, int], places: Mapping[Place, Cooperation]) -> Iterator[Step]:
-        together: dict[Place, dict[int, Move]] = {}
-        for machine, offset in offsets.items():
-            for each in machine.moves:
-                move = Move(
-                    source=each.source + offset, target=each.target + offset, component=each.component, to=each.to
-                )
-                cooperation = places.get(move.place)
-                if cooperation is not None and cooperation.is_barrier:
-                    together.setdefault(move.place, {})[move.source] = move
-                else:
-                    yield Step(moves={move.source: move}, place=move.place, cooperation=cooperation)
-        for place, moves in together.items():
-            yield Step(moves=moves, place=place, cooperation=places[place])
+
+def _list_steps(offsets: Mapping[Machine, int], places: Mapping[Place, Cooperation]) -> Iterator[Step]:
+    together: dict[Place, dict[int, int]] = {}
+    for machine, offset in offsets.items():
+        for (source, place), target in machine.moves.items():
+            cooperation = places.get(place)
+            if cooperation is not None and cooperation.is_barrier:
+                together.setdefault(place, {})[source + offset] = target + offset
+            else:
+                yield Step(targets={source + offset: target + offset}, place=place, cooperation=cooperation)
+    for place, targets in together.items():
+        yield Step(targets=targets, place=place, cooperation=places[place], is_barrier=True)

@@ -10,9 +10,8 @@ from collections import deque
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
-from functools import cached_property
 
-from vicode.analysis.products import Configuration, Place, Product, Step
+from vicode.analysis.products import Configuration, Place, Product
 
 
 class Liveness(IntEnum):
@@ -30,18 +29,18 @@ class Liveness(IntEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Waiting:
-    """Robots wait forever.
+    """A component of a robot waits forever.
 
     Attributes:
-        at: The states of the robots, in their order.
-        waiting: The local state of those that wait.
+        robots: The state of each robot.
+        state: The state of the robots that wait.
         source: The component that waits, and its state.
         place: What it cannot enter.
         run: The steps that lead there; the shortest ones if no robot can move on.
     """
 
-    at: tuple[int, ...]
-    waiting: int
+    robots: tuple[int, ...]
+    state: int
     source: Place
     place: Place
     run: tuple[int, ...]
@@ -71,17 +70,20 @@ class TeamSearch:
 
     def find_waiting(self) -> Iterator[Waiting]:
         """Yield where robots wait forever, nearest to the start first."""
-        order = {at: index for index, at in enumerate(self._before)}
-        for component in sorted(self._final_components, key=lambda each: min(map(order.__getitem__, each))):
-            at = min(component, key=order.__getitem__)
-            run, robots = self._find_run(at), self.product.start
+        final = {at: component for component in self._final_components for at in component}
+        found: set[frozenset[Configuration]] = set()
+        for at, run in self._find_runs().items():
+            component = final.get(at)
+            if component is None or component in found:
+                continue
+            found.add(component)
+            robots = self.product.start
             for number in run:
                 robots = self.product.take(number, robots)
-            taken = [self.product.steps[number] for number in self._taken_in(component)]
             for state in dict.fromkeys(robots):
                 for source in self.product.states[state].items():
-                    for place in self._find_blocked(state, source[0], taken):
-                        yield Waiting(at=robots, waiting=state, source=source, place=place, run=run)
+                    for place in self._find_blocked(state, source[0], component):
+                        yield Waiting(robots=robots, state=state, source=source, place=place, run=run)
 
     def find_level(self, numbers: Collection[int]) -> Liveness:
         """The level of some steps of which one is taken."""
@@ -99,6 +101,7 @@ class TeamSearch:
         order: dict[Configuration, int] = {}
         lowest: dict[Configuration, int] = {}
         next_: dict[Configuration, list[int]] = {}
+        # The configurations that are not yet in a component, with their places in it, and the others.
         opened: list[Configuration] = []
         place: dict[Configuration, int] = {}
         closed: set[Configuration] = set()
@@ -126,9 +129,9 @@ class TeamSearch:
                 next_[at] = self._find_ignored(at, component)
                 if next_[at]:
                     continue
-                del opened[-len(component) :]
-                closed |= component
                 self._components.append(component)
+                closed |= component
+                del opened[place[at] :]
             path.pop()
             if path:
                 lowest[path[-1]] = min(lowest[path[-1]], lowest[at])
@@ -146,13 +149,13 @@ class TeamSearch:
     def _taken_in(self, component: Collection[Configuration]) -> set[int]:
         return set().union(*(self.edges[at] for at in component))
 
-    def _find_blocked(self, state: int, name: str, taken: Collection[Step]) -> Iterable[Place]:
+    def _find_blocked(self, state: int, name: str, component: Collection[Configuration]) -> Iterable[Place]:
         """What a component of a robot waits to enter, if it keeps its state whatever is taken again and again."""
         states, steps = self.product.states, self.product.steps
-        pending, seen = [state], {state}
+        taken, pending, seen = self._taken_in(component), [state], {state}
         while pending:
             source = pending.pop()
-            targets = {step.moves[source].target for step in taken if source in step.moves} - seen
+            targets = {steps[number].targets[source] for number in self.product.leaving[source] & taken} - seen
             if any(states[each].get(name) != states[state][name] for each in targets):
                 return ()
             pending += targets
@@ -160,23 +163,15 @@ class TeamSearch:
         places = (steps[number].place for each in sorted(seen) for number in sorted(self.product.leaving[each]))
         return dict.fromkeys(place for place in places if place[0] == name)
 
-    @cached_property
-    def _before(self) -> Mapping[Configuration, tuple[Configuration, int] | None]:
-        """The configurations, nearest to the start first, each with the one before it and the step."""
+    def _find_runs(self) -> Mapping[Configuration, tuple[int, ...]]:
+        """The steps to each configuration, nearest to the start first."""
         start = next(iter(self.edges))
-        before: dict[Configuration, tuple[Configuration, int] | None] = {start: None}
+        runs: dict[Configuration, tuple[int, ...]] = {start: ()}
         pending = deque([start])
         while pending:
             at = pending.popleft()
             for number, after in self.edges[at].items():
-                if after not in before:
-                    before[after] = (at, number)
+                if after not in runs:
+                    runs[after] = (*runs[at], number)
                     pending.append(after)
-        return before
-
-    def _find_run(self, at: Configuration) -> tuple[int, ...]:
-        run: list[int] = []
-        while before := self._before[at]:
-            at, number = before
-            run.append(number)
-        return tuple(reversed(run))
+        return runs

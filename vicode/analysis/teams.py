@@ -8,12 +8,12 @@ Only components that have states which the robots coordinate are followed, and t
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import combinations_with_replacement
 
 from vicode.analysis.interval_diagrams import Node, TooLargeError
 from vicode.analysis.machines import LiveTransition, MachineAnalysis
-from vicode.analysis.products import Cooperation, Machine, Move, Place, Product
+from vicode.analysis.products import Cooperation, Machine, Place, Product
 from vicode.analysis.projects import ProjectAnalysis, list_called, list_stepped
 from vicode.analysis.team_search import Liveness, TeamSearch, TooManyConfigurationsError
 
@@ -40,7 +40,7 @@ class TeamAnalysis:
     def __init__(self, analysis: ProjectAnalysis, roots: Iterable[str] | None = None) -> None:
         self._analysis = analysis
         self._roots = tuple(dict.fromkeys(each for each in roots or analysis.roots if each in analysis.machines))
-        self._machines: dict[str, Machine] = {}
+        self._find_machine = cache(self._build_machine)
         self._answers: dict[tuple[str, Node, tuple[tuple[int, int], ...]], bool] = {}
 
     @cached_property
@@ -100,15 +100,10 @@ class TeamAnalysis:
             if all(count >= self.places[each].number for each, count in counts.items() if self.places[each].is_barrier):
                 yield team
 
-    def _find_machine(self, root: str) -> Machine:
-        if root not in self._machines:
-            self._machines[root] = self._build_machine(root)
-        return self._machines[root]
-
     def _build_machine(self, root: str) -> Machine:
         states = [self._activate(root, {}, {})]
         numbers = {states[0]: 0}
-        moves: list[Move] = []
+        moves: dict[tuple[int, Place], int] = {}
         # States that are reached are added while the list is read.
         for source, state in enumerate(states):
             for component, target in self._list_changes(state):
@@ -116,10 +111,10 @@ class TeamAnalysis:
                 if after not in numbers:
                     numbers[after] = len(states)
                     states.append(after)
-                moves.append(Move(source=source, target=numbers[after], component=component, to=target))
+                moves[source, (component, target)] = numbers[after]
             if len(states) > _MOST_LOCAL_STATES:
                 raise TooManyConfigurationsError
-        return Machine(name=root, states=tuple(dict(each.active) for each in states), moves=tuple(moves))
+        return Machine(name=root, states=tuple(dict(each.active) for each in states), moves=moves)
 
     def _list_changes(self, state: _RobotState) -> Iterator[Place]:
         """The components of a robot that may change, each with its next state."""

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterable, Iterator
 
-from vicode.analysis.products import Move, Product, Step
+from vicode.analysis.products import Product, Step
 from vicode.analysis.projects import ProjectAnalysis
 from vicode.analysis.team_search import TooManyConfigurationsError
 from vicode.analysis.teams import TeamAnalysis
@@ -44,12 +44,12 @@ def _write(product: Product, component: str) -> Iterator[str]:
         yield from _count(f"active{number}", product.find_states(place[0]), names, size)
         for step in steps:
             if step.is_barrier and step.place == place:
-                yield from _count(f"ready{number}", step.moves, names, size)
+                yield from _count(f"ready{number}", step.targets, names, size)
     yield f"\nactive [{size}] proctype robot() {{\n  do"
     for step in steps:
         if not step.is_barrier:
             room = f" && inside{places.index(step.place)}_count < {step.cooperation.number}" if step.cooperation else ""
-            yield from (f"  :: atomic {{ {_move(move, names, '_pid', room)} }}" for move in step.moves.items())
+            yield from (f"  :: atomic {{ {_move(move, names, '_pid', room)} }}" for move in step.targets.items())
     ends = (names[state] for state in sorted(product.leaving) if not product.leaving[state])
     yield from (f"  :: at[_pid] == {name} -> break" for name in ends)
     yield "  od\n}"
@@ -64,15 +64,14 @@ def _write_barrier(step: Step, number: int, names: list[str], size: int) -> Iter
     yield f"\nactive proctype together{number}() {{\n  byte r;\nend:\n  do\n  :: d_step {{"
     yield f"       active{number}_count >= {step.cooperation.number} && ready{number}_count > 0 &&"
     yield f"       ready{number}_count + inside{number}_count == active{number}_count ->\n       r = 0;\n       do"
-    for move in step.moves.items():
+    for move in step.targets.items():
         yield f"       :: r < {size} && {_move(move, names, 'r', '')}; r++"
     yield f"       :: r < {size} && !ready{number}(r) -> r++\n       :: r == {size} -> r = 0; break\n       od"
     yield "     }\n  od\n}"
 
 
-def _move(move: tuple[int, Move], names: list[str], robot: str, condition: str) -> str:
-    source, target = move[0], move[1].target
-    return f"at[{robot}] == {names[source]}{condition} -> at[{robot}] = {names[target]}"
+def _move(move: tuple[int, int], names: list[str], robot: str, condition: str) -> str:
+    return f"at[{robot}] == {names[move[0]]}{condition} -> at[{robot}] = {names[move[1]]}"
 
 
 def _count(macro: str, states: Iterable[int], names: list[str], size: int) -> Iterator[str]:
