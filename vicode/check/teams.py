@@ -43,9 +43,12 @@ def find_in_teams(analysis: ProjectAnalysis, names: ShownNames) -> Iterator[Find
     yield from (_report_never(place, team, names) for place in never)
     shortest: dict[tuple[Place, Place], tuple[TeamSearch, Waiting]] = {}
     for search in team.searches:
-        for each in search.find_waiting():
+        found = tuple(search.find_waiting())
+        explained = {each.robots for each in found if each.place in never}
+        for each in found:
             key = (each.source, each.place)
-            if each.place not in never and (key not in shortest or len(each.run) < len(shortest[key][1].run)):
+            is_shorter = key not in shortest or len(each.run) < len(shortest[key][1].run)
+            if each.robots not in explained and is_shorter:
                 shortest[key] = (search, each)
     for search, each in shortest.values():
         machine = analysis.machines[each.source[0]]
