@@ -117,7 +117,7 @@ class TeamSearch:
                 self.edges[at] = {}
                 next_[at] = self.product.find_stubborn(at, self.product.list_enabled(at))
             if next_[at]:
-                number = next_[at].pop()
+                number = next_[at].pop(0)
                 after = self.edges[at][number] = tuple(sorted(self.product.take(number, at)))
                 if after not in order:
                     path.append(after)

@@ -94,14 +94,15 @@ class _TeamText:
         parts: list[tuple[list[int], list[str]]] = []
         at = self._product.start
         for number in run:
-            after = self._product.take(number, at)
-            moved = [robot for robot, pair in enumerate(zip(at, after, strict=True)) if pair[0] != pair[1]]
-            entered = self.place(self._product.steps[number].place)
+            step, before, at = self._product.steps[number], at, self._product.take(number, at)
+            moved = [robot for robot, state in enumerate(at) if state != before[robot]]
+            entered = self.place(step.place) + " together" * step.is_barrier
             if parts and parts[-1][0] == moved:
                 parts[-1][1].append(entered)
+            elif parts and parts[-1][1] == [entered] and not step.is_barrier:
+                parts[-1][0].extend(moved)
             else:
                 parts.append((moved, [entered]))
-            at = after
         return "; ".join(
             f"{_robots(moved)} enter{'s' * (len(moved) == 1)} {', '.join(entered)}" for moved, entered in parts
         )
