@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 import networkx as nx
 
 from vicode.analysis.products import Cooperation, Machine, Place
-from vicode.analysis.team_search import Liveness
 
 COMPONENTS, NAMES = ("Body", "Arm"), ("a", "b", "c")
 Robots = tuple[int, ...]
@@ -88,13 +87,8 @@ class FullProduct:
                         found.add((robot.name, component, str(kept.pop())))
         return found
 
-    def levels(self) -> dict[Taken, Liveness]:
-        edges = [(at, after, taken) for at, after, taken in self.graph.edges(data="taken")]
-        part_of = {at: n for n, part in enumerate(nx.strongly_connected_components(self.graph)) for at in part}
-        levels: dict[Taken, Liveness] = {taken: Liveness.L1 for _at, _after, taken in edges}
-        levels |= {taken: Liveness.L3 for at, after, taken in edges if part_of[at] == part_of[after]}
-        always = [{name for at, _after, name in edges if at in part} for part in self.final_components()]
-        return levels | dict.fromkeys(set.intersection(*always), Liveness.L4)
+    def taken(self) -> set[Taken]:
+        return {taken for _at, _after, taken in self.graph.edges(data="taken")}
 
 
 def draw_machine(rng: random.Random, name: str, count: int) -> Machine:

@@ -1,10 +1,10 @@
-"""The reduced search finds what a complete one finds: deadlocks, robots that wait, liveness, shortest runs."""
+"""The reduced search finds what a complete one finds: deadlocks, robots that wait, steps, shortest runs."""
 
 import random
 
 import pytest
 
-from tests.analysis.random_teams import FullProduct, Taken, draw_product
+from tests.analysis.random_teams import FullProduct, draw_product
 from vicode.analysis.products import Product
 from vicode.analysis.team_search import TeamSearch, TooManyConfigurationsError
 
@@ -35,12 +35,9 @@ def test_the_reduced_search_finds_what_the_full_one_finds(part: int) -> None:
         for each in waiting:
             if named(product, each.robots) in deadlocks:
                 assert len(each.run) == full.deadlocks()[named(product, each.robots)], seed
-        steps: dict[Taken, set[int]] = {}
-        for number, step in enumerate(product.steps):
-            machine = "" if step.is_barrier else named(product, tuple(step.targets))[0][0]
-            steps.setdefault((machine, step.place), set()).add(number)
-        levels = {key: search.find_level(numbers) for key, numbers in steps.items()}
-        assert {key: level for key, level in levels.items() if level} == full.levels(), seed
+        steps = [product.steps[number] for number in search.find_taken()]
+        machines = ["" if step.is_barrier else named(product, tuple(step.targets))[0][0] for step in steps]
+        assert {(name, step.place) for name, step in zip(machines, steps, strict=True)} == full.taken(), seed
         reduced, total = reduced + len(search.edges), total + len(full.graph)
     assert reduced < total
 

@@ -1,30 +1,16 @@
-"""What a team can do: where robots wait forever, and how often each step can be taken.
+"""What a team can do: where robots wait forever, and which steps are ever taken.
 
 The search explores one stubborn set of each configuration. From a strongly connected component that nothing leaves, it
-explores what is enabled and not taken in it, until nothing is: then each step is taken in every order of the others in
-which it can be. Hence the search finds all deadlocks, each way for robots to wait forever while others go on, and the
-liveness levels of all steps (A. Valmari, *Stop it, and be stubborn!*, 2015).
+explores what is enabled and not taken in it, until nothing is: so no step is put off forever. Hence the search finds
+all deadlocks, each way for robots to wait forever while others go on, and all steps that are taken in some run (A.
+Valmari, *Stop it, and be stubborn!*, 2015).
 """
 
 from collections import deque
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from enum import IntEnum
 
 from vicode.analysis.products import Configuration, Place, Product
-
-
-class Liveness(IntEnum):
-    """How often steps can be taken, in the terms of Petri nets; L2 and L3 are the same in a finite product."""
-
-    L0 = 0
-    """never"""
-    L1 = 1
-    """at some time"""
-    L3 = 3
-    """again and again"""
-    L4 = 4
-    """again, whatever was done before"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,7 +50,6 @@ class TeamSearch:
     def __init__(self, product: Product, limit: int) -> None:
         self.product = product
         self.edges: dict[Configuration, dict[int, Configuration]] = {}
-        self._components: list[frozenset[Configuration]] = []
         self._final_components: list[frozenset[Configuration]] = []
         self._explore(tuple(sorted(product.start)), limit)
 
@@ -85,16 +70,9 @@ class TeamSearch:
                     for place in self._find_blocked(state, source[0], component):
                         yield Waiting(robots=robots, state=state, source=source, place=place, run=run)
 
-    def find_level(self, numbers: Collection[int]) -> Liveness:
-        """The level of some steps of which one is taken."""
-        level = Liveness.L0
-        for component in self._components:
-            for each in component:
-                for number, after in self.edges[each].items():
-                    if number in numbers:
-                        level = max(level, Liveness.L3 if after in component else Liveness.L1)
-        is_always = all(self._taken_in(each).intersection(numbers) for each in self._final_components)
-        return Liveness.L4 if is_always else level
+    def find_taken(self) -> set[int]:
+        """The steps that are taken in some run."""
+        return self._taken_in(self.edges)
 
     def _explore(self, start: Configuration, limit: int) -> None:
         """Find the strongly connected components by R. Tarjan's search; extend those that nothing leaves."""
@@ -129,7 +107,6 @@ class TeamSearch:
                 next_[at] = self._find_ignored(at, component)
                 if next_[at]:
                     continue
-                self._components.append(component)
                 closed |= component
                 del opened[place[at] :]
             path.pop()

@@ -15,7 +15,7 @@ from vicode.analysis.interval_diagrams import Node, TooLargeError
 from vicode.analysis.machines import LiveTransition, MachineAnalysis
 from vicode.analysis.products import Cooperation, Machine, Place, Product
 from vicode.analysis.projects import ProjectAnalysis, list_called, list_stepped
-from vicode.analysis.team_search import Liveness, TeamSearch, TooManyConfigurationsError
+from vicode.analysis.team_search import TeamSearch, TooManyConfigurationsError
 
 MOST_CONFIGURATIONS = 50_000
 _MOST_LOCAL_STATES = 2_000
@@ -73,14 +73,6 @@ class TeamAnalysis:
         except TooManyConfigurationsError:
             return None
         return tuple(found)
-
-    def find_level(self, place: Place) -> Liveness:
-        """How often robots can enter a place, in the team in which they can most often; L0 if that was not decided."""
-        entering = (
-            (search, [number for number, step in enumerate(search.product.steps) if step.place == place])
-            for search in self.searches or ()
-        )
-        return max((search.find_level(numbers) for search, numbers in entering), default=Liveness.L0)
 
     def make_product(self, roots: Iterable[str]) -> Product:
         """The product of robots with these roots.

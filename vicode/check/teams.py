@@ -39,7 +39,8 @@ def find_in_teams(analysis: ProjectAnalysis, names: ShownNames) -> Iterator[Find
     if team.searches is None:
         yield _report_undecided(team)
         return
-    never = [place for place, each in team.places.items() if each.is_barrier and not team.find_level(place)]
+    entered = {search.product.steps[number].place for search in team.searches for number in search.find_taken()}
+    never = [place for place, each in team.places.items() if each.is_barrier and place not in entered]
     yield from (_report_never(place, team, names) for place in never)
     shortest: dict[tuple[Place, Place], tuple[TeamSearch, Waiting]] = {}
     for search in team.searches:

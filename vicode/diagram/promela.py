@@ -1,7 +1,7 @@
 """A team of robots that run a design, as a model for SPIN."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from vicode.analysis.products import Product, Step
 from vicode.analysis.projects import ProjectAnalysis
@@ -32,37 +32,38 @@ def write_promela(project: Project, design: Design) -> str:
 
 def _write(product: Product, component: str) -> Iterator[str]:
     names = [f"s{number}_{'_'.join(map(_word, active.values()))}" for number, active in enumerate(product.states)]
-    size, steps = len(product.robots), product.steps
+    size = len(product.robots)
     yield f"/* {size} robots with the component {_word(component)}. The end is invalid if a robot waits forever:"
     yield "   spin -a FILE && gcc -O2 -DSAFETY -o pan pan.c && ./pan; spin -t -p FILE shows how it comes to this. */"
     yield from (f"#define {name} {number}" for number, name in enumerate(names))
     yield f"short at[{size}]; /* the states of the robots */\n"
-    places = list(dict.fromkeys(step.place for step in steps if step.cooperation))
+    places = list(dict.fromkeys(step.place for step in product.steps if step.cooperation))
+    barriers = {step.place: step for step in product.steps if step.is_barrier}
     for number, place in enumerate(places):
         yield f"/* {_word(place[0])}: {_word(place[1])} */"
-        yield from _count(f"inside{number}", product.find_states(*place), names, size)
-        yield from _count(f"active{number}", product.find_states(place[0]), names, size)
-        for step in steps:
-            if step.is_barrier and step.place == place:
-                yield from _count(f"ready{number}", step.targets, names, size)
+        counted = {"inside": product.find_states(*place)}
+        if place in barriers:
+            counted |= {"active": product.find_states(place[0]), "ready": frozenset(barriers[place].targets)}
+        for kind, states in counted.items():
+            macro, robots = f"{kind}{number}", range(size)
+            yield f"#define {macro}(r) ({' || '.join(f'at[r] == {names[state]}' for state in sorted(states))})"
+            yield f"#define {macro}_count ({' + '.join(f'{macro}({robot})' for robot in robots)})"
     yield f"\nactive [{size}] proctype robot() {{\n  do"
-    for step in steps:
+    for step in product.steps:
         if not step.is_barrier:
             room = f" && inside{places.index(step.place)}_count < {step.cooperation.number}" if step.cooperation else ""
             yield from (f"  :: atomic {{ {_move(move, names, '_pid', room)} }}" for move in step.targets.items())
-    ends = (names[state] for state in sorted(product.leaving) if not product.leaving[state])
-    yield from (f"  :: at[_pid] == {name} -> break" for name in ends)
+    yield from (f"  :: at[_pid] == {name} -> break" for state, name in enumerate(names) if not product.leaving[state])
     yield "  od\n}"
-    for step in steps:
-        if step.is_barrier:
-            yield from _write_barrier(step, places.index(step.place), names, size)
+    for place, step in barriers.items():
+        yield from _write_barrier(step, places.index(place), names, size)
 
 
 def _write_barrier(step: Step, number: int, names: list[str], size: int) -> Iterator[str]:
     """A process that moves all robots at once when they are ready."""
-    assert step.cooperation is not None
+    least = step.cooperation.number if step.cooperation else 0
     yield f"\nactive proctype together{number}() {{\n  byte r;\nend:\n  do\n  :: d_step {{"
-    yield f"       active{number}_count >= {step.cooperation.number} && ready{number}_count > 0 &&"
+    yield f"       active{number}_count >= {least} && ready{number}_count > 0 &&"
     yield f"       ready{number}_count + inside{number}_count == active{number}_count ->\n       r = 0;\n       do"
     for move in step.targets.items():
         yield f"       :: r < {size} && {_move(move, names, 'r', '')}; r++"
@@ -72,12 +73,6 @@ def _write_barrier(step: Step, number: int, names: list[str], size: int) -> Iter
 
 def _move(move: tuple[int, int], names: list[str], robot: str, condition: str) -> str:
     return f"at[{robot}] == {names[move[0]]}{condition} -> at[{robot}] = {names[move[1]]}"
-
-
-def _count(macro: str, states: Iterable[int], names: list[str], size: int) -> Iterator[str]:
-    """A condition of a robot, and the number of robots for which it holds."""
-    yield f"#define {macro}(r) ({' || '.join(f'at[r] == {names[state]}' for state in sorted(states)) or 'false'})"
-    yield f"#define {macro}_count ({' + '.join(f'{macro}({robot})' for robot in range(size))})"
 
 
 def _word(text: str) -> str:
