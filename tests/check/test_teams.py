@@ -189,4 +189,4 @@ def test_a_team_with_too_many_configurations_is_not_decided(tmp_path: Path, monk
     monkeypatch.setattr(teams, "MOST_CONFIGURATIONS", 3)
     (found,) = check_player(tmp_path, "  Wait: {transitions: [{to: Door}]}\n  Door: {capacity: 3, final: true}\n")
     assert found.rule.code == "P215"
-    assert "teams of 4 robots" in found.message
+    assert found.message.endswith("4 robots have too many configurations")

@@ -87,10 +87,10 @@ class Product:
         self._find_conflicts = cache(self._list_conflicts)
         self._find_leading = cache(self._list_leading)
 
-    def find_states(self, component: str, name: str = "") -> frozenset[int]:
+    def find_states(self, component: str, name: str | None = None) -> frozenset[int]:
         """The states in which a component is active, or is in one of its states."""
         active = ((number, each.get(component)) for number, each in enumerate(self.states))
-        return frozenset(number for number, state in active if state is not None and name in ("", state))
+        return frozenset(number for number, state in active if state is not None and name in (None, state))
 
     def list_enabled(self, at: Configuration) -> list[int]:
         """All steps that can be taken."""

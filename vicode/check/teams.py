@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from vicode.analysis.products import Place
 from vicode.analysis.projects import ProjectAnalysis
 from vicode.analysis.team_search import TeamSearch, Waiting
-from vicode.analysis.teams import MOST_CONFIGURATIONS, TeamAnalysis
+from vicode.analysis.teams import TeamAnalysis
 from vicode.findings import DesignPath, Finding, FindingSubject, Note, get_rule
 from vicode.model.design import Design
 from vicode.model.project import Project
@@ -51,11 +51,11 @@ def find_in_teams(analysis: ProjectAnalysis, names: ShownNames) -> Iterator[Find
             is_shorter = key not in shortest or len(each.run) < len(shortest[key][1].run)
             if each.robots not in explained and is_shorter:
                 shortest[key] = (search, each)
-    for search, each in shortest.values():
-        machine = analysis.machines[each.source[0]]
-        state = machine.design.state(each.source[1])
+    for (source, place), (search, each) in shortest.items():
+        machine = analysis.machines[source[0]]
+        state = machine.design.state(source[1])
         if state is not None and not state.final:
-            path = next(edge.path for edge in machine.live_in(state.name) if edge.target == each.place[1])
+            path = next(edge.path for edge in machine.live_in(state.name) if edge.target == place[1])
             yield _report_waiting(each, _TeamText(search, names), team, path)
 
 
@@ -146,7 +146,7 @@ def _report_undecided(team: TeamAnalysis) -> Finding:
     return Finding(
         rule=get_rule("P215"),
         message="whether robots can wait forever for each other was not decided: "
-        f"teams of {team.size} robots have more than {MOST_CONFIGURATIONS:,} configurations",
+        f"{team.size} robots have too many configurations",
         fix="reduce the numbers of robots in `capacity` and `synchronized`, or search the model of "
         "`vicode export --format promela` with SPIN",
         subject=FindingSubject(component=component, path=("states", name)),
