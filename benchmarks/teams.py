@@ -20,7 +20,7 @@ from pathlib import Path
 from statistics import median
 
 from tests.analysis.random_teams import FullProduct, draw_product
-from vicode.analysis.products import Cooperation, Machine, Place, Product
+from vicode.analysis.products import Cooperation, Place, Product, RobotMachine
 from vicode.analysis.team_search import TeamSearch
 from vicode.diagram.promela import write_promela
 from vicode.model.design import Guard, Transition
@@ -59,7 +59,8 @@ def main() -> None:
     print("\n| robots | full (SPIN) | reduced | deadlocks | SPIN: compile, search | reduced search |")
     print("|---|---|---|---|---|---|")
     for robots, states in ((2, 30), (3, 30), (4, 20), (4, 30)):
-        measure(robots, states)
+        for is_same in (True, False):
+            measure(robots, states, is_same=is_same)
     print()
     export()
 
@@ -90,26 +91,26 @@ def compare_random(seeds: Iterable[int]) -> None:
     print()
 
 
-def measure(count: int, states: int) -> None:
+def measure(count: int, states: int, *, is_same: bool) -> None:
     rng = random.Random(count * states)
-    places = {("Body", f"meet{n}"): Cooperation(number=2, is_barrier=True) for n in range(4)}
-    places |= {("Body", f"door{n}"): Cooperation(number=1, is_barrier=False) for n in range(3)}
     robots = [draw_robot(rng, f"r{number}", states, number) for number in range(count)]
-    places = {("Arm" + name[-1] if each.is_barrier else body, name): each for (body, name), each in places.items()}
+    robots = robots[:1] * count if is_same else robots
+    places = {(f"Arm{n}", f"meet{n}"): Cooperation(number=2, is_barrier=True) for n in range(4)}
+    places |= {("Body", f"door{n}"): Cooperation(number=1, is_barrier=False) for n in range(3)}
     search, reduced_time = search_reduced(robots, places)
     ran = run_spin(encode(robots, places), "-E", "-c0", "-m1000000")
-    index = {name: number for number, name in enumerate(dict.fromkeys(robot.name for robot in robots))}
-    found = {
-        tuple(state for _name, state in sorted(at, key=lambda each: index[each[0]])) for at in find_deadlocks(search)
+    found = find_deadlocks(search)
+    in_spin = {
+        tuple(sorted((robot.name, state) for robot, state in zip(robots, at, strict=True))) for at in ran.deadlocks
     }
-    same = "" if found == ran.deadlocks else f" (SPIN: {len(ran.deadlocks)})"
+    verdict = "equal" if found == in_spin else f"{len(found)} and {len(in_spin)}"
     print(
-        f"| {count} x {states} | {ran.stored:,} | {len(search.edges):,} | {len(found)}{same} "
-        f"| {ran.compile_time:.1f} s, {ran.time:.1f} s | {1000 * reduced_time:.0f} ms |"
+        f"| {count} x {states}, {'one machine' if is_same else 'different'} | {ran.stored:,} | {len(search.edges):,} "
+        f"| {len(found)}, {verdict} | {ran.compile_time:.1f} s, {ran.time:.1f} s | {1000 * reduced_time:.0f} ms |"
     )
 
 
-def draw_robot(rng: random.Random, name: str, states: int, number: int) -> Machine:
+def draw_robot(rng: random.Random, name: str, states: int, number: int) -> RobotMachine:
     """A ring with shortcuts, in which each robot passes doors, and meets the next robot and the one before it."""
     active: list[dict[str, str]] = [{"Body": f"s{state}"} for state in range(states)]
     doors = rng.sample(range(1, states), 3)
@@ -130,10 +131,10 @@ def draw_robot(rng: random.Random, name: str, states: int, number: int) -> Machi
         listed[at, ("Body", f"w{partner}")] = waiting
         listed[waiting, (arm, f"meet{partner}")] = met
         listed[met, ("Body", active[after]["Body"])] = after
-    return Machine(name=name, states=tuple(active), moves=listed)
+    return RobotMachine(name=name, states=tuple(active), moves=listed)
 
 
-def search_reduced(robots: list[Machine], places: Mapping[Place, Cooperation]) -> tuple[TeamSearch, float]:
+def search_reduced(robots: list[RobotMachine], places: Mapping[Place, Cooperation]) -> tuple[TeamSearch, float]:
     started = time.perf_counter()
     search = TeamSearch(Product(robots, places), LIMIT)
     return search, time.perf_counter() - started
@@ -147,7 +148,7 @@ def find_deadlocks(search: TeamSearch) -> set[tuple[tuple[str, int], ...]]:
     return {tuple(sorted(names[state] for state in at)) for at, edges in search.edges.items() if not edges}
 
 
-def encode(robots: list[Machine], places: Mapping[Place, Cooperation]) -> str:
+def encode(robots: list[RobotMachine], places: Mapping[Place, Cooperation]) -> str:
     """A product in Promela. The process `watch` prints each configuration that no other process leaves."""
 
     def among(robot: int, states: Iterable[int]) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 import networkx as nx
 
-from vicode.analysis.products import Cooperation, Machine, Place
+from vicode.analysis.products import Cooperation, Place, RobotMachine
 
 COMPONENTS, NAMES = ("Body", "Arm"), ("a", "b", "c")
 Robots = tuple[int, ...]
@@ -18,7 +18,7 @@ Taken = tuple[str, Place]
 class FullProduct:
     """All configurations, without any reduction."""
 
-    def __init__(self, robots: list[Machine], places: Mapping[Place, Cooperation]) -> None:
+    def __init__(self, robots: list[RobotMachine], places: Mapping[Place, Cooperation]) -> None:
         self.robots, self.places = robots, places
         self.graph: nx.MultiDiGraph[Robots] = nx.MultiDiGraph()
         start = (0,) * len(robots)
@@ -91,7 +91,7 @@ class FullProduct:
         return {taken for _at, _after, taken in self.graph.edges(data="taken")}
 
 
-def draw_machine(rng: random.Random, name: str, count: int) -> Machine:
+def draw_machine(rng: random.Random, name: str, count: int) -> RobotMachine:
     states = []
     for _ in range(count):
         active = {component: rng.choice(NAMES) for component in COMPONENTS if rng.random() < 0.85}
@@ -104,10 +104,10 @@ def draw_machine(rng: random.Random, name: str, count: int) -> Machine:
             if old and new and old != new:
                 moves[source, (component, new)] = target
                 break
-    return Machine(name=name, states=tuple(states), moves=moves)
+    return RobotMachine(name=name, states=tuple(states), moves=moves)
 
 
-def draw_product(rng: random.Random, sizes: range) -> tuple[list[Machine], dict[Place, Cooperation]]:
+def draw_product(rng: random.Random, sizes: range) -> tuple[list[RobotMachine], dict[Place, Cooperation]]:
     """Two to four robots that run up to three machines, which have as many states as one of the sizes."""
     names = ("one", "two", "three")[: rng.randint(1, 3)]
     machines = [draw_machine(rng, name, rng.choice(sizes)) for name in names]

@@ -26,7 +26,7 @@ class Cooperation:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Machine:
+class RobotMachine:
     """The machine of a robot.
 
     Attributes:
@@ -41,7 +41,7 @@ class Machine:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Step:
+class TeamStep:
     """What one robot does, or what all robots do that enter a state together.
 
     Attributes:
@@ -65,8 +65,8 @@ class Product:
         places: The states with `capacity` or `synchronized` that the machines have.
     """
 
-    def __init__(self, robots: Sequence[Machine], places: Mapping[Place, Cooperation]) -> None:
-        offsets: dict[Machine, int] = {}
+    def __init__(self, robots: Sequence[RobotMachine], places: Mapping[Place, Cooperation]) -> None:
+        offsets: dict[RobotMachine, int] = {}
         self.states: list[Mapping[str, str]] = []
         for machine in dict.fromkeys(robots):
             offsets[machine] = len(self.states)
@@ -112,7 +112,7 @@ class Product:
         seeds = {next(iter(self.steps[each].targets)): each for each in seeds}.values()
         return min((self._close(at, seed, enabled) for seed in seeds), key=len, default=[])
 
-    def _is_enabled(self, step: Step, at: Configuration) -> bool:
+    def _is_enabled(self, step: TeamStep, at: Configuration) -> bool:
         """Whether a step can be taken for which a robot is ready."""
         if step.cooperation is None:
             return True
@@ -140,7 +140,7 @@ class Product:
         found.update(barrier for barrier, changing in self._changing.items() if number in changing)
         return found.union(*(filling for filling in self._filling if number in filling))
 
-    def _find_enabling(self, step: Step, at: Configuration) -> set[int]:
+    def _find_enabling(self, step: TeamStep, at: Configuration) -> set[int]:
         """Steps that are next for some robot, of which one has to be taken before a step that is not enabled."""
         starts, goal = set(at), frozenset(step.targets)
         if step.cooperation is not None and (step.is_barrier or starts & goal):
@@ -173,13 +173,13 @@ class Product:
             if (target in states) is into and (source in states) is not into
         }
 
-    def _find_changing(self, barrier: Step) -> set[int]:
+    def _find_changing(self, barrier: TeamStep) -> set[int]:
         """The steps that change whether a robot counts at a barrier, is ready, or has entered."""
         counted = (self._near[barrier.place], self._inside[barrier.place], frozenset(barrier.targets))
         return set().union(*(self._find_crossing(each, into=into) for each in counted for into in (True, False)))
 
 
-def _list_steps(offsets: Mapping[Machine, int], places: Mapping[Place, Cooperation]) -> Iterator[Step]:
+def _list_steps(offsets: Mapping[RobotMachine, int], places: Mapping[Place, Cooperation]) -> Iterator[TeamStep]:
     together: dict[Place, dict[int, int]] = {}
     for machine, offset in offsets.items():
         for (source, place), target in machine.moves.items():
@@ -187,6 +187,6 @@ def _list_steps(offsets: Mapping[Machine, int], places: Mapping[Place, Cooperati
             if cooperation is not None and cooperation.is_barrier:
                 together.setdefault(place, {})[source + offset] = target + offset
             else:
-                yield Step(targets={source + offset: target + offset}, place=place, cooperation=cooperation)
+                yield TeamStep(targets={source + offset: target + offset}, place=place, cooperation=cooperation)
     for place, targets in together.items():
-        yield Step(targets=targets, place=place, cooperation=places[place], is_barrier=True)
+        yield TeamStep(targets=targets, place=place, cooperation=places[place], is_barrier=True)

@@ -13,7 +13,7 @@ from itertools import combinations_with_replacement
 
 from vicode.analysis.interval_diagrams import Node, TooLargeError
 from vicode.analysis.machines import LiveTransition, MachineAnalysis
-from vicode.analysis.products import Cooperation, Machine, Place, Product
+from vicode.analysis.products import Cooperation, Place, Product, RobotMachine
 from vicode.analysis.projects import ProjectAnalysis, list_called, list_stepped
 from vicode.analysis.team_search import TeamSearch, TooManyConfigurationsError
 
@@ -92,7 +92,7 @@ class TeamAnalysis:
             if all(count >= self.places[each].number for each, count in counts.items() if self.places[each].is_barrier):
                 yield team
 
-    def _build_machine(self, root: str) -> Machine:
+    def _build_machine(self, root: str) -> RobotMachine:
         states = [self._activate(root, {}, {})]
         numbers = {states[0]: 0}
         moves: dict[tuple[int, Place], int] = {}
@@ -106,7 +106,7 @@ class TeamAnalysis:
                 moves[source, (component, target)] = numbers[after]
             if len(states) > _MOST_LOCAL_STATES:
                 raise TooManyConfigurationsError
-        return Machine(name=root, states=tuple(dict(each.active) for each in states), moves=moves)
+        return RobotMachine(name=root, states=tuple(dict(each.active) for each in states), moves=moves)
 
     def _list_changes(self, state: _RobotState) -> Iterator[Place]:
         """The components of a robot that may change, each with its next state."""

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from vicode.analysis.products import Product, Step
+from vicode.analysis.products import Product, TeamStep
 from vicode.analysis.projects import ProjectAnalysis
 from vicode.analysis.team_search import TooManyConfigurationsError
 from vicode.analysis.teams import TeamAnalysis
@@ -59,7 +59,7 @@ def _write(product: Product, component: str) -> Iterator[str]:
         yield from _write_barrier(step, places.index(place), names, size)
 
 
-def _write_barrier(step: Step, number: int, names: list[str], size: int) -> Iterator[str]:
+def _write_barrier(step: TeamStep, number: int, names: list[str], size: int) -> Iterator[str]:
     """A process that moves all robots at once when they are ready."""
     least = step.cooperation.number if step.cooperation else 0
     yield f"\nactive proctype together{number}() {{\n  byte r;\nend:\n  do\n  :: d_step {{"
