@@ -4,6 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vicode.check import check_design, check_project
+from vicode.check.behavior import find_behavior
 from vicode.findings import Finding
 from vicode.model.design import (
     Action,
@@ -87,6 +88,8 @@ states = st.builds(
     name=names,
     id=names,
     final=st.booleans(),
+    capacity=st.none() | st.integers(-1, 2),
+    synchronized=st.none() | st.integers(-1, 3),
     disabled=st.booleans(),
     requires=_tuples(names),
     modulates=_tuples(calls),
@@ -132,7 +135,7 @@ projects = st.builds(
 
 @given(projects)
 def test_no_project_makes_the_checks_raise(project: Project) -> None:
-    _assert_well_formed(check_project(project))
+    _assert_well_formed((*check_project(project), *find_behavior(project)))
 
 
 @given(projects, designs)

@@ -18,7 +18,7 @@ EXAMPLE = re.compile(r"^```(?:yaml|xabsl) ?(\S*)\n(.*?)^```$", re.MULTILINE | re
 TOP_LEVEL_KEY = re.compile(r"^(\w+):.*\n(?:[ \t#-].*\n)*", re.MULTILINE)
 
 # Short texts cannot show these: sizes, bytes, Python files, values that only the editor can create, generated files.
-WITHOUT_EXAMPLES = {"Y108", "Y110", "P212", "D416", "X611", "X612", "S801", "S802", "S803"}
+WITHOUT_EXAMPLES = {"Y108", "Y110", "P212", "P215", "D416", "X611", "X612", "S801", "S802", "S803"}
 WITHOUT_EXAMPLES |= {f"G50{n}" for n in range(1, 7)}
 
 TEXT = PAGE.read_text(encoding="utf-8")
@@ -27,7 +27,7 @@ FRAME = dict(EXAMPLE.findall(TEXT.split("\n## ")[0]))
 LANGUAGES_FRAME = FRAME | dict(EXAMPLE.findall(TEXT.split("\n## L:")[1].split("\n### ")[0]))
 XABSL_FRAME = dict(EXAMPLE.findall(TEXT.split("\n## X:")[1].split("\n### ")[0]))
 # Rules that only `check --deep` runs.
-DEEP = {"D435", "D441", "D442", "P214"}
+DEEP = {"D435", "D436", "D437", "D441", "D442", "P214", "P215"}
 _DEEP_WORDS = ", only with `vicode check --deep`"
 # Examples are short: nothing reads, sets or uses some items that they or the frame declare.
 ALLOWED_NOTES = {"X642", "X644", "D444", "D445"}

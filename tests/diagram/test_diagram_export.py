@@ -48,8 +48,8 @@ def everything() -> Design:
     )
 
 
-# SCXML is read by programs, and refuses what it cannot express.
-DIAGRAMS = [form for form in EXPORT_FORMATS if form != "scxml"]
+# SCXML and Promela are read by programs, and refuse what they cannot express.
+DIAGRAMS = [form for form in EXPORT_FORMATS if form not in ("scxml", "promela")]
 
 
 def export_design(design: Design, form: str, wish: ExportOptions | None = None) -> bytes:

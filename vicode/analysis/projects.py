@@ -1,6 +1,6 @@
 """What the agents of a project can reach: components that are stepped in states that may be active."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 
 from vicode.analysis.alternation import Alternation, AlternationSearch
@@ -32,9 +32,18 @@ class ProjectAnalysis:
     @cached_property
     def active(self) -> frozenset[str]:
         """The designs that some agent may step; all of them if the project declares no agent."""
-        if not self._roots:
-            return frozenset(self.machines)
-        pending, active = list(self._roots), set[str]()
+        agents = [agent.root for agent in self.project.agents]
+        return self.find_active(agents) if agents else frozenset(self.machines)
+
+    @cached_property
+    def roots(self) -> tuple[str, ...]:
+        """The root components of the agents; without agents, the designs that no other steps."""
+        agents = tuple(agent.root for agent in self.project.agents)
+        return agents or tuple(name for name in self.machines if name not in self._callers)
+
+    def find_active(self, roots: Iterable[str]) -> frozenset[str]:
+        """The designs that may be stepped where some designs are."""
+        pending, active = list(roots), set[str]()
         while pending:
             name = pending.pop()
             if name not in active and name in self.machines:
@@ -57,13 +66,9 @@ class ProjectAnalysis:
             machine = self.machines[name]
             for state in machine.design.states:
                 if state.name in machine.reachable:
-                    for stepped in dict.fromkeys(_stepped_components(machine.design, state)):
+                    for stepped in dict.fromkeys(list_stepped(machine.design, state)):
                         callers.setdefault(stepped, []).append((name, state.name))
         return {name: tuple(places) for name, places in callers.items()}
-
-    @cached_property
-    def _roots(self) -> frozenset[str]:
-        return frozenset(agent.root for agent in self.project.agents)
 
     def _lasts_in(self, caller: _Place, component: str, alternation: Alternation) -> bool:
         """Whether the states alternate while a caller is in a state, with inputs for which it stays there."""
@@ -84,10 +89,18 @@ class ProjectAnalysis:
         """The components that the reachable states of a design step."""
         for state in machine.design.states:
             if state.name in machine.reachable:
-                yield from _stepped_components(machine.design, state)
+                yield from list_stepped(machine.design, state)
 
 
-def _stepped_components(design: Design, state: State) -> Iterator[str]:
+def list_stepped(design: Design, state: State) -> Iterator[str]:
+    """The components that a state requires and calls."""
+    components = {use.alias: use.component for use in reversed(design.uses)}
+    yield from (components[alias] for alias in state.requires if alias in components)
+    yield from list_called(design, state)
+
+
+def list_called(design: Design, state: State) -> Iterator[str]:
+    """The components that a state calls, common actions included."""
     components = {use.alias: use.component for use in reversed(design.uses)}
     called = (action.alias for action in (*design.common.actions, *state.all_actions) if isinstance(action, Call))
-    return (components[alias] for alias in (*state.requires, *called) if alias in components)
+    return (components[alias] for alias in called if alias in components)

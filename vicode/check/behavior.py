@@ -1,15 +1,16 @@
 """Rules for the behavior of a project as a whole; they take longer than the others: states that alternate, components
-that no agent activates.
+that no agent activates, robots that wait forever for their team (`vicode.check.teams`).
 """
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from vicode.analysis.alternation import Alternation
 from vicode.analysis.examples import describe_value
 from vicode.analysis.projects import ProjectAnalysis
 from vicode.check import check_project
 from vicode.check.properties import find_broken_properties
+from vicode.check.teams import ShownNames, find_in_teams
 from vicode.findings import Finding, FindingSubject, Note, Severity, get_rule
 from vicode.model.design import Design
 from vicode.model.project import Project
@@ -26,8 +27,11 @@ def check_behavior(
     With `are_names_xabsl`, messages contain the names that an imported behavior has in XABSL.
     """
     analysis = ProjectAnalysis(project)
-    deep = find_behavior(project, components, are_names_xabsl=are_names_xabsl, analysis=analysis)
-    return tuple(_mark_inactive(analysis, each) for each in (*check_project(project, components), *deep))
+    found = check_project(project, components)
+    # A design that steps itself has no meaning.
+    if not any(each.rule.code == "D408" for each in found):
+        found += find_behavior(project, components, are_names_xabsl=are_names_xabsl, analysis=analysis)
+    return tuple(_mark_inactive(analysis, each) for each in found)
 
 
 def _mark_inactive(analysis: ProjectAnalysis, finding: Finding) -> Finding:
@@ -47,12 +51,12 @@ def find_behavior(
     are_names_xabsl: bool = False,
     analysis: ProjectAnalysis | None = None,
 ) -> tuple[Finding, ...]:
-    """D435, D441, D442 and P214 for all designs, or those of `components`.
+    """D435 to D437, D441, D442, P214 and P215 for all designs, or those of `components`.
 
     With `are_names_xabsl`, messages contain the names that an imported behavior has in XABSL.
     """
     analysis = analysis or ProjectAnalysis(project)
-    names = _Names(project, are_xabsl=are_names_xabsl)
+    names = ShownNames(project, are_xabsl=are_names_xabsl)
     designs = (each for each in project.designs if components is None or each.component in components)
     found: list[Finding] = []
     for design in designs:
@@ -61,31 +65,14 @@ def find_behavior(
             continue
         found += find_broken_properties(project, design)
         found += (_report_alternation(design, each, names) for each in analysis.find_alternations(design.component))
+    in_teams = find_in_teams(analysis, names)
+    found += (
+        each for each in in_teams if components is None or (each.subject and each.subject.component in components)
+    )
     return tuple(found)
 
 
-@dataclass(frozen=True, slots=True)
-class _Names:
-    """The names of a project in messages."""
-
-    project: Project
-    are_xabsl: bool
-
-    def component(self, design: Design) -> str:
-        return (self.are_xabsl and design.xabsl_name) or design.component
-
-    def state(self, design: Design, name: str) -> str:
-        state = design.state(name)
-        return (self.are_xabsl and state is not None and state.xabsl_name) or name
-
-    def input(self, component: str, name: str) -> str:
-        interface = self.project.interface(component)
-        declared = (interface.output(name) or interface.parameter(name)) if interface else None
-        is_known = self.are_xabsl and declared is not None and declared.xabsl_name
-        return declared.xabsl_name if declared is not None and is_known else f"{component}.{name}"
-
-
-def _report_inactive(design: Design, names: _Names) -> Finding:
+def _report_inactive(design: Design, names: ShownNames) -> Finding:
     name = names.component(design)
     return Finding(
         rule=get_rule("P214"),
@@ -95,7 +82,7 @@ def _report_inactive(design: Design, names: _Names) -> Finding:
     )
 
 
-def _report_alternation(design: Design, alternation: Alternation, names: _Names) -> Finding:
+def _report_alternation(design: Design, alternation: Alternation, names: ShownNames) -> Finding:
     states = [f"'{names.state(design, state)}'" for state in alternation.states]
     held = list(_describe_inputs(alternation, names))
     more = f" and {len(held) - _MOST_INPUTS} more" if len(held) > _MOST_INPUTS else ""
@@ -113,7 +100,7 @@ def _report_alternation(design: Design, alternation: Alternation, names: _Names)
     )
 
 
-def _describe_inputs(alternation: Alternation, names: _Names) -> Iterator[str]:
+def _describe_inputs(alternation: Alternation, names: ShownNames) -> Iterator[str]:
     """The inputs that were set last, when the states began to alternate."""
     set_last = next((step.inputs for step in reversed(alternation.steps) if step.inputs), {})
     for (component, name), value in set_last.items():

@@ -11,6 +11,7 @@ from vicode.diagram.export_formats import EXPORT_FORMATS, ExportFormat, ExportOp
 
 if TYPE_CHECKING:
     from vicode.model.design import Design
+    from vicode.model.project import Project
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -44,7 +45,13 @@ def run(args: argparse.Namespace) -> int:
         print(f"vicode: {args.file} has no state {unknown[0]}", file=sys.stderr)
         return 1
     form = EXPORT_FORMATS[args.format] if args.format else _format_from_suffix(args.out)
-    wish = ExportOptions(only=only, links=not args.no_links, dark=args.dark, scale=min(max(args.scale, 0.1), 16.0))
+    wish = ExportOptions(
+        project=_read_project(Path(args.file)) if form.needs_project else None,
+        only=only,
+        links=not args.no_links,
+        dark=args.dark,
+        scale=min(max(args.scale, 0.1), 16.0),
+    )
     try:
         content = form.write(design, wish)
     except NotExportableError as error:
@@ -70,6 +77,13 @@ def _read(file: Path, encoding: str) -> "Design | None":
     if read.design is None:
         print_findings(read.findings, to_stderr=True)
     return read.design
+
+
+def _read_project(file: Path) -> "Project | None":
+    from vicode.store import find_projects, open_project
+    from vicode.xabsl.source_loader import EXTENSIONS
+
+    return None if file.suffix in EXTENSIONS else open_project(find_projects(file)[0]).project
 
 
 def _read_option(file: Path, encoding: str) -> "Design | None":

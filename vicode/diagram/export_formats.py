@@ -9,12 +9,17 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from vicode.diagram.primitives import VectorImage
     from vicode.model.design import Design
+    from vicode.model.project import Project
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExportOptions:
-    """What to export: `only` names states (None for all); with `links`, the components they use are included."""
+    """What to export: `only` names states (None for all); with `links`, the components they use are included.
 
+    The `project` is needed by formats with `needs_project`; without it, the design is alone in one.
+    """
+
+    project: Project | None = None
     only: frozenset[str] | None = None
     links: bool = True
     dark: bool = False
@@ -34,7 +39,8 @@ class ExportFormat:
         title: The name shown to users, with the purpose in parentheses.
         suffixes: File name suffixes; new files get the first.
         write: Returns the content of the file; the same design gives the same bytes. PNG depends on installed fonts.
-            Raises NotExportableError if the format cannot express the design; only SCXML does.
+            Raises NotExportableError if the format cannot express the design; SCXML and Promela do.
+        needs_project: Whether other designs of the project are part of the content.
     """
 
     name: str
@@ -42,6 +48,7 @@ class ExportFormat:
     suffixes: tuple[str, ...]
     write: Callable[[Design, ExportOptions], bytes]
     media_type: str = "text/plain; charset=utf-8"
+    needs_project: bool = False
 
     @property
     def label(self) -> str:
@@ -98,6 +105,15 @@ def _scxml(design: Design, options: ExportOptions) -> bytes:
     return write_scxml(design).encode()
 
 
+def _promela(design: Design, options: ExportOptions) -> bytes:
+    from vicode.diagram.promela import write_promela
+    from vicode.model.project import Project
+
+    if options.only is not None:
+        raise NotExportableError("Promela contains the whole design: leave out the selection of states")
+    return write_promela(options.project or Project(name="", designs=(design,)), design).encode()
+
+
 def _picture(design: Design, options: ExportOptions) -> VectorImage:
     from vicode.diagram.palettes import DARK, LIGHT
     from vicode.diagram.render import render_design
@@ -120,6 +136,9 @@ _FORMATS = (
     ExportFormat(name="plantuml", title="PlantUML", suffixes=(".puml", ".plantuml"), write=_plantuml),
     ExportFormat(name="dot", title="DOT (Graphviz)", suffixes=(".dot", ".gv"), write=_dot),
     ExportFormat(name="scxml", title="SCXML (for state machine tools)", suffixes=(".scxml",), write=_scxml),
+    ExportFormat(
+        name="promela", title="Promela (team model for SPIN)", suffixes=(".pml",), write=_promela, needs_project=True
+    ),
 )
 EXPORT_FORMATS = {each.name: each for each in _FORMATS}
 """The formats by name."""

@@ -68,6 +68,7 @@ _RECORDS = (
         "profile of an unknown component, class not in the form module:Class, or bad remote component",
     ),
     ("P214", "inactive-component", Severity.NOTE, "design that no agent activates"),
+    ("P215", "undecided-team", Severity.NOTE, "team of robots with too many configurations to search"),
     ("P216", "impossible-assumption", Severity.ERROR, "assumption that never holds"),
     # Expressions
     ("E301", "not-an-expression", Severity.ERROR, "invalid expression syntax"),
@@ -111,6 +112,8 @@ _RECORDS = (
     ("D433", "impossible-guard", Severity.WARNING, "guard that never holds"),
     ("D434", "needless-guard", Severity.NOTE, "guard that always holds"),
     ("D435", "alternating-states", Severity.WARNING, "states that alternate while the inputs hold still"),
+    ("D436", "waiting-forever", Severity.WARNING, "state in which robots can wait forever for their team"),
+    ("D437", "never-together", Severity.WARNING, "synchronized state that robots never enter together"),
     ("D440", "bad-property", Severity.ERROR, "property of an unknown state"),
     ("D441", "broken-property", Severity.ERROR, "property that a run breaks"),
     (

@@ -67,7 +67,8 @@ class ExportDialog:
 
             def options() -> ExportOptions:
                 only = selected if scope.value == _SELECTED else None
-                return ExportOptions(only=only, links=bool(links.value), dark=bool(dark.value))
+                project = self._context.workspace.project
+                return ExportOptions(project=project, only=only, links=bool(links.value), dark=bool(dark.value))
 
             def show() -> None:
                 preview.clear()
@@ -122,7 +123,11 @@ def _show_preview(context: WindowContext, form: ExportFormat, options: ExportOpt
 
 
 def _copier(context: WindowContext, form: ExportFormat) -> Callable[[], None]:
-    return lambda: _copy(context, form, ExportOptions(only=_selected_states(context) or None))
+    def copy() -> None:
+        project, only = context.workspace.project, _selected_states(context) or None
+        _copy(context, form, ExportOptions(project=project, only=only))
+
+    return copy
 
 
 def _copy(context: WindowContext, form: ExportFormat, options: ExportOptions) -> None:

@@ -9,7 +9,7 @@ from vicode.importers import import_behavior
 from vicode.xabsl.compiler import CompileResult
 from vicode.xabsl.source_loader import ProgramSource
 
-_CODES = frozenset({"D423", "D433", "D434", "D435", "D443", "P214"})
+_CODES = frozenset({"D423", "D433", "D434", "D435", "D436", "D437", "D443", "P214", "P215"})
 """The rules that XABSL files do not have themselves."""
 
 

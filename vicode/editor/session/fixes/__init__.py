@@ -29,7 +29,7 @@ _AMBIGUOUS = "the intended meaning is not certain"
 UNFIXABLE: Mapping[str, str] = {
     **dict.fromkeys(("Y101", "Y102", "Y103", "Y104", "Y105", "Y106", "Y107", "Y108", "Y109", "Y110"), _DESIGN_FILE),
     **dict.fromkeys(("Y111", "Y112", "Y113"), _DESIGN_FILE),
-    **dict.fromkeys(("P203", "P207", "P208", "P209", "P210", "P211", "P212", "P213"), _PROJECT_FILE),
+    **dict.fromkeys(("P203", "P207", "P208", "P209", "P210", "P211", "P212", "P213", "P216"), _PROJECT_FILE),
     "P201": "renaming a component also changes other designs",
     **dict.fromkeys(("E301", "E302", "E304", "E305", "E308", "E309"), _AMBIGUOUS),
     "D407": "which of the two declarations to rename is not certain",
@@ -42,7 +42,9 @@ UNFIXABLE: Mapping[str, str] = {
     "D432": "whether to rename the state or the method is not certain",
     "D425": "where to step the component is not certain",
     "D435": "which of the guards to change is not certain",
-    **dict.fromkeys(("P214", "D443", "D444", "D445", "D446"), _AMBIGUOUS),
+    **dict.fromkeys(("P214", "D440", "D441", "D442", "D443", "D444", "D445", "D446"), _AMBIGUOUS),
+    "P215": "there is nothing wrong in the designs",
+    **dict.fromkeys(("D436", "D437"), "which robot should act differently is not certain"),
     **dict.fromkeys(("G501", "G502", "G503", "G504", "G505", "G506"), "Generate shows and writes generated files"),
 }
 """The reason for every rule without a quick fix."""
