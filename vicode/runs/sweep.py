@@ -179,10 +179,10 @@ def execute(
     out, err = child.communicate()
     records = [record for record in map(_parse, out.splitlines()) if record.keys() & {"tree", "summary"}]
     figures = _read_figures(records[:-1], records[-1]["summary"]) if records and "summary" in records[-1] else {}
-    error = ""
+    error, lines = "", err.splitlines()
     if child.returncode or not figures or records[-1]["summary"]["errors"]:
-        reported = [line.removeprefix(_ERROR) for line in err.splitlines() if line.startswith(_ERROR)]
-        error = (reported or [f"the program ended with exit code {child.returncode}"])[0].removesuffix(_REPEATED)
+        reported = [line.removeprefix(_ERROR).removesuffix(_REPEATED) for line in lines if line.startswith(_ERROR)]
+        error = (reported or [": ".join([f"the program ended with exit code {child.returncode}", *lines[-1:]])])[0]
     for path in paths:
         error = error.replace(f"{path}/", "")
     return {"values": run.values, "seed": run.seed, "error": error, **figures}

@@ -75,12 +75,12 @@ class Comparison:
     def describe_best(self) -> str:
         """Say which value is the best, and how sure that is."""
         if self.best is None:
-            return f"no run without an error has {self.figure}"
+            return f"No run without an error has {self.figure}"
         if self.best.combination.is_baseline:
-            return f"best {self.figure}: {self.best}, the value of the files"
+            return f"Best {self.figure}: {self.best}, the value of the files"
         counts = f"higher in {self.best.higher} and lower in {self.best.lower} of {len(self.best.numbers)} seeds"
         baseline = next((str(each) for each in self.outcomes if each.combination.is_baseline), "no runs")
-        return f"best {self.figure}: {self.best}; baseline: {baseline}; {counts}, p = {self.best.p:.2g}"
+        return f"Best {self.figure}: {self.best}; baseline: {baseline}; {counts}, p = {self.best.p:.2g}"
 
 
 def list_figures(rows: Sequence[Row]) -> list[str]:
