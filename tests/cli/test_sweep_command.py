@@ -244,7 +244,7 @@ def test_each_error_is_a_row(cars: Path, capsys: pytest.CaptureFixture[str]) -> 
     printed = capsys.readouterr().out
     assert "5 runs, 4 failed" in printed
     assert all(error in printed for error in errors)
-    assert [row["state"] for row in table()] == ["Stop", "Drive", "", "", ""]
+    assert [row["state"] for row in table()] == ["Stop", "Stop", "", "", ""]
     page = Path("out/sweep.html").read_text(encoding="utf-8")
     assert "4 runs with errors" in page
     assert "no picture" in page

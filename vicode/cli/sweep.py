@@ -157,13 +157,13 @@ def _follow(submit: "Submit", runs: "Sequence[SweepRun]") -> "Iterator[Row]":
     from vicode.cli.progress import progress_bar
 
     with progress_bar() as advance:
-        futures = [submit(run) for run in runs]
-        for number, future in enumerate(as_completed(futures), start=1):
+        # Nothing else refers to a future, so that a cluster forgets a run once its row is here.
+        for number, future in enumerate(as_completed([submit(run) for run in runs]), start=1):
             try:
                 yield future.result()
             except (CancelledError, Exception) as error:
                 raise OSError(f"a run was not done, the others are kept: {type(error).__name__}: {error}") from error
-            advance("Runs", number, len(futures))
+            advance("Runs", number, len(runs))
 
 
 def _report(rows: "Sequence[Row]", combinations: "Sequence[Combination]", args: argparse.Namespace) -> int:

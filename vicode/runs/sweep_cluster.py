@@ -29,7 +29,7 @@ def cluster_runs(address: str, code: Path, project: Path) -> Iterator[Submit]:
     shutil.copytree(project, code / "project", ignore=shutil.ignore_patterns(".*", "__pycache__"))
     with tempfile.TemporaryDirectory() as folder:
         packed = Path(shutil.make_archive(f"{folder}/sweep", "zip", code)).read_bytes()
-    with Client(address, set_as_default=False) as client:  # type: ignore[no-untyped-call]
+    with Client(address, set_as_default=False) as client:
         # Unlike scattered data, the result of a task is computed again if the worker that has it ends.
         archive = client.submit(bytes, packed)
         executor = client.get_executor(pure=False)
