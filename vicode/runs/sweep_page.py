@@ -93,7 +93,7 @@ def format_table(rows: Sequence[Row]) -> str:
     """The runs as CSV, one per line."""
     figures, text = list_figures(rows), io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*rows[0]["values"], "seed", "error", *figures])
+    writer.writerow([*dict.fromkeys(name for row in rows for name in row["values"]), "seed", "error", *figures])
     for row in rows:
         writer.writerow([*row["values"].values(), row["seed"], row["error"], *(_read(row, name) for name in figures)])
     return text.getvalue()
