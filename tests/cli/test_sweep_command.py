@@ -324,8 +324,8 @@ def test_a_name_that_has_no_effect_is_refused(cars: Path, capsys: pytest.Capture
 def test_the_best_value_is_named(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert sweep("--minimize", "done_s", seeds=8) == 0
     first = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("Best"))
-    assert first.startswith("Best done_s: limit=0.8 (median ")
-    assert first.endswith("; higher in 0 and lower in 8 of 8 seeds, p = 0.016")
+    assert first.startswith("Best done_s: limit=0.8, median ")
+    assert first.endswith(". Higher in 0 and lower in 8 of 8 seeds: significant, p = 0.016.")
     assert first in Path("out/sweep.html").read_text(encoding="utf-8").replace("&#39;", "'")
     assert sweep("--maximize", "done", seeds=8) == 2
     assert "no run has the figure 'done'; did you mean 'done_s'?" in capsys.readouterr().err

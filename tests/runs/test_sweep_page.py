@@ -56,9 +56,15 @@ def test_the_mean_decides_between_equal_medians() -> None:
     assert best.quartiles[1] == 1
 
 
+def test_the_baseline_is_the_best_if_others_are_only_as_good() -> None:
+    equal: list[Row] = [{"values": {"a": value}, "seed": 1, "error": "", "goals": 1} for value in reversed(TIMES)]
+    found = compare(equal, [*reversed(combinations())], "goals", MAXIMIZE)
+    assert found.describe_best() == "Best goals: a=1, median 1, mean 1. These are the values of the files."
+
+
 def test_runs_with_errors_are_in_the_table_only() -> None:
     found = rows("it failed")
-    assert compare(found, combinations(), "time_s", MINIMIZE).describe_best() == "No run without an error has time_s"
+    assert compare(found, combinations(), "time_s", MINIMIZE).describe_best() == "No run without an error has time_s."
     assert format_table(found).count("it failed") == len(found)
     assert "All runs have the same figures" in write_page("A sweep", found, combinations())
 

@@ -87,10 +87,15 @@ def combine(axes: Sequence[tuple[ChangedValue, ...]], project: Project) -> list[
     baseline = tuple(replace(axis[0], text=axis[0].text_in(project)) for axis in axes)
     found: dict[tuple[Any, ...], Combination] = {}
     for changes in (baseline, *product(*axes)):
-        key = tuple(change.evaluate(project) for change in changes)
+        key = tuple(_shorten(change.evaluate(project)) for change in changes)
         values = dict(zip(names, key, strict=True))
         found.setdefault(key, Combination(changes=changes, values=values, is_baseline=not found))
     return [found[key] for key in sorted(found)]
+
+
+def _shorten(value: Any) -> Any:
+    """2 instead of 2.0: the value of a float may be written as either."""
+    return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
 @contextmanager

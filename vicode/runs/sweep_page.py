@@ -19,6 +19,7 @@ from vicode.runs.sweep import SECONDS, TAKEN, Combination, Row
 from vicode.templating import render
 
 MINIMIZE, MAXIMIZE = -1, 1
+SIGNIFICANT = 0.05
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,7 +56,7 @@ class Outcome:
     def __str__(self) -> str:
         values = ", ".join(f"{name}={value}" for name, value in self.combination.values.items())
         mean = f", mean {self.mean:.4g}" if isfinite(self.mean) else ""
-        return f"{values} (median {self.quartiles[1]:.4g}{mean})"
+        return f"{values}, median {self.quartiles[1]:.4g}{mean}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,12 +76,13 @@ class Comparison:
     def describe_best(self) -> str:
         """Say which value is the best, and how sure that is."""
         if self.best is None:
-            return f"No run without an error has {self.figure}"
+            return f"No run without an error has {self.figure}."
         if self.best.combination.is_baseline:
-            return f"Best {self.figure}: {self.best}, the value of the files"
-        counts = f"higher in {self.best.higher} and lower in {self.best.lower} of {len(self.best.numbers)} seeds"
+            return f"Best {self.figure}: {self.best}. These are the values of the files."
         baseline = next((str(each) for each in self.outcomes if each.combination.is_baseline), "no runs")
-        return f"Best {self.figure}: {self.best}; baseline: {baseline}; {counts}, p = {self.best.p:.2g}"
+        counts = f"Higher in {self.best.higher} and lower in {self.best.lower} of {len(self.best.numbers)} seeds"
+        verdict = "significant" if self.best.p < SIGNIFICANT else "may be chance"
+        return f"Best {self.figure}: {self.best}. Baseline: {baseline}. {counts}: {verdict}, p = {self.best.p:.2g}."
 
 
 def list_figures(rows: Sequence[Row]) -> list[str]:
@@ -115,8 +117,11 @@ def compare(rows: Sequence[Row], combinations: Sequence[Combination], figure: st
         p = min(1.0, sign_test(higher, lower) * (len(combinations) - 1))
         if own:
             outcomes.append(Outcome(combination=each, numbers=[*own.values()], higher=higher, lower=lower, p=p))
-    rated = sorted(outcomes, key=lambda each: (-goal * each.quartiles[1], -goal * each.mean)) if goal else []
-    return Comparison(figure=figure, outcomes=tuple(outcomes), best=next(iter(rated), None))
+    # The baseline is the best one if others are only as good.
+    rated = sorted(
+        outcomes, key=lambda each: (-goal * each.quartiles[1], -goal * each.mean, not each.combination.is_baseline)
+    )
+    return Comparison(figure=figure, outcomes=tuple(outcomes), best=rated[0] if goal and rated else None)
 
 
 def sign_test(higher: int, lower: int) -> float:
@@ -140,6 +145,7 @@ def write_page(
         best=best,
         ends=list(zip(combinations, ends, strict=True)),
         failed=[row for row in rows if row["error"]],
+        significant=SIGNIFICANT,
         main=[*([best] if best else []), *(each for each in figures if not each.figure.startswith((SECONDS, TAKEN)))],
         details=[each for each in figures if each.figure.startswith((SECONDS, TAKEN))],
         light=palette_variables(LIGHT),
