@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -136,11 +137,14 @@ def test_the_table_is_the_same_on_one_core_and_on_two(cars: Path) -> None:
 
 
 def test_a_worker_that_is_killed_loses_nothing(cars: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    distributed = pytest.importorskip("distributed", reason="install it with: pip install 'vicode-fsm[cluster]'")
+    if find_spec("distributed") is None:
+        pytest.skip("Dask is missing: install the extra cluster")
+    from distributed import LocalCluster
+
     assert sweep(out="here") == 0
     killed = cars.with_name("killed")
     monkeypatch.setenv("KILL_ONCE", str(killed))
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
         assert sweep("--cluster", cluster.scheduler_address, out="there") == 0
     assert killed.exists()
     assert Path("there/runs.csv").read_bytes() == Path("here/runs.csv").read_bytes()
@@ -338,6 +342,14 @@ def test_without_dask_a_cluster_is_refused(
     monkeypatch.delitem(sys.modules, "vicode.runs.sweep_cluster", raising=False)
     assert sweep("--cluster", "127.0.0.1:1") == 2
     assert "pip install 'vicode-fsm[cluster]'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("address", ["robotlab", "http://robotlab:8786"])
+def test_another_address_than_that_of_a_scheduler_is_refused(
+    cars: Path, capsys: pytest.CaptureFixture[str], address: str
+) -> None:
+    assert sweep("--cluster", address) == 2
+    assert f"'{address}' is no address of a scheduler; write tcp://HOST:PORT" in capsys.readouterr().err
 
 
 def test_a_world_that_sets_the_pace_is_refused(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import re
 import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import CancelledError, as_completed
@@ -20,9 +21,10 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add, set_help = parser.add_argument, "values of a parameter (Component.parameter) or a constant; may be repeated"
+    add = parser.add_argument
     add("path", metavar="DESIGN", help="design of the root component, or folder of a project with one agent")
-    add("--set", action="append", required=True, metavar="NAME=VALUES", help=f"{set_help}: 0.2,0.3 or 0.2..0.6:5")
+    set_help = "values of a parameter (Component.parameter) or a constant, as 0.2,0.3 or 0.2..0.6:5; may be repeated"
+    add("--set", action="append", required=True, metavar="NAME=VALUES", help=set_help)
     add("--out", metavar="DIR", required=True, help="folder of the results; runs that it has are not done again")
     add("--again", action="store_true", help="remove the runs that the folder has")
     add("--seeds", type=options.count, default=20, metavar="N", help="seeds 1 to N (default: %(default)s)")
@@ -33,7 +35,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     goal.add_argument("--maximize", metavar="FIGURE", help="find the value with the highest figure")
     add("--profile", metavar="NAME", default="", help="use the implementations and the world of this profile")
     add("--jobs", type=options.count, metavar="N", help="number of runs at a time (default: one per processor core)")
-    add("--cluster", metavar="ADDRESS", help="do the runs on the Dask cluster of this scheduler (docs/sweeps.md)")
+    cluster_help = "do the runs on the Dask cluster of this scheduler, tcp://HOST:PORT (docs/sweeps.md)"
+    add("--cluster", type=_address, metavar="ADDRESS", help=cluster_help)
+
+
+def _address(text: str) -> str:
+    if not re.fullmatch(r"((tcp|tls)://)?[^/\s]+:\d+", text):
+        raise argparse.ArgumentTypeError(f"'{text}' is no address of a scheduler; write tcp://HOST:PORT")
+    return text
 
 
 def run(args: argparse.Namespace) -> int:
@@ -142,7 +151,7 @@ def _start(opened: LoadedProject, code: Path, args: argparse.Namespace) -> "Abst
 
     project = opened.open_project.folder.resolve()
     if args.cluster is None:
-        return local_runs(args.jobs or len(os.sched_getaffinity(0)), code, project)
+        return local_runs(args.jobs or os.cpu_count() or 1, code, project)
     try:
         from vicode.runs.sweep_cluster import cluster_runs
     except ModuleNotFoundError as error:

@@ -9,9 +9,11 @@ from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 
-from distributed import Client
+from distributed import Client, get_worker
 
 from vicode.runs.sweep import Row, Submit, SweepRun, execute
+
+_TIMEOUT_S = 10
 
 
 @contextmanager
@@ -29,7 +31,7 @@ def cluster_runs(address: str, code: Path, project: Path) -> Iterator[Submit]:
     shutil.copytree(project, code / "project", ignore=shutil.ignore_patterns(".*", "__pycache__"))
     with tempfile.TemporaryDirectory() as folder:
         packed = Path(shutil.make_archive(f"{folder}/sweep", "zip", code)).read_bytes()
-    with Client(address, set_as_default=False) as client:
+    with Client(address, timeout=_TIMEOUT_S, set_as_default=False) as client:
         # Unlike scattered data, the result of a task is computed again if the worker that has it ends.
         archive = client.submit(bytes, packed)
         executor = client.get_executor(pure=False)
@@ -40,14 +42,14 @@ def cluster_runs(address: str, code: Path, project: Path) -> Iterator[Submit]:
 
 
 @lru_cache(maxsize=1)
-def _unpack(archive: bytes) -> "tempfile.TemporaryDirectory[str]":
-    """Unpack the files; the folder is removed after the last run that uses it."""
-    folder = tempfile.TemporaryDirectory(prefix="vicode-sweep-", suffix=".tmp")
+def _unpack(archive: bytes) -> Path:
+    """Unpack the files into the folder of the worker, which Dask removes, also after a crash."""
+    folder = tempfile.mkdtemp(dir=get_worker().local_directory)
     with zipfile.ZipFile(io.BytesIO(archive)) as stream:
-        stream.extractall(folder.name)
-    return folder
+        stream.extractall(folder)
+    return Path(folder)
 
 
 def _execute_packed(run: SweepRun, archive: bytes) -> Row:
     folder = _unpack(archive)
-    return execute(run, Path(folder.name), Path(folder.name, "project"))
+    return execute(run, folder, folder / "project")

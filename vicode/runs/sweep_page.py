@@ -60,7 +60,7 @@ class Outcome:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Comparison:
+class FigureComparison:
     """A figure with each combination of values that has runs; `best` is one of them if the figure has a goal."""
 
     figure: str
@@ -101,7 +101,7 @@ def format_table(rows: Sequence[Row]) -> str:
     return text.getvalue()
 
 
-def compare(rows: Sequence[Row], combinations: Sequence[Combination], figure: str, goal: int = 0) -> Comparison:
+def compare(rows: Sequence[Row], combinations: Sequence[Combination], figure: str, goal: int = 0) -> FigureComparison:
     """Compare a figure; with a goal, a run that lacks it is worse than all others."""
     found: list[dict[int, float]] = []
     for each in combinations:
@@ -121,7 +121,7 @@ def compare(rows: Sequence[Row], combinations: Sequence[Combination], figure: st
     rated = sorted(
         outcomes, key=lambda each: (-goal * each.quartiles[1], -goal * each.mean, not each.combination.is_baseline)
     )
-    return Comparison(figure=figure, outcomes=tuple(outcomes), best=rated[0] if goal and rated else None)
+    return FigureComparison(figure=figure, outcomes=tuple(outcomes), best=rated[0] if goal and rated else None)
 
 
 def sign_test(higher: int, lower: int) -> float:
@@ -131,7 +131,7 @@ def sign_test(higher: int, lower: int) -> float:
 
 
 def write_page(
-    title: str, rows: Sequence[Row], combinations: Sequence[Combination], best: Comparison | None = None
+    title: str, rows: Sequence[Row], combinations: Sequence[Combination], best: FigureComparison | None = None
 ) -> str:
     """The page; the figure with a goal comes first, those that are the same in all runs are left out."""
     names = [name for name in list_figures(rows) if best is None or name != best.figure]
