@@ -44,7 +44,7 @@ def main() -> None:
 def measure(name: str, out: Path, seeds: int, *words: str) -> None:
     """Run one sweep."""
     command = [sys.executable, "-m", "vicode", "sweep", DESIGN, "--set", VALUES, "--seeds", str(seeds)]
-    command += ["--again", "--out", str(out), "--minimize", "world.first_goal_s", *words]
+    command += ["--out", str(out), "--minimize", "world.first_goal_s", *words]
     begin = time.perf_counter()
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     seconds = time.perf_counter() - begin

@@ -80,7 +80,7 @@ def _sweep(opened: LoadedProject, component: str, args: argparse.Namespace) -> i
     out.mkdir(parents=True, exist_ok=True)
     origin = _describe_origin(opened, component, args)
     with open_runs(out / "runs.jsonl", origin, is_new=args.again) as (rows, append), temporary_folder("sweep") as code:
-        done = {(*row["values"].items(), row["seed"]): row for row in rows}
+        done = {(*row["values"].items(), row["seed"]): row for row in rows if not row["error"]}
         runs = _prepare(opened, component, combinations, code, args)
         waiting = [run for run in runs if (*run.values.items(), run.seed) not in done]
         if waiting:
