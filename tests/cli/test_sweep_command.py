@@ -317,6 +317,13 @@ def test_values_of_an_enumeration_and_of_a_parameter_are_combined(cars: Path) ->
     assert short < long
 
 
+def test_the_order_of_the_names_does_not_matter(cars: Path) -> None:
+    assert sweep("--set", "Wheels.pause=0.5", seeds=1) == 0
+    before = Path("out/runs.jsonl").read_bytes()
+    assert sweep("--set", "limit=0.2..0.8:3", seeds=1, values="Wheels.pause=0.5") == 0
+    assert Path("out/runs.jsonl").read_bytes() == before
+
+
 def test_a_name_that_has_no_effect_is_refused(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert vicode("sweep", "cars/wheels.yaml", "--set", "limit=1", "--set", "limit=2", "--out", "out") == 2
     assert "limit is set twice; separate its values by commas" in capsys.readouterr().err

@@ -5,7 +5,7 @@ import os
 import re
 import sys
 from collections.abc import Iterator, Sequence
-from concurrent.futures import CancelledError, as_completed
+from concurrent.futures import as_completed
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from hashlib import sha256
@@ -18,6 +18,7 @@ from vicode.services.project_loader import LoadedProject
 
 if TYPE_CHECKING:
     from vicode.runs.sweep import Combination, Row, Submit, SweepRun
+    from vicode.runs.sweep_page import Result
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -80,16 +81,20 @@ def _sweep(opened: LoadedProject, component: str, args: argparse.Namespace) -> i
     out.mkdir(parents=True, exist_ok=True)
     origin = _describe_origin(opened, component, args)
     with open_runs(out / "runs.jsonl", origin, is_new=args.again) as (rows, append), temporary_folder("sweep") as code:
-        done = {(*row["values"].items(), row["seed"]): row for row in rows if not row["error"]}
+        done = {_key(row["values"], row["seed"]): row for row in rows if not row["error"]}
         runs = _prepare(opened, component, combinations, code, args)
-        waiting = [run for run in runs if (*run.values.items(), run.seed) not in done]
+        waiting = [run for run in runs if _key(run.values, run.seed) not in done]
         if waiting:
             with _start(opened, code, args) as submit:
                 for row in _follow(submit, waiting):
                     append(row)
-                    done[*row["values"].items(), row["seed"]] = row
+                    done[_key(row["values"], row["seed"])] = row
     seeds = range(1, args.seeds + 1)
-    return _report([done[*each.values.items(), seed] for each in combinations for seed in seeds], combinations, args)
+    return _report([(each, [done[_key(each.values, seed)] for seed in seeds]) for each in combinations], args)
+
+
+def _key(values: "Row", seed: int) -> object:
+    return frozenset(values.items()), seed
 
 
 def _combine(opened: LoadedProject, component: str, given: Sequence[str]) -> "list[Combination]":
@@ -170,29 +175,30 @@ def _follow(submit: "Submit", runs: "Sequence[SweepRun]") -> "Iterator[Row]":
         for number, future in enumerate(as_completed([submit(run) for run in runs]), start=1):
             try:
                 yield future.result()
-            except (CancelledError, Exception) as error:
+            except Exception as error:
                 raise OSError(f"a run was not done, the others are kept: {type(error).__name__}: {error}") from error
             advance("Runs", number, len(runs))
 
 
-def _report(rows: "Sequence[Row]", combinations: "Sequence[Combination]", args: argparse.Namespace) -> int:
+def _report(results: "Sequence[Result]", args: argparse.Namespace) -> int:
     """Write table and page, and print what was found."""
     from vicode.findings.nearest import did_you_mean
     from vicode.output import write_atomically
     from vicode.runs.sweep_page import MAXIMIZE, MINIMIZE, compare, format_table, list_figures, write_page
 
     out, wanted, best = Path(args.out), args.minimize or args.maximize, None
+    rows = [row for _combination, own in results for row in own]
     if wanted:
         if wanted not in (known := list_figures(rows)):
             fix = did_you_mean(wanted, known, f"known are {', '.join(known[:12])}")
             print(f"vicode: no run has the figure '{wanted}'; {fix}", file=sys.stderr)
             return 2
-        best = compare(rows, combinations, wanted, MINIMIZE if args.minimize else MAXIMIZE)
+        best = compare(results, wanted, MINIMIZE if args.minimize else MAXIMIZE)
     failed = [row for row in rows if row["error"]]
     print(f"{len(rows)} runs, {len(failed)} failed")
     for row in failed[:10]:
         print(f"  {row['values']}, seed {row['seed']}: {row['error']}")
     write_atomically(out / "runs.csv", format_table(rows))
-    write_atomically(out / "sweep.html", write_page(f"Sweep of {args.path}", rows, combinations, best))
+    write_atomically(out / "sweep.html", write_page(f"Sweep of {args.path}", results, best))
     print(*([best.describe_best()] if best else []), f"wrote {out / 'runs.csv'} and {out / 'sweep.html'}", sep="\n")
     return 1 if failed else 0

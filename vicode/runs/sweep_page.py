@@ -21,6 +21,9 @@ from vicode.templating import render
 MINIMIZE, MAXIMIZE = -1, 1
 SIGNIFICANT = 0.05
 
+Result = tuple[Combination, Sequence[Row]]
+"""The runs with one combination of values."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
@@ -101,20 +104,20 @@ def format_table(rows: Sequence[Row]) -> str:
     return text.getvalue()
 
 
-def compare(rows: Sequence[Row], combinations: Sequence[Combination], figure: str, goal: int = 0) -> FigureComparison:
+def compare(results: Sequence[Result], figure: str, goal: int = 0) -> FigureComparison:
     """Compare a figure; with a goal, a run that lacks it is worse than all others."""
     found: list[dict[int, float]] = []
-    for each in combinations:
-        own = {row["seed"]: _read(row, figure) for row in rows if row["values"] == each.values and not row["error"]}
+    for _combination, rows in results:
+        own = {row["seed"]: _read(row, figure) for row in rows if not row["error"]}
         if goal:
             own = {seed: -goal * inf if number is None else number for seed, number in own.items()}
         found.append({seed: number for seed, number in own.items() if isinstance(number, bool | int | float)})
-    (baseline,) = (own for own, each in zip(found, combinations, strict=True) if each.is_baseline)
+    (baseline,) = (own for own, result in zip(found, results, strict=True) if result[0].is_baseline)
     outcomes = []
-    for own, each in zip(found, combinations, strict=True):
+    for own, (each, _rows) in zip(found, results, strict=True):
         pairs = [(number, baseline[seed]) for seed, number in own.items() if seed in baseline]
         higher, lower = sum(one > other for one, other in pairs), sum(one < other for one, other in pairs)
-        p = min(1.0, sign_test(higher, lower) * (len(combinations) - 1))
+        p = min(1.0, sign_test(higher, lower) * (len(results) - 1))
         if own:
             outcomes.append(Outcome(combination=each, numbers=[*own.values()], higher=higher, lower=lower, p=p))
     # The baseline is the best one if others are only as good.
@@ -130,20 +133,16 @@ def sign_test(higher: int, lower: int) -> float:
     return min(1.0, 2 * sum(comb(count, number) for number in range(min(higher, lower) + 1)) / (1 << count))
 
 
-def write_page(
-    title: str, rows: Sequence[Row], combinations: Sequence[Combination], best: FigureComparison | None = None
-) -> str:
+def write_page(title: str, results: Sequence[Result], best: FigureComparison | None = None) -> str:
     """The page; the figure with a goal comes first, those that are the same in all runs are left out."""
+    rows = [row for _combination, own in results for row in own]
     names = [name for name in list_figures(rows) if best is None or name != best.figure]
-    figures = [each for each in (compare(rows, combinations, name) for name in names) if each.range[0] < each.range[1]]
-    ends = [
-        Counter(row.get("stopped", "failed") for row in rows if row["values"] == each.values) for each in combinations
-    ]
+    figures = [each for each in (compare(results, name) for name in names) if each.range[0] < each.range[1]]
     return render(
         "sweep/page.html.jinja",
         title=title,
         best=best,
-        ends=list(zip(combinations, ends, strict=True)),
+        ends=[(each, Counter(row.get("stopped", "failed") for row in own)) for each, own in results],
         failed=[row for row in rows if row["error"]],
         significant=SIGNIFICANT,
         main=[*([best] if best else []), *(each for each in figures if not each.figure.startswith((SECONDS, TAKEN)))],
