@@ -28,7 +28,7 @@ def main() -> None:
 def take_sweep(browser: Browser, folder: str) -> None:
     words = ("--set", "pan_threshold=15..55:5", "--seeds", "40", "--minimize", "world.first_goal_s", "--out", folder)
     run("sweep", "designs/forward/player.yaml", *words)
-    page = browser.new_page(viewport={"width": 1000, "height": 720})
+    page = browser.new_page(viewport={"width": 1120, "height": 720})
     page.goto(Path(folder, "sweep.html").as_uri())
     take(page, FOLDER / "sweep.png")
 
