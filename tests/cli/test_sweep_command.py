@@ -332,6 +332,13 @@ def test_a_name_that_has_no_effect_is_refused(cars: Path, capsys: pytest.Capture
     assert "Car does not use Other" in capsys.readouterr().err
 
 
+def test_values_without_an_effect_are_reported(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert sweep(values="unused=1,2") == 0
+    assert "the values make no difference" in capsys.readouterr().out
+    assert sweep(out="other") == 0
+    assert "no difference" not in capsys.readouterr().out
+
+
 def test_the_best_value_is_named(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert sweep("--minimize", "done_s", seeds=8) == 0
     first = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("Best"))
