@@ -199,7 +199,7 @@ def _report(results: "Sequence[Result]", args: argparse.Namespace) -> int:
     for row in failed[:10]:
         print(f"  {row['values']}, seed {row['seed']}: {row['error']}")
     if len(results) > 1 and len({repr([{**row, "values": None} for row in own]) for _combination, own in results}) == 1:
-        print("the values make no difference: does a state pass another value to the parameter?")
+        print("the values make no difference; that of a parameter has no effect where a state passes another one")
     write_atomically(out / "runs.csv", format_table(rows))
     write_atomically(out / "sweep.html", write_page(f"Sweep of {args.path}", results, best))
     print(*([best.describe_best()] if best else []), f"wrote {out / 'runs.csv'} and {out / 'sweep.html'}", sep="\n")
