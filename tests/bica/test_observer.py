@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 from types import SimpleNamespace
+from typing import Any
 
 from tests.bica.sample_player import Player
 from vicode.bica import Component, ErrorRecord, IterationRecord, Observer, Root, SimulatedClock, State
+from vicode.bica.observer import only_changes
 
 
 class Run:
@@ -220,3 +222,21 @@ def test_integers_that_python_does_not_print_are_recorded() -> None:
     observer = Observer(values=True)
     Root(Counter, clock=SimulatedClock(), observer=observer).step()
     assert f'"total": "{hex(10**5000)}"' in json.dumps(observer.records)
+
+
+def test_only_iterations_with_changes_are_passed_on() -> None:
+    def record(number: int, *steps: tuple[str, str, str | None], errors: int = 0) -> Any:
+        tree = [{"component": name, "state": state, "changed_from": left} for name, state, left in steps]
+        return {"iteration": number, "tree": tree, "errors": [{}] * errors}
+
+    passed: list[Any] = []
+    sink = only_changes(passed.append)
+    sink(record(1, ("Car", "Drive", None), ("Wheels", "Left", None)))
+    sink(record(2, ("Car", "Drive", None), ("Wheels", "Left", None)))
+    sink(record(3, ("Car", "Drive", None), ("Wheels", "Right", "Left")))
+    sink(record(4, ("Car", "Drive", None), ("Wheels", "Right", None)))
+    sink(record(5, ("Car", "Drive", None), ("Wheels", "Right", "Right")))
+    sink(record(6, ("Car", "Drive", None)))
+    sink(record(7, ("Car", "Drive", None), errors=1))
+    sink(record(8, ("Car", "Drive", None)))
+    assert [each["iteration"] for each in passed] == [1, 3, 5, 6, 7]

@@ -3,6 +3,7 @@
 What a command writes is read by the program that it is for, where there is one in the test environment.
 """
 
+import csv
 import json
 import os
 import re
@@ -30,6 +31,7 @@ from pypdf import PdfReader
 from tests.cli.command_runner import vicode
 from tests.commands.projects import CPP, PYTHON, XABSL, TableProject
 from tests.cpp_tools import STANDARD, WARNINGS, find_gpp, outputs, start, write_unit
+from vicode.services.project_loader import load_projects
 from vicode.traces.reader import trace_schema
 
 LIMIT_S = 60.0
@@ -120,6 +122,21 @@ def run_with_trace(place: Workplace) -> None:
 def replay(place: Workplace) -> None:
     count = len(_read_trace(place.trace())) - 2
     assert f"same states in {count} iterations" in place.run("replay", "run.jsonl", "--design", place.folder)
+
+
+def sweep(place: Workplace) -> None:
+    """The value of the file, or the error that there is none to set."""
+    (loaded,) = load_projects([str(place.design)])
+    project = loaded.open_project.project
+    (root,) = (each for each in project.designs if each.component in loaded.requested)
+    declared = {each.name: each for each in project.constants}
+    declared |= {f"{root.component}.{each.name}": each for each in root.parameters}
+    name, text = next(((name, each.initial) for name, each in declared.items() if each.initial), ("none", "1"))
+    words = ("--set", f"{name}={text}", "--seeds", "2", "--seconds", SECONDS, "--out", "results")
+    place.run("sweep", place.design, *words, code=0 if declared else 2)
+    if declared:
+        rows = list(csv.DictReader(Path("results/runs.csv").read_text(encoding="utf-8").splitlines()))
+        assert [(row["seed"], row["error"]) for row in rows] == [("1", ""), ("2", "")]
 
 
 def trace_stats(place: Workplace) -> None:
@@ -277,6 +294,7 @@ COMMANDS = (
     TableCommand(name="compile C++", run=compile_cpp, fits=lambda project: CPP in project.languages),
     TableCommand(name="compile XABSL", run=compile_xabsl, fits=lambda project: XABSL in project.languages),
     TableCommand(name="run", run=run_with_trace, fits=_runs),
+    TableCommand(name="sweep", run=sweep, fits=_runs),
     TableCommand(name="replay", run=replay, fits=_runs),
     TableCommand(name="trace stats", run=trace_stats, fits=_runs),
     TableCommand(name="trace diff", run=trace_diff, fits=_runs),

@@ -1,4 +1,4 @@
-"""Takes the pictures of docs/experiments.md, the page of the meeting and the view of its world: `make pictures`."""
+"""Takes the pictures of docs/experiments.md and docs/sweeps.md: pages, and the view of a world; `make pictures`."""
 
 import subprocess
 import sys
@@ -20,8 +20,17 @@ def main() -> None:
         page = browser.new_page(viewport={"width": 1160, "height": 1280})
         page.goto(Path(folder, "meeting.html").as_uri())
         take(page, FOLDER / "experiment.png")
+        take_sweep(browser, folder)
         take_view(browser)
         browser.close()
+
+
+def take_sweep(browser: Browser, folder: str) -> None:
+    words = ("--set", "pan_threshold=15..55:5", "--seeds", "40", "--minimize", "world.first_goal_s", "--out", folder)
+    run("sweep", "designs/forward/player.yaml", *words)
+    page = browser.new_page(viewport={"width": 1120, "height": 720})
+    page.goto(Path(folder, "sweep.html").as_uri())
+    take(page, FOLDER / "sweep.png")
 
 
 def take_view(browser: Browser) -> None:

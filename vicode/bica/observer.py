@@ -237,6 +237,19 @@ class Observer:
             record["values"] = to_json_value(read_values(component))
 
 
+def only_changes(sink: Callable[[IterationRecord], None]) -> Callable[[IterationRecord], None]:
+    """A sink that drops iterations in which the same components are in the same states as in the one before."""
+    known: list[tuple[str, str]] = []
+
+    def pass_changes(record: IterationRecord) -> None:
+        states = [(step["component"], step["state"]) for step in record["tree"]]
+        if states != known or record["errors"] or any(step["changed_from"] is not None for step in record["tree"]):
+            known[:] = states
+            sink(record)
+
+    return pass_changes
+
+
 class ObservedFunction:
     """An output with arguments, in place of the method of a component."""
 

@@ -29,6 +29,7 @@ def make_parser(
     add = parser.add_argument
     _add_root_arguments(parser, components, world)
     add("--reload", action="store_true", help=argparse.SUPPRESS)
+    add("--changes", action="store_true", help=argparse.SUPPRESS)
     _add_connections(parser)
     add("--path", metavar="DIR", action="append", default=[], help="add DIR to the import path; may be repeated")
     add("--seed", type=int, default=0, metavar="N", help="seed of the world (default: 0)")

@@ -20,7 +20,7 @@ from .clock import PacedClock, SimulatedClock, WorldClock
 from .errors import ComponentError, CyclicUseError, OutputError, print_error
 from .live import NoHoldError
 from .loader import UserCodeError, describe_user_error, load_component, make_world, wrap_user_errors
-from .observer import TRACE_HEADER, IterationRecord, Observer, to_json_value
+from .observer import TRACE_HEADER, IterationRecord, Observer, only_changes, to_json_value
 from .options import TICKS, WORLD, make_parser
 from .reload import Reloader
 from .root import Root
@@ -234,12 +234,15 @@ class _RecordWriter:
 def _make_root(component_class: type[Component], world: Any, writer: _RecordWriter) -> Root:
     options = writer.options
     is_observed = writer.trace is not None or options.stream
+    sink = partial(writer.write_iteration, world)
     root = Root(
         component_class,
         clock=_make_clock(options, world),
         world=world,
         on_error=options.on_error,
-        observer=Observer(partial(writer.write_iteration, world), values=options.values) if is_observed else None,
+        observer=Observer(only_changes(sink) if options.changes else sink, values=options.values)
+        if is_observed
+        else None,
     )
     root.measure = True
     if options.record:

@@ -25,6 +25,7 @@ COMMANDS = (
     "bridge",
     "sim",
     "experiment",
+    "sweep",
     "deploy",
     "replay",
     "trace",

@@ -44,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
     from vicode.simulated_robot.client import BridgeError
 
     try:
-        with _ending_at_sigterm():
+        with ending_at_sigterm():
             return _run(EXPERIMENTS[args.name], args)
     except (ExperimentError, BridgeStartError, BridgeError) as error:
         print(f"vicode: {error}", file=sys.stderr)
@@ -52,8 +52,8 @@ def run(args: argparse.Namespace) -> int:
 
 
 @contextlib.contextmanager
-def _ending_at_sigterm() -> Iterator[None]:
-    """Treat SIGTERM as Ctrl-C, so that the bridge ends, too."""
+def ending_at_sigterm() -> Iterator[None]:
+    """Treat SIGTERM as Ctrl-C, so that started processes end, too."""
     previous = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         yield

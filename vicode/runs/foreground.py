@@ -133,7 +133,7 @@ class _SignalForwarder:
 
     def _on_signal(self, number: int, _frame: FrameType | None) -> None:
         if self._is_repeated:
-            _kill(self._child)
+            kill_group(self._child)
         elif self.received is not None:
             self._repeat(number)
         else:
@@ -153,7 +153,7 @@ class _SignalForwarder:
             self._repeat(number)
         if not self._has_ended.wait(_INTERRUPT_TIMEOUT_S) and self._child.returncode is None:
             self._printer.show_notice("the program did not stop and was killed")
-            _kill(self._child)
+            kill_group(self._child)
 
 
 def _forwarded_signals() -> list[int]:
@@ -161,7 +161,7 @@ def _forwarded_signals() -> list[int]:
     return [number for number in numbers if number == signal.SIGINT or signal.getsignal(number) != signal.SIG_IGN]
 
 
-def _kill(child: "subprocess.Popen[str]") -> None:
+def kill_group(child: "subprocess.Popen[str]") -> None:
     """Kill a program and its children, which could keep its output open."""
     if child.returncode is None:
         with contextlib.suppress(ProcessLookupError):
