@@ -58,7 +58,7 @@ _STATE_TIME = ElapsedTime(kind="state", span=_NO_SPAN)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Computed:
+class ComputedQuantity:
     """A quantity that is computed: the levels of what it reads, and its trees (two if it is their order)."""
 
     reads: tuple[int, ...]
@@ -77,7 +77,7 @@ class Conditions:
         self.diagrams = IntervalDiagrams(_NODES_OF_A_QUESTION, _MAX_NODES)
         self.quantities: dict[int, Quantity] = {STATE_TIME: table.quantity(_STATE_TIME)}
         self._levels: dict[Shape, int] = {shape_of(_STATE_TIME): STATE_TIME}
-        self._computed: dict[int, _Computed] = {}
+        self.computed: dict[int, ComputedQuantity] = {}
         self._texts: dict[tuple[str, str], Node] = {}
         self._plain_cases: dict[Node, bool] = {FALSE: False, TRUE: True}
         self.unknown = self._add_unknown()
@@ -114,7 +114,7 @@ class Conditions:
         if found is None:
             level, branches = self.diagrams.branches(node)
             # Unknown conditions are not related to anything.
-            found = (level < _FIRST_COMPUTED or not self._computed[level].trees) and any(
+            found = (level < _FIRST_COMPUTED or not self.computed[level].trees) and any(
                 self._meets_domain(level, interval) and self.has_plain_case(child) for interval, child in branches
             )
             self._plain_cases[node] = found
@@ -135,20 +135,20 @@ class Conditions:
         cuts = self.diagrams.find_cuts(nodes)
         levels = set(cuts)
         for level in cuts:
-            if level in self._computed:
-                levels.update(self._computed[level].reads)
+            if level in self.computed:
+                levels.update(self.computed[level].reads)
         result = TRUE
         for level in sorted(levels, reverse=True):
             domain = self._domain(level, with_nan=with_nan, is_ignored=level in ignored)
             result = self.diagrams.both(self.diagrams.test(level, (domain,)), result)
-            if level in self._computed:
+            if level in self.computed:
                 result = self.diagrams.both(self._relate(level, cuts, ignored), result)
         return result
 
     def levels_with_range(self, node: Node) -> list[int]:
         """The quantities with a declared range on which a diagram may depend."""
         tested = set(self.diagrams.find_cuts((node,)))
-        read = {each for level in tested if level in self._computed for each in self._computed[level].reads}
+        read = {each for level in tested if level in self.computed for each in self.computed[level].reads}
         return sorted((level for level in tested | read if self.quantities[level].has_range), reverse=True)
 
     def describe_range(self, level: int) -> str:
@@ -185,7 +185,7 @@ class Conditions:
         """A condition about which nothing is known."""
         level = self._next_computed()
         self.quantities[level] = Quantity(name="", type=BOOL, domain=((0, 0), (2, 0)))
-        self._computed[level] = _Computed(reads=(), trees=())
+        self.computed[level] = ComputedQuantity(reads=(), trees=())
         return self._test_bool(level)
 
     def _of(self, node: Expr) -> Node:
@@ -298,7 +298,7 @@ class Conditions:
         if level is None:
             reads = self._reads(left, right)
             level = self._levels["order", *shapes] = self._next_computed()
-            self._computed[level] = _Computed(reads=reads, trees=(left, right))
+            self.computed[level] = ComputedQuantity(reads=reads, trees=(left, right))
             is_int = left.type == right.type == INT
             domain = (BEFORE_ALL, BEFORE_NAN if is_int else AFTER_ALL)
             self.quantities[level] = Quantity(name="", type=FLOAT, domain=domain)
@@ -318,18 +318,18 @@ class Conditions:
         shape = shape_of(node)
         if shape not in self._levels:
             if is_leaf(node):
-                level = _FIRST_COMPUTED - (len(self.quantities) - len(self._computed))
+                level = _FIRST_COMPUTED - (len(self.quantities) - len(self.computed))
             else:
                 is_number = node.type in (INT, FLOAT)
                 reads = self._reads(node) if is_number else ()
                 level = self._next_computed()
-                self._computed[level] = _Computed(reads=reads, trees=(node,) if is_number else ())
+                self.computed[level] = ComputedQuantity(reads=reads, trees=(node,) if is_number else ())
             self._levels[shape] = level
             self.quantities[level] = self.table.quantity(node)
         return self._levels[shape]
 
     def _next_computed(self) -> int:
-        return 2 * _FIRST_COMPUTED - len(self._computed)
+        return 2 * _FIRST_COMPUTED - len(self.computed)
 
     def _reads(self, *nodes: Expr) -> tuple[int, ...]:
         found = {self._level(each) for node in nodes for each in walk(node) if self._is_free_number(each)}
@@ -357,7 +357,7 @@ class Conditions:
 
     def _relate(self, level: int, cuts: Mapping[int, set[Position]], ignored: Collection[int]) -> Node:
         """The values that a computed value has together with those that it is computed from."""
-        reads = self._computed[level].reads
+        reads = self.computed[level].reads
         cells = {each: self._cells(each, cuts.get(each, ()), is_ignored=each in ignored) for each in reads}
         while math.prod(map(len, cells.values())) > _MAX_CELLS:
             largest = max(cells, key=lambda each: len(cells[each]))
@@ -380,7 +380,7 @@ class Conditions:
         return self.diagrams.choose(first, cuts, tuple(children))
 
     def _bounds(self, level: int, chosen: Mapping[int, Interval]) -> list[Interval]:
-        computed = self._computed[level]
+        computed = self.computed[level]
         if not computed.trees:
             return [(BEFORE_ALL, AFTER_ALL)]
         by_shape = {shape_of(tree): cell for each, cell in chosen.items() if (tree := self.quantities[each].tree)}

@@ -5,7 +5,8 @@ mistake of the analysis cannot become a witness.
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+import random
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, product
 from types import MappingProxyType
@@ -14,13 +15,15 @@ from vicode.analysis.conditions import STATE_TIME, Conditions
 from vicode.analysis.interval_diagrams import BEFORE_NAN, Interval, Node, TooLargeError
 from vicode.analysis.machines import LiveTransition, MachineAnalysis
 from vicode.analysis.quantities import Quantity
+from vicode.model.design import Decision
 from vicode.model.expressions import BOOL, FLOAT, INT, OutputRef, Variable
 from vicode.model.project import Project
-from vicode.semantics import InputFunction, Interpreter, RobotMemory, Value
+from vicode.semantics import ComponentStep, InputFunction, Interpreter, Outcome, RobotMemory, Value
 
 DEFAULT_TICK_NS = 20_000_000
 _MOST_BOXES, _MOST_CHOICES = 16, 12
 
+OnDecision = Callable[[ComponentStep, Decision, Outcome], None]
 Inputs = Mapping[tuple[str, str], Value]
 """Values by component and name: outputs of components without a design, parameters of the root."""
 
@@ -40,17 +43,18 @@ class Walk:
     Args:
         project: The project, with all designs.
         machine: The design that is the root.
+        on_decision: Is called with each decision of a step and what became of it.
 
     Raises:
         NotInterpretableError: A design has errors, or code that is not portable.
     """
 
-    def __init__(self, project: Project, machine: MachineAnalysis) -> None:
+    def __init__(self, project: Project, machine: MachineAnalysis, on_decision: OnDecision = lambda *_: None) -> None:
         self._project = project
         self._machine = machine
         self._design = machine.design
         self._conditions: Conditions = machine.guards.conditions
-        self._robot = Interpreter(project, self._design.component)
+        self._robot = Interpreter(project, self._design.component, on_decision=on_decision)
         for name, each in self._robot.machines.items():
             for function, value in each.functions.items():
                 self._robot.set_input(name, function, _always(value))
@@ -69,13 +73,12 @@ class Walk:
         """Follow a shortest way of live transitions to a state; False if a transition on it could not be taken."""
         if self.steps:
             return self._follow_way(state)
-        start = self._memory.copy()
+        start = self.save()
         for inputs in self._find_first_inputs(state):
             self.step(inputs, 0)
             if self._follow_way(state):
                 return True
-            self._robot.memory = start.copy()
-            self.steps.clear()
+            self.restore(start)
         return False
 
     def _find_first_inputs(self, goal: str) -> Iterator[Inputs]:
@@ -96,19 +99,29 @@ class Walk:
 
     def take(self, edge: LiveTransition) -> bool:
         """Take a transition in the next iteration; without effect if no inputs are found."""
-        return any(self._try(edge, inputs, time_ns) for inputs, time_ns in self._find_inputs(edge.taken))
+        return self.meet(edge.taken, lambda: self.state == edge.target)
+
+    def meet(self, node: Node, is_met: Callable[[], bool]) -> bool:
+        """Run an iteration with values of a diagram after which a condition holds; without effect if none is found."""
+        for inputs, time_ns in self._find_inputs(node):
+            before = self.save()
+            self.step(inputs, time_ns)
+            if is_met():
+                return True
+            self.restore(before)
+        return False
 
     def hold(self, node: Node, states: Sequence[str]) -> bool:
         """Set inputs that are in a diagram once; whether the next iterations are in these states, one after another."""
         for inputs, _time_ns in self._find_inputs(node):
-            before, count = self._memory.copy(), len(self.steps)
+            before = self.save()
             for index, state in enumerate(states):
                 self.step(inputs if index == 0 else {}, self._memory.now_ns + self.tick_ns)
                 if self.state != state:
                     break
             else:
                 return True
-            self._restore(before, count)
+            self.restore(before)
         return False
 
     def find_inputs_to_stay(self, state: str, fixed: Inputs, iterations: int) -> Iterator[Inputs]:
@@ -123,7 +136,7 @@ class Walk:
 
         The inputs hold still. Without effect if they are not.
         """
-        before, count = self._memory.copy(), len(self.steps)
+        before = self.save()
         self.step(inputs, self._memory.now_ns + self.tick_ns)
         memories = self._memory.components
         for name, state in states.items():
@@ -134,7 +147,7 @@ class Walk:
             self.step({}, self._memory.now_ns + self.tick_ns)
             memory = self._memory.components[component]
             if memory.state != state or memory.stepped_in != self._memory.iteration:
-                self._restore(before, count)
+                self.restore(before)
                 return False
         return True
 
@@ -146,17 +159,13 @@ class Walk:
         self._robot.step(time_ns)
         self.steps.append(WalkStep(time_ns=time_ns, inputs=inputs, state=self.state))
 
-    def _try(self, edge: LiveTransition, inputs: Inputs, time_ns: int) -> bool:
-        before, count = self._memory.copy(), len(self.steps)
-        self.step(inputs, time_ns)
-        if self.state == edge.target:
-            return True
-        self._restore(before, count)
-        return False
+    def save(self) -> tuple[RobotMemory, tuple[WalkStep, ...]]:
+        return self._memory.copy(), tuple(self.steps)
 
-    def _restore(self, memory: RobotMemory, count: int) -> None:
-        self._robot.memory = memory
-        del self.steps[count:]
+    def restore(self, saved: tuple[RobotMemory, tuple[WalkStep, ...]]) -> None:
+        """Continue where the walk was saved."""
+        self._robot.memory = saved[0].copy()
+        self.steps[:] = saved[1]
 
     def _shortest_way(self, goal: str) -> list[LiveTransition]:
         ways: dict[str, list[LiveTransition]] = {self.state: []}
@@ -182,7 +191,7 @@ class Walk:
         for box in boxes:
             settable = {level: key for level in box if (key := self._key(self._conditions.quantities[level]))}
             choices = [list(self._choose(self._conditions.quantities[level], box[level])) for level in settable]
-            for values in islice(product(*choices), _MOST_CHOICES):
+            for values in _combine(choices):
                 yield dict(zip(settable.values(), values, strict=True)), self._time_of(box.get(STATE_TIME))
 
     def _restrict(self, node: Node, fixed: Inputs) -> Node:
@@ -243,6 +252,16 @@ class Walk:
             yield from _plain_floats(low, high)
         else:
             yield f"{quantity.type}.{self._conditions.table.elements(quantity.type)[int(low[0])]}"
+
+
+def _combine(choices: Sequence[Sequence[Value]]) -> Iterator[tuple[Value, ...]]:
+    """Combinations of values; first those in the same places, which are equal for the same intervals."""
+    for index in range(max(map(len, choices), default=0)):
+        yield tuple(each[min(index, len(each) - 1)] for each in choices)
+    yield from islice(product(*choices), _MOST_CHOICES)
+    if math.prod(map(len, choices)) > _MOST_CHOICES:
+        chance = random.Random(0)
+        yield from (tuple(map(chance.choice, choices)) for _ in range(2 * _MOST_CHOICES))
 
 
 def _always(value: Value) -> InputFunction:

@@ -1,0 +1,174 @@
+"""Finds the cases of a test suite: the diagrams of the guards say which values to try, a search fills the gaps.
+
+A case goes to a state on a shortest way, tries there what keeps the state, and leaves it. A value that an earlier case
+tried is not tried again. What the diagrams do not lead to, such as a counter that must be high, is searched as the
+inputs of `vicode conform` are. The expected values are those of the reference interpreter.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+
+from vicode.analysis.decision_targets import DecisionTarget, Point, contains, iterate_targets, locate
+from vicode.analysis.interval_diagrams import FALSE, TooLargeError
+from vicode.analysis.machines import MachineAnalysis
+from vicode.analysis.walk import Inputs, Walk
+from vicode.conformance.chosen_inputs import choose_missing
+from vicode.conformance.coverage import CoverageRecorder, DesignGoals, summarize
+from vicode.conformance.inputs import PARAMETERS, ConformanceRun, InputKey, RunStep
+from vicode.conformance.reference import run_reference
+from vicode.conformance.result import InputCoverage
+from vicode.conformance.suite import SuiteCase, make_case, observe
+from vicode.findings import DesignPath
+from vicode.model.design import Decision
+from vicode.model.project import Project
+from vicode.semantics import ComponentStep, Outcome, Value, build_machines, evaluate
+
+_SEARCHED = 400
+
+
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """A run that tries something; `shows` has words by the index of a step."""
+
+    name: str
+    run: ConformanceRun
+    shows: dict[int, str] = field(default_factory=dict)
+
+
+def find_cases(project: Project, root: str) -> tuple[tuple[SuiteCase, ...], InputCoverage]:
+    """The cases of a design, and what they reach of it.
+
+    Raises:
+        NotInterpretableError: The design has errors, or code that is not portable.
+    """
+    empty = ConformanceRun(project=project, root=root, steps=())
+    goals = DesignGoals(build_machines(project, root), root)
+    found = list(_CaseFinder(empty).find())
+    recorder = CoverageRecorder(goals)
+    for each in found:
+        robots = recorder.make_robots(empty)
+        for step in each.run.steps:
+            recorder.follow(robots, step)
+    own = tuple(goal for goal in goals.goals if goal.subject[0] == root)
+    missing = frozenset(own) - recorder.seen
+    if missing:
+        searched = choose_missing(recorder, empty, wanted=missing, iterations=_SEARCHED)
+        found += [_Found(name="searched", run=run) for run in searched]
+    names = Counter[str]()
+    cases = []
+    for each in found:
+        names[each.name] += 1
+        name = f"{each.name} ({names[each.name]})" if names[each.name] > 1 else each.name
+        cases.append(make_case(name, each.run, observe(project, run_reference(each.run)), each.shows))
+    goals.goals = own
+    return tuple(cases), summarize(goals, recorder.seen)
+
+
+class _CaseFinder:
+    """Finds the cases to which the diagrams lead.
+
+    Args:
+        empty: A run of the design without iterations.
+    """
+
+    def __init__(self, empty: ConformanceRun) -> None:
+        self._empty = empty
+        design = empty.project.design(empty.root)
+        assert design is not None
+        self._machine = MachineAnalysis(empty.project, design)
+        self._conditions = self._machine.guards.conditions
+        self._inputs = {each.key for each in empty.inputs}
+        self._tried: dict[str, list[Point]] = {state.name: [] for state in design.states}
+        self._shown = set[tuple[DesignPath, str]]()
+        self._decided: tuple[str, Point] | None = None
+
+    def find(self) -> Iterator[_Found]:
+        for state in self._machine.design.states:
+            if state.name in self._machine.reachable:
+                yield from self._find_in(state.name)
+
+    def _find_in(self, state: str) -> Iterator[_Found]:
+        walk = Walk(self._empty.project, self._machine, self._note)
+        if not walk.go_to(state):
+            return
+        start, shows = walk.save(), dict[int, str]()
+        self._note_way(walk)
+        targets = self._list_targets(state)
+        for target in targets:
+            self._try(walk, target, shows, stays=True)
+        end = walk.save()
+        for target in targets:
+            # What keeps the state is part of the first case that leaves it.
+            for place, words, stays in ((end, shows, False), (start, dict[int, str](), False), (start, {}, True)):
+                walk.restore(place)
+                if self._try(walk, target, words, stays=stays):
+                    yield self._make(walk, state, words)
+                    end, shows = (end, shows) if words is not shows else (start, {})
+                    break
+        if shows:
+            walk.restore(end)
+            yield self._make(walk, state, shows)
+
+    def _list_targets(self, state: str) -> list[DecisionTarget]:
+        self._conditions.diagrams.begin_question()
+        targets = list[DecisionTarget]()
+        with suppress(TooLargeError, RecursionError):
+            targets.extend(iterate_targets(self._machine, state))
+        return [each for each in targets if each.values != FALSE]
+
+    def _try(self, walk: Walk, target: DecisionTarget, shows: dict[int, str], *, stays: bool) -> bool:
+        """Try a target that was not tried before in the present state, which is kept or left."""
+        state = walk.state
+        if (target.path, target.words) in self._shown or self._was_tried(target, state):
+            return False
+
+        def is_met() -> bool:
+            decided = self._take_decided()
+            if decided is None or (walk.state == state) is not stays:
+                return False
+            self._tried[state].append(decided[1])
+            if self._was_tried(target, state):
+                return True
+            self._tried[state].pop()
+            return False
+
+        self._take_decided()
+        if not walk.meet(target.values, is_met):
+            return False
+        shows[len(walk.steps) - 1] = target.words
+        if target.is_shared:
+            self._shown.add((target.path, target.words))
+        return True
+
+    def _was_tried(self, target: DecisionTarget, state: str) -> bool:
+        return any(contains(self._conditions.diagrams, target.values, point) for point in self._tried[state])
+
+    def _note_way(self, walk: Walk) -> None:
+        """Remember what the way to a state tries."""
+        again = Walk(self._empty.project, self._machine, self._note)
+        self._take_decided()
+        for step in walk.steps:
+            again.step(step.inputs, step.time_ns)
+            if (decided := self._take_decided()) is not None:
+                self._tried[decided[0]].append(decided[1])
+
+    def _take_decided(self) -> tuple[str, Point] | None:
+        """The state and the values with which the last iteration decided; None if it did not."""
+        decided, self._decided = self._decided, None
+        return decided
+
+    def _note(self, step: ComponentStep, _item: Decision, _outcome: Outcome) -> None:
+        if step.name == self._empty.root and self._decided is None:
+            point = locate(self._conditions, lambda tree: evaluate(tree, tree.type, step.memory.values, step))
+            self._decided = (step.memory.state, point)
+
+    def _make(self, walk: Walk, state: str, shows: dict[int, str]) -> _Found:
+        steps = tuple(RunStep(time_ns=step.time_ns, inputs=(self._known(step.inputs),)) for step in walk.steps)
+        name = state if walk.state == state else f"{state} → {walk.state}"
+        return _Found(name=name, run=replace(self._empty, steps=steps), shows=dict(shows))
+
+    def _known(self, inputs: Inputs) -> dict[InputKey, Value]:
+        keyed = {(PARAMETERS if key[0] == self._empty.root else key[0], key[1]): each for key, each in inputs.items()}
+        return {key: value for key, value in keyed.items() if key in self._inputs}
