@@ -11,9 +11,10 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 from vicode.analysis.decision_targets import DecisionTarget, Point, contains, iterate_targets, locate
+from vicode.analysis.input_choice import Inputs
 from vicode.analysis.interval_diagrams import FALSE, TooLargeError
 from vicode.analysis.machines import MachineAnalysis
-from vicode.analysis.walk import Inputs, Walk
+from vicode.analysis.walk import Walk
 from vicode.conformance.chosen_inputs import choose_missing
 from vicode.conformance.coverage import CoverageRecorder, DesignGoals, summarize
 from vicode.conformance.inputs import PARAMETERS, ConformanceRun, InputKey, RunStep
