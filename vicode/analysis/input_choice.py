@@ -3,19 +3,21 @@
 import math
 import random
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import islice, product
+from itertools import islice, product, zip_longest
 from types import MappingProxyType
 
 from vicode.analysis.conditions import STATE_TIME
 from vicode.analysis.interval_diagrams import BEFORE_NAN, Interval, Node, TooLargeError
 from vicode.analysis.machines import MachineAnalysis
 from vicode.analysis.quantities import Quantity
-from vicode.model.expressions import BOOL, FLOAT, INT, OutputRef, Variable
+from vicode.model.expressions import BOOL, FLOAT, INT, Done, ElapsedTime, Expr, OutputRef, Variable, walk
 from vicode.model.project import Project
 from vicode.semantics import RobotMemory, Value
 
 _TICK_NS = 20_000_000
-_MOST_BOXES, _MOST_CHOICES = 16, 12
+_MOST_TIME = 1e6
+_EQUAL: Interval = ((0, 0), (0, 1))
+_MOST_BOXES, _MOST_CHOICES, _MOST_TRIES = 16, 12, 120
 
 Inputs = Mapping[tuple[str, str], Value]
 """Values by component and name: outputs of components without a design, parameters of the root."""
@@ -53,11 +55,50 @@ class InputChooser:
             )
         except (TooLargeError, RecursionError):
             return
-        for box in boxes:
-            settable = {level: key for level in box if (key := self._key(self._conditions.quantities[level]))}
-            choices = [list(self._choose(self._conditions.quantities[level], box[level])) for level in settable]
+        # One of each box after another: the values of some boxes may be impossible together.
+        found = [self._choose_in(memory, box) for box in boxes]
+        tries = (each for row in zip_longest(*found) for each in row if each is not None)
+        yield from islice(tries, _MOST_TRIES)
+
+    def _choose_in(self, memory: RobotMemory, box: Mapping[int, Interval]) -> Iterator[tuple[Inputs, int]]:
+        settable = {level: key for level in box if (key := self._key(self._conditions.quantities[level]))}
+        groups = self._group_equal(box, settable)
+        choices = [list(self._choose_common(group, box)) for group in groups]
+        for time_ns in self._list_times(memory, box) if all(choices) else ():
             for values in _combine(choices):
-                yield dict(zip(settable.values(), values, strict=True)), self._time_of(memory, box.get(STATE_TIME))
+                chosen = zip(groups, values, strict=True)
+                yield {settable[level]: value for group, value in chosen for level in group}, time_ns
+
+    def _choose_common(self, group: Sequence[int], box: Mapping[int, Interval]) -> Iterator[Value]:
+        """Values that are in the intervals of all levels of a group."""
+        low, high = max(box[level][0] for level in group), min(box[level][1] for level in group)
+        interval = (low, high) if low < high else box[group[0]]
+        return self._choose(self._conditions.quantities[group[0]], interval)
+
+    def _group_equal(self, box: Mapping[int, Interval], settable: Mapping[int, object]) -> list[list[int]]:
+        """The levels of inputs; those that must be equal are in one group."""
+        group_of = {level: [level] for level in settable}
+        for level, interval in box.items():
+            reads = self._conditions.computed[level].reads if level in self._conditions.computed else ()
+            if interval == _EQUAL and len(reads) == 2 and all(each in group_of for each in reads):
+                one, other = (group_of[each] for each in reads)
+                if one is not other:
+                    one += other
+                    group_of |= dict.fromkeys(other, one)
+        return list({id(group): group for group in group_of.values()}.values())
+
+    @property
+    def reads_fixed(self) -> bool:
+        """Whether a guard reads what no input sets, apart from times."""
+        quantities = self._conditions.quantities.values()
+        return any(
+            isinstance(each.tree, Variable | OutputRef | Done) and self._key(each) is None for each in quantities
+        )
+
+    def read_fixed(self, memory: RobotMemory) -> Iterator[Value | None]:
+        """The present values of what the guards read and no input sets."""
+        quantities = self._conditions.quantities.values()
+        return (self._present_value(memory, each) for each in quantities if self._key(each) is None)
 
     def _restrict(self, memory: RobotMemory, node: Node, fixed: Inputs) -> Node:
         diagrams, conditions = self._conditions.diagrams, self._conditions
@@ -70,10 +111,19 @@ class InputChooser:
                 restricted = diagrams.both(restricted, diagrams.test(level, (self._point(quantity, value),)))
         return restricted
 
-    def _time_of(self, memory: RobotMemory, interval: Interval | None) -> int:
+    def _list_times(self, memory: RobotMemory, box: Mapping[int, Interval]) -> Iterator[int]:
+        """The soonest time, and those at which the time in the state reaches what it is compared with."""
         entered = memory.components[self._design.component].entered_ns
         soonest = memory.now_ns + self.tick_ns
-        return soonest if interval is None else max(soonest, entered + math.ceil(interval[0][0]))
+        yield soonest if STATE_TIME not in box else max(soonest, entered + math.ceil(box[STATE_TIME][0][0]))
+        for level in box:
+            trees = self._conditions.computed[level].trees if level in self._conditions.computed else ()
+            nodes = [node for tree in trees for node in walk(tree)]
+            if any(isinstance(node, ElapsedTime) for node in nodes):
+                values = (memory.components[self._design.component].values.get(name) for name in _names(nodes))
+                limits = (each for each in values if isinstance(each, float) and 0 < each < _MOST_TIME)
+                later = (entered + math.ceil(each * self._conditions.table.ns_per_unit) for each in limits)
+                yield from (each for each in later if each > soonest)
 
     def _key(self, quantity: Quantity) -> tuple[str, str] | None:
         """The component and name of an input; None for what is no input."""
@@ -119,10 +169,15 @@ class InputChooser:
             yield f"{quantity.type}.{self._conditions.table.elements(quantity.type)[int(low[0])]}"
 
 
+def _names(nodes: Sequence[Expr]) -> Iterator[str]:
+    return (node.name for node in nodes if isinstance(node, Variable))
+
+
 def _combine(choices: Sequence[Sequence[Value]]) -> Iterator[tuple[Value, ...]]:
-    """Combinations of values; first those in the same places, which are equal for the same intervals."""
-    for index in range(max(map(len, choices), default=0)):
+    """Combinations of values: first those at the same places of all lists, then at different ones, then any."""
+    for index in range(max(map(len, choices), default=1)):
         yield tuple(each[min(index, len(each) - 1)] for each in choices)
+        yield tuple(each[(index + at) % len(each)] for at, each in enumerate(choices))
     yield from islice(product(*choices), _MOST_CHOICES)
     if math.prod(map(len, choices)) > _MOST_CHOICES:
         chance = random.Random(0)

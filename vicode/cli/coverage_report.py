@@ -22,7 +22,7 @@ def report_coverage(coverage: "InputCoverage", project: "OpenProject") -> None:
 
 
 def report_mutants(report: "MutantReport", component: str, project: "OpenProject") -> None:
-    count = report.count - report.equivalent
+    count = report.count
     same = f"; {report.equivalent} more are proved to behave like it" if report.equivalent else ""
     print(f"{component}: {count - len(report.survivors)} of {count} mutants of the design are noticed{same}")
     for mutant in report.survivors:

@@ -62,11 +62,12 @@ class DesignMutant:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MutantReport:
-    """The mutants that were tried, and those that were not noticed.
+    """The mutants of a design.
 
     Attributes:
-        equivalent: The number of mutants that are proved to behave like the design; they do not count.
-        survivors: The others that were not noticed.
+        count: The number of mutants that were tried.
+        equivalent: The number of others, which are proved to behave like the design.
+        survivors: Those that were not noticed.
     """
 
     count: int
@@ -97,19 +98,19 @@ def try_mutants(runs: Sequence[ConformanceRun], *, observe: Observe = repr, is_r
         machine = MachineAnalysis(project, design)
         tried.add(design)
         for mutant in list_mutants(project, design, is_root=design.component == root):
-            if mutant.design in tried:
+            # A run sets the parameters of its root.
+            if mutant.design in tried or (mutant.path[0] == "parameters" and design.component == root):
                 continue
             tried.add(mutant.design)
+            if is_equivalent(machine, mutant.design, mutant.path):
+                equivalent += 1
+                continue
             try:
                 is_noticed = _is_noticed(mutant, design, expected, observe)
             except NotInterpretableError:
                 continue
             count += 1
-            if is_noticed:
-                continue
-            if is_equivalent(machine, mutant.design, mutant.path):
-                equivalent += 1
-            else:
+            if not is_noticed:
                 survivors.append(mutant)
     return MutantReport(count=count, equivalent=equivalent, survivors=tuple(survivors))
 

@@ -6,15 +6,16 @@ inputs of `vicode conform` are. The expected values are those of the reference i
 """
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 from vicode.analysis.decision_targets import DecisionTarget, Point, contains, iterate_targets, locate
+from vicode.analysis.exploration import Exploration
 from vicode.analysis.input_choice import Inputs
-from vicode.analysis.interval_diagrams import FALSE, TooLargeError
+from vicode.analysis.interval_diagrams import FALSE, Node, TooLargeError
 from vicode.analysis.machines import MachineAnalysis
-from vicode.analysis.walk import Walk
+from vicode.analysis.walk import SavedWalk, Walk
 from vicode.conformance.chosen_inputs import choose_missing
 from vicode.conformance.coverage import CoverageRecorder, DesignGoals, summarize
 from vicode.conformance.inputs import PARAMETERS, ConformanceRun, InputKey, RunStep
@@ -84,29 +85,34 @@ class _CaseFinder:
         self._tried: dict[str, list[Point]] = {state.name: [] for state in design.states}
         self._shown = set[tuple[DesignPath, str]]()
         self._decided: tuple[str, Point] | None = None
+        self.left_out = set[str]()
 
     def find(self) -> Iterator[_Found]:
+        """Yield the runs; `left_out` has then the reasons why steps were left out."""
+        walk = Walk(self._empty.project, self._machine, self._note, may_leave_out=True)
+        self.left_out = walk.left_out
+        places = Exploration(self._empty.project, self._machine, walk).find()
         for state in self._machine.design.states:
-            if state.name in self._machine.reachable:
-                yield from self._find_in(state.name)
+            if state.name in places:
+                yield from self._find_in(walk, state.name, places[state.name])
 
-    def _find_in(self, state: str) -> Iterator[_Found]:
-        walk = Walk(self._empty.project, self._machine, self._note)
-        if not walk.go_to(state):
-            return
-        start, shows = walk.save(), dict[int, str]()
-        self._note_way(walk)
-        targets = self._list_targets(state)
+    def _find_in(self, walk: Walk, state: str, places: Sequence[SavedWalk]) -> Iterator[_Found]:
+        targets, shows = self._list_targets(state), dict[int, str]()
+        walk.restore(places[0])
         for target in targets:
             self._try(walk, target, shows, stays=True)
         end = walk.save()
         for target in targets:
             # What keeps the state is part of the first case that leaves it.
-            for place, words, stays in ((end, shows, False), (start, dict[int, str](), False), (start, {}, True)):
+            tries = [
+                (end, shows, False),
+                *((each, dict[int, str](), kept) for each in places for kept in (False, True)),
+            ]
+            for place, words, stays in tries:
                 walk.restore(place)
                 if self._try(walk, target, words, stays=stays):
                     yield self._make(walk, state, words)
-                    end, shows = (end, shows) if words is not shows else (start, {})
+                    end, shows = (places[0], {}) if words is shows else (end, shows)
                     break
         if shows:
             walk.restore(end)
@@ -129,25 +135,35 @@ class _CaseFinder:
             decided = self._take_decided()
             if decided is None or (walk.state == state) is not stays:
                 return False
+            if not contains(self._conditions.diagrams, target.values, decided[1]):
+                return False
             self._tried[state].append(decided[1])
-            if self._was_tried(target, state):
-                return True
-            self._tried[state].pop()
-            return False
+            return True
 
         self._take_decided()
-        if not walk.meet(target.values, is_met):
+        values = self._restrict(target, state, stays=stays)
+        if values == FALSE or not walk.meet(values, is_met):
             return False
         shows[len(walk.steps) - 1] = target.words
         if target.is_shared:
             self._shown.add((target.path, target.words))
         return True
 
+    def _restrict(self, target: DecisionTarget, state: str, *, stays: bool) -> Node:
+        """The values of a target for which a state is kept or left."""
+        diagrams = self._conditions.diagrams
+        diagrams.begin_question()
+        try:
+            staying = self._machine.staying(state)
+            return diagrams.both(target.values, staying if stays else diagrams.negate(staying))
+        except (TooLargeError, RecursionError):
+            return FALSE
+
     def _was_tried(self, target: DecisionTarget, state: str) -> bool:
         return any(contains(self._conditions.diagrams, target.values, point) for point in self._tried[state])
 
     def _note_way(self, walk: Walk) -> None:
-        """Remember what the way to a state tries."""
+        """Remember what a case tries on its way."""
         again = Walk(self._empty.project, self._machine, self._note)
         self._take_decided()
         for step in walk.steps:
@@ -166,6 +182,7 @@ class _CaseFinder:
             self._decided = (step.memory.state, point)
 
     def _make(self, walk: Walk, state: str, shows: dict[int, str]) -> _Found:
+        self._note_way(walk)
         steps = tuple(RunStep(time_ns=step.time_ns, inputs=(self._known(step.inputs),)) for step in walk.steps)
         name = state if walk.state == state else f"{state} → {walk.state}"
         return _Found(name=name, run=replace(self._empty, steps=steps), shows=dict(shows))
