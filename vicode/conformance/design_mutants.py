@@ -148,7 +148,14 @@ def _is_noticed(mutant: DesignMutant, design: Design, expected: Sequence[_Expect
 
 
 def _records(project: Project, run: ConformanceRun) -> Iterator[list[dict[str, Any]]]:
-    robots = ReferenceRobots(project, run.root, run.inputs, robots=run.robots, team_ticks=run.team_ticks)
+    robots = ReferenceRobots(
+        project,
+        run.root,
+        run.inputs,
+        robots=run.robots,
+        team_ticks=run.team_ticks,
+        holds_outputs=run.holds_outputs,
+    )
     return (robots.step(step) for step in run.steps)
 
 

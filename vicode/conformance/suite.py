@@ -32,7 +32,8 @@ class SuiteStep:
 
     Attributes:
         time_ns: Its time.
-        set: The inputs that change before it, by "Component.output"; parameters of the design by their name.
+        set: The inputs that change before it, by "Component.output"; parameters of the design by their name. An output
+            with arguments has a list of calls, see `derive_value`.
         expect: What changes in the observation; null for a component that is not stepped any more.
         shows: What it shows, in words.
     """
@@ -133,7 +134,8 @@ def make_run(suite: Suite, case: SuiteCase, project: Project) -> ConformanceRun:
         )
         for step in case.steps
     )
-    return ConformanceRun(project=project, root=suite.component, steps=tuple(steps))
+    is_recorded = suite.source != GENERATED
+    return ConformanceRun(project=project, root=suite.component, steps=tuple(steps), holds_outputs=is_recorded)
 
 
 def make_case(
@@ -228,8 +230,12 @@ def _value_of(text: str) -> Any:
 
 def _plain_value(value: Any) -> Any:
     """A value as JSON has it; infinities and nan as in traces."""
+    if isinstance(value, list):
+        return [[arguments, _plain_value(each)] for arguments, each in value]
     return value if not isinstance(value, float) or abs(value) < float("inf") else repr(value)
 
 
 def _value(each: RunInput, value: Any) -> Any:
+    if isinstance(value, list):
+        return [[arguments, _value(each, given)] for arguments, given in value]
     return float(value) if isinstance(value, str) and not each.elements else value

@@ -183,7 +183,17 @@ class _CaseFinder:
 
     def _make(self, walk: Walk, state: str, shows: dict[int, str]) -> _Found:
         self._note_way(walk)
-        steps = tuple(RunStep(time_ns=step.time_ns, inputs=(self._known(step.inputs),)) for step in walk.steps)
+        # A walk gives one value for all arguments.
+        functions = {each.key: each.initial for each in self._empty.inputs if each.arguments is not None}
+        given = [self._known(step.inputs) for step in walk.steps]
+        given[0] = {**functions, **given[0]}
+        steps = tuple(
+            RunStep(
+                time_ns=step.time_ns,
+                inputs=({key: [[{}, value]] if key in functions else value for key, value in inputs.items()},),
+            )
+            for step, inputs in zip(walk.steps, given, strict=True)
+        )
         name = state if walk.state == state else f"{state} → {walk.state}"
         return _Found(name=name, run=replace(self._empty, steps=steps), shows=dict(shows))
 

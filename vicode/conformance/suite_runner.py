@@ -14,6 +14,7 @@ from unittest import SkipTest
 from vicode.conformance.cpp import COMPILER_MISSING, CompileError, ProgramError, find_tools, run_cpp
 from vicode.conformance.inputs import ConformanceRun
 from vicode.conformance.python import CodeRunError, run_python
+from vicode.conformance.recorded_inputs import recorded_run
 from vicode.conformance.reference import run_reference
 from vicode.conformance.result import LANGUAGE_TITLES
 from vicode.conformance.suite import (
@@ -23,14 +24,16 @@ from vicode.conformance.suite import (
     find_mismatch,
     iterate_expected,
     list_files,
+    make_case,
     make_run,
     observe,
     read_suite,
 )
-from vicode.conformance.traces import TraceIteration
+from vicode.conformance.traces import TraceIteration, TraceNormalizer
 from vicode.generators import UnsoundDesignError
 from vicode.model.project import Project
 from vicode.output import temporary_folder
+from vicode.simulation import IterationResult
 from vicode.store import open_project
 
 
@@ -104,6 +107,28 @@ def check_suite(suite: Suite, project: Project, folder: Path, language: str) -> 
     traces = _run(runs, folder, language)
     title = LANGUAGE_TITLES[language]
     return [_compare(case, title, project, traces[index]) for index, case in enumerate(suite.cases)]
+
+
+def replay_as_case(
+    name: str, project: Project, root: str, iterations: Sequence[IterationResult], folder: Path
+) -> SuiteCase:
+    """The case of a recorded run: its inputs, and what the generated Python makes of them now.
+
+    Raises:
+        SuiteError: The states differ from those of the record.
+        UnsoundDesignError, CodeRunError: The code cannot be generated or run.
+    """
+    run = recorded_run(project, root, iterations, is_exact=True)
+    seen = list(observe(project, _run({0: run}, folder, "python")[0]))
+    normalizer = TraceNormalizer(project)
+    records = ({"iteration": each.iteration, "time_ns": each.time_ns, "tree": each.tree} for each in iterations)
+    for step, record in zip(seen, map(normalizer.iteration, records), strict=True):
+        (recorded,) = observe(project, [record])
+        for component in (each.component for each in project.designs):
+            if step.get(component) != recorded.get(component):
+                states = f"{component} is {step.get(component)}, recorded {recorded.get(component)}"
+                raise SuiteError(f"the design does not behave as recorded: {record.time_ns / 1e9:g} s, {states}")
+    return make_case(name, run, seen, {})
 
 
 def _run(runs: Mapping[int, ConformanceRun], folder: Path, language: str) -> Mapping[int, list[TraceIteration]]:
