@@ -78,14 +78,16 @@ def _gen(args: argparse.Namespace) -> int:
         return selected
     opened, component = selected
     try:
-        cases, coverage = find_cases(opened.open_project.project, component)
+        found = find_cases(opened.open_project.project, component)
     except NotInterpretableError as error:
         return _refuse(component, error)
     folder = Path(args.out or opened.open_project.folder / _FOLDER)
     file_stem = opened.open_project.files[component].stem
-    suite = _make_suite(opened.open_project, component, folder, source=GENERATED, cases=cases)
+    suite = _make_suite(opened.open_project, component, folder, source=GENERATED, cases=found.cases)
     _write(opened.open_project, folder, file_stem, suite)
-    report_coverage(coverage, opened.open_project)
+    report_coverage(found.coverage, opened.open_project)
+    for reason in found.left_out:
+        print(f"left out: steps with code that is not portable ({reason})")
     return 0
 
 

@@ -25,7 +25,7 @@ from vicode.conformance.suite import SuiteCase, make_case, observe
 from vicode.findings import DesignPath
 from vicode.model.design import Decision
 from vicode.model.project import Project
-from vicode.semantics import ComponentStep, Outcome, Value, build_machines, evaluate
+from vicode.semantics import ComponentStep, NotInterpretableError, Outcome, Value, build_machines, evaluate
 
 _SEARCHED = 400
 
@@ -39,15 +39,25 @@ class _Found:
     shows: dict[int, str] = field(default_factory=dict)
 
 
-def find_cases(project: Project, root: str) -> tuple[tuple[SuiteCase, ...], InputCoverage]:
-    """The cases of a design, and what they reach of it.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FoundCases:
+    """The cases of a design, what they reach of it, and why steps were left out."""
+
+    cases: tuple[SuiteCase, ...]
+    coverage: InputCoverage
+    left_out: tuple[str, ...]
+
+
+def find_cases(project: Project, root: str) -> FoundCases:
+    """Find the cases of a design.
 
     Raises:
-        NotInterpretableError: The design has errors, or code that is not portable.
+        NotInterpretableError: The design has errors, or each step runs code that is not portable.
     """
     empty = ConformanceRun(project=project, root=root, steps=())
     goals = DesignGoals(build_machines(project, root), root)
-    found = list(_CaseFinder(empty).find())
+    finder = _CaseFinder(empty)
+    found = list(finder.find())
     recorder = CoverageRecorder(goals)
     for each in found:
         robots = recorder.make_robots(empty)
@@ -58,6 +68,8 @@ def find_cases(project: Project, root: str) -> tuple[tuple[SuiteCase, ...], Inpu
     if missing:
         searched = choose_missing(recorder, empty, wanted=missing, iterations=_SEARCHED)
         found += [_Found(name="searched", run=run) for run in searched]
+    if not found:
+        raise NotInterpretableError("; ".join(sorted(finder.left_out)) or "no step of it is possible")
     names = Counter[str]()
     cases = []
     for each in found:
@@ -65,7 +77,9 @@ def find_cases(project: Project, root: str) -> tuple[tuple[SuiteCase, ...], Inpu
         name = f"{each.name} ({names[each.name]})" if names[each.name] > 1 else each.name
         cases.append(make_case(name, each.run, observe(project, run_reference(each.run)), each.shows))
     goals.goals = own
-    return tuple(cases), summarize(goals, recorder.seen)
+    return FoundCases(
+        cases=tuple(cases), coverage=summarize(goals, recorder.seen), left_out=tuple(sorted(finder.left_out))
+    )
 
 
 class _CaseFinder:
