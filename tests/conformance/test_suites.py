@@ -176,5 +176,5 @@ def test_a_file_that_is_no_suite_is_named(text: str, tmp_path: Path) -> None:
 def test_an_input_that_the_design_no_longer_has_is_named(tmp_path: Path) -> None:
     suite = make_suite(load(tmp_path))
     changed = load(tmp_path, GATE.replace("eye.seen and ", ""), GATE_PROJECT.replace(", seen: bool", ""))
-    with pytest.raises(SuiteError, match="Gate has no input Eye.seen"):
+    with pytest.raises(SuiteError, match=r"Gate has no input Eye\.seen"):
         check_suite(suite, changed, tmp_path, "python")
