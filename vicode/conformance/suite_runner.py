@@ -70,7 +70,7 @@ def list_cases(module: str) -> list[CaseRun]:
     """
     return [
         CaseRun(file=file, language=language, index=index, name=case.name)
-        for file in list_files(Path(module).parent)
+        for file in list_files(Path(module).resolve().parent)
         for suite in (read_suite(file),)
         for language in suite.languages
         for index, case in enumerate(suite.cases)
