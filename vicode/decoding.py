@@ -101,7 +101,7 @@ def _is_instance(value: Any, expected: Any, origin: Any) -> bool:
         return isinstance(value, str) and value in get_args(expected)
     if expected is float:
         return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-    return type(value) is expected
+    return type(value) is (dict if origin is dict else expected)
 
 
 @cache

@@ -271,13 +271,13 @@ def test_mutants_of_the_design_that_no_input_shows_are_listed(
     (counters / "counter.yaml").write_text(NEVER, encoding="utf-8")
     assert vicode("conform", "counter.yaml", "--mutants") == 0
     first, *lines = capsys.readouterr().out.splitlines()
-    found = re.fullmatch(r"Counter: (\d+) of (\d+) mutants of the design are noticed", first)
+    noticed = r"Counter: (\d+) of (\d+) mutants of the design are noticed; (\d+) more are proved to behave like it"
+    found = re.fullmatch(noticed, first)
     assert found is not None
     assert int(found[2]) - int(found[1]) == len(lines)
     # The second transition is never taken, so that no change of it matters but one that lets it be taken.
-    assert "not noticed: > changed to >= in eye.distance > 8 (counter.yaml:14)" in lines
-    assert "not noticed: transition to Far removed (counter.yaml:13)" in lines
-    assert not [line for line in lines if "distance > 7" in line or "after" in line]
+    assert int(found[3]) > 3
+    assert not [line for line in lines if "distance" in line or "after" in line or "transition" in line]
 
 
 def test_mutants_of_a_design_that_cannot_be_interpreted_are_not_tried(

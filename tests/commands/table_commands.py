@@ -31,6 +31,7 @@ from pypdf import PdfReader
 from tests.cli.command_runner import vicode
 from tests.commands.projects import CPP, PYTHON, XABSL, TableProject
 from tests.cpp_tools import STANDARD, WARNINGS, find_gpp, outputs, start, write_unit
+from vicode.conformance.suite_runner import list_cases
 from vicode.services.project_loader import load_projects
 from vicode.traces.reader import trace_schema
 
@@ -176,6 +177,16 @@ def conform(place: Workplace) -> None:
     assert " agree in 60 iterations " in printed, printed
 
 
+def written_tests(place: Workplace) -> None:
+    """What the written suite expects holds in the reference interpreter and in Python."""
+    place.run("test", "gen", place.design, "--out", "suites")
+    place.run("test", "mutate", place.design, "suites")
+    cases = [case for case in list_cases("suites/test_all.py") if case.language == PYTHON]
+    assert cases
+    for case in cases:
+        case.check()
+
+
 def documentation(place: Workplace) -> None:
     """All links of the site lead to files."""
     place.run("docs", place.folder, "--out", "site")
@@ -302,6 +313,7 @@ COMMANDS = (
     TableCommand(name="deploy", run=deploy, fits=_runs),
     TableCommand(name="deploy C++", run=deploy_cpp, fits=lambda project: project.has_program),
     TableCommand(name="conform", run=conform, fits=lambda project: len(project.languages) > 1),
+    TableCommand(name="test", run=written_tests),
     TableCommand(name="docs", run=documentation),
     TableCommand(name="diff", run=diff_with_itself),
     TableCommand(name="export pictures", run=export_pictures),

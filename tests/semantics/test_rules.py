@@ -31,7 +31,7 @@ def table() -> dict[str, list[str]]:
     return {rule: re.findall(r"`([\w.]+)`", functions) for rule, functions in rows}
 
 
-NO_RULE = "no rule: what `vicode conform` needs"
+NO_RULE = "no rule: what `vicode conform` and `vicode test` need"
 NAMED = [name for rule, names in table().items() if rule != NO_RULE for name in names]
 
 

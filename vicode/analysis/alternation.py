@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from itertools import islice
 
 from vicode.analysis.conditions import STATE_TIME
+from vicode.analysis.input_choice import Inputs
 from vicode.analysis.interval_diagrams import FALSE, TRUE, Node, TooLargeError
 from vicode.analysis.machines import LiveTransition, MachineAnalysis
 from vicode.analysis.quantities import Quantity
-from vicode.analysis.walk import Inputs, Walk, WalkStep
+from vicode.analysis.walk import Walk, WalkStep
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Assign
 from vicode.model.expressions import Done, ElapsedTime, OutputRef, StatusFlag, Variable

@@ -54,8 +54,12 @@ class ComputedValues:
         self._reads[level], self._trees[level] = reads, trees
 
     def trees_of(self, level: int) -> tuple[Expr, ...]:
-        """What computes a value, two trees if it is their order, none if it is unknown."""
-        return self._trees[level]
+        """What computes a value, two trees if it is their order; none if it is unknown, or read."""
+        return self._trees.get(level, ())
+
+    def reads_of(self, level: int) -> tuple[int, ...]:
+        """The levels of what a computed value reads."""
+        return self._reads.get(level, ())
 
     def is_related(self, level: int) -> bool:
         """Whether a computed value depends on others."""

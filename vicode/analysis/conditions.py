@@ -79,7 +79,7 @@ class Conditions:
         self.diagrams = IntervalDiagrams(_NODES_OF_A_QUESTION, _MAX_NODES)
         self.quantities: dict[int, Quantity] = {STATE_TIME: table.quantity(_STATE_TIME)}
         self._levels: dict[Shape, int] = {shape_of(_STATE_TIME): STATE_TIME}
-        self._computed = ComputedValues(table, self.diagrams, self.quantities, self._domain)
+        self.computed = ComputedValues(table, self.diagrams, self.quantities, self._domain)
         self._texts: dict[tuple[str, str], Node] = {}
         self._plain_cases: dict[Node, bool] = {FALSE: False, TRUE: True}
         self.unknown = self._add_unknown()
@@ -105,10 +105,6 @@ class Conditions:
         """
         return self._of(tree)
 
-    def trees_of(self, level: int) -> tuple[Expr, ...] | None:
-        """What computes a value, two trees if it is their order, none if it is unknown; None for what is read."""
-        return self._computed.trees_of(level) if level in self._computed else None
-
     def _of_text(self, text: str, type_: str) -> Node:
         """The diagram of an expression, or of the timer that it sets; an expression with errors can be anything."""
         if (text, type_) not in self._texts:
@@ -132,7 +128,7 @@ class Conditions:
             is_free = level not in self.assumed.levels
             found = (
                 is_free
-                and (level < _FIRST_COMPUTED or not self._computed.is_related(level))
+                and (level < _FIRST_COMPUTED or not self.computed.is_related(level))
                 and any(
                     self._meets_domain(level, interval) and self.has_plain_case(child) for interval, child in branches
                 )
@@ -155,11 +151,11 @@ class Conditions:
         assumed = [self.assumed[each].node for each in self._assumed_about(nodes, ignored)]
         cuts = self.diagrams.find_cuts((*nodes, *assumed))
         result = self._join("and", assumed)
-        for level in sorted(self._computed.levels_of(cuts), reverse=True):
+        for level in sorted(self.computed.levels_of(cuts), reverse=True):
             domain = self._domain(level, with_nan=with_nan, is_ignored=level in ignored)
             result = self.diagrams.both(self.diagrams.test(level, (domain,)), result)
-            if level in self._computed:
-                result = self.diagrams.both(self._computed.relate(level, cuts, ignored), result)
+            if level in self.computed:
+                result = self.diagrams.both(self.computed.relate(level, cuts, ignored), result)
         return result
 
     def _assume(self, assumptions: Iterable[Assumption]) -> Iterator[AssumedCondition]:
@@ -169,16 +165,16 @@ class Conditions:
                 node = self._of(each.tree)
             except (TooLargeError, RecursionError):
                 continue
-            levels = self._computed.levels_of(self.diagrams.find_cuts((node,)))
+            levels = self.computed.levels_of(self.diagrams.find_cuts((node,)))
             yield AssumedCondition(text=each.text, node=node, levels=frozenset(levels))
 
     def _assumed_about(self, nodes: Collection[Node], ignored: Collection[int] = ()) -> list[int]:
-        return self.assumed.find_relevant(self._computed.levels_of(self.diagrams.find_cuts(nodes)), ignored)
+        return self.assumed.find_relevant(self.computed.levels_of(self.diagrams.find_cuts(nodes)), ignored)
 
     def ignorable_facts(self, node: Node) -> list[int]:
         """The assumptions, and the quantities with a declared range, on which a diagram may depend."""
         assumptions = self._assumed_about((node,))
-        levels = self._computed.levels_of(self.diagrams.find_cuts((node,)))
+        levels = self.computed.levels_of(self.diagrams.find_cuts((node,)))
         levels.update(*(self.assumed[each].levels for each in assumptions))
         return [*assumptions, *sorted((each for each in levels if self.quantities[each].has_range), reverse=True)]
 
@@ -210,7 +206,7 @@ class Conditions:
         """A condition about which nothing is known."""
         level = self._next_computed()
         self.quantities[level] = Quantity(name="", type=BOOL, domain=((0, 0), (2, 0)))
-        self._computed.add(level, (), ())
+        self.computed.add(level, (), ())
         return self._test_bool(level)
 
     def _of(self, node: Expr) -> Node:
@@ -323,7 +319,7 @@ class Conditions:
         if level is None:
             reads = self._reads(left, right)
             level = self._levels["order", *shapes] = self._next_computed()
-            self._computed.add(level, reads, (left, right))
+            self.computed.add(level, reads, (left, right))
             is_int = left.type == right.type == INT
             domain = (BEFORE_ALL, BEFORE_NAN if is_int else AFTER_ALL)
             self.quantities[level] = Quantity(name="", type=FLOAT, domain=domain)
@@ -343,18 +339,18 @@ class Conditions:
         shape = shape_of(node)
         if shape not in self._levels:
             if is_leaf(node):
-                level = _FIRST_COMPUTED - (len(self.quantities) - len(self._computed))
+                level = _FIRST_COMPUTED - (len(self.quantities) - len(self.computed))
             else:
                 is_number = node.type in (INT, FLOAT)
                 reads = self._reads(node) if is_number else ()
                 level = self._next_computed()
-                self._computed.add(level, reads, (node,) if is_number else ())
+                self.computed.add(level, reads, (node,) if is_number else ())
             self._levels[shape] = level
             self.quantities[level] = self.table.quantity(node)
         return self._levels[shape]
 
     def _next_computed(self) -> int:
-        return 2 * _FIRST_COMPUTED - len(self._computed)
+        return 2 * _FIRST_COMPUTED - len(self.computed)
 
     def _reads(self, *nodes: Expr) -> tuple[int, ...]:
         found = {self._level(each) for node in nodes for each in walk(node) if self._is_free_number(each)}

@@ -36,7 +36,7 @@ def describe_value(value: Value) -> str:
 
 def _find_in_box(conditions: Conditions, box: Mapping[int, Interval]) -> Iterator[Example]:
     table, read = conditions.table, dict[str, tuple[Quantity, Interval]]()
-    trees = {level: found for level in box if (found := conditions.trees_of(level)) is not None}
+    trees = {level: conditions.computed.trees_of(level) for level in box if level in conditions.computed}
     # A design reads those of greater levels first.
     for level in sorted(box.keys() - trees.keys(), reverse=True):
         read[conditions.quantities[level].name] = (conditions.quantities[level], box[level])

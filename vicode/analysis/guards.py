@@ -74,10 +74,15 @@ class GuardAnalysis:
     Args:
         design: The design.
         conditions: Its guards as diagrams.
+        may_give_up: Whether too large diagrams give unknown guards.
+
+    Raises:
+        TooLargeError: A diagram has too many nodes, and it may not give up.
     """
 
-    def __init__(self, design: Design, conditions: Conditions) -> None:
+    def __init__(self, design: Design, conditions: Conditions, *, may_give_up: bool = True) -> None:
         self.design = design
+        self._may_give_up = may_give_up
         self.conditions = conditions
         self._diagrams = conditions.diagrams
         self._disabled = disabled_states(design)
@@ -137,7 +142,9 @@ class GuardAnalysis:
         listed: list[TestedDecision] = []
         try:
             self._append(listed, items, path, (TRUE, reached))
-        except (TooLargeError, RecursionError):
+        except (TooLargeError, RecursionError) as error:
+            if not self._may_give_up:
+                raise TooLargeError from error
             unknown = self.conditions.unknown
             return tuple(
                 TestedDecision(path=where, decision=item, within=TRUE, own=unknown, reached=TRUE)

@@ -14,10 +14,11 @@ from itertools import pairwise
 
 from vicode.analysis.counterexamples import CounterexampleSearch
 from vicode.analysis.guards import Basis
+from vicode.analysis.input_choice import DEFAULT_TICK_NS
 from vicode.analysis.invariants import prove_invariant
 from vicode.analysis.machines import LiveTransition, MachineAnalysis, SettledState
 from vicode.analysis.property_monitor import within_ns
-from vicode.analysis.walk import DEFAULT_TICK_NS, WalkStep
+from vicode.analysis.walk import WalkStep
 from vicode.model.design import (
     Design,
     InvariantProperty,

@@ -4,27 +4,29 @@ A diagram yields the inputs and the time for which a transition is taken; the in
 mistake of the analysis cannot become a witness.
 """
 
-import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import islice, product
-from types import MappingProxyType
+from itertools import islice
 
 from vicode.analysis.conditions import STATE_TIME, Conditions
-from vicode.analysis.examples import choose_values
-from vicode.analysis.interval_diagrams import Interval, Node, TooLargeError
+from vicode.analysis.input_choice import InputChooser, Inputs
+from vicode.analysis.interval_diagrams import Node
 from vicode.analysis.machines import LiveTransition, MachineAnalysis
-from vicode.analysis.quantities import Quantity
 from vicode.findings import DesignPath
-from vicode.model.expressions import BOOL, FLOAT, OutputRef, Variable
+from vicode.model.design import Decision
+from vicode.model.expressions import BOOL
 from vicode.model.project import Project
-from vicode.semantics import InputFunction, Interpreter, RobotMemory, Value
+from vicode.semantics import (
+    ComponentStep,
+    InputFunction,
+    Interpreter,
+    NotInterpretableError,
+    Outcome,
+    RobotMemory,
+    Value,
+)
 
-DEFAULT_TICK_NS = 20_000_000
-_MOST_BOXES, _MOST_CHOICES, _MOST_VALUES = 16, 12, 4
-
-Inputs = Mapping[tuple[str, str], Value]
-"""Values by component and name: outputs of components without a design, parameters of the root."""
+OnDecision = Callable[[ComponentStep, Decision, Outcome], None]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,56 +38,68 @@ class WalkStep:
     state: str
 
 
+SavedWalk = tuple[RobotMemory, tuple[WalkStep, ...]]
+
+
 class Walk:
     """A run of one component that continues transition by transition.
 
     Args:
         project: The project, with all designs.
         machine: The design that is the root.
+        on_decision: Is called with each decision of a step and what became of it.
+        may_leave_out: Whether steps with code that is not portable are left out; otherwise, they raise an error.
+
+    Attributes:
+        left_out: Why steps were left out.
 
     Raises:
         NotInterpretableError: A design has errors, or code that is not portable.
     """
 
-    def __init__(self, project: Project, machine: MachineAnalysis) -> None:
+    def __init__(
+        self,
+        project: Project,
+        machine: MachineAnalysis,
+        on_decision: OnDecision = lambda *_: None,
+        *,
+        may_leave_out: bool = False,
+    ) -> None:
+        self._may_leave_out = may_leave_out
+        self.left_out = set[str]()
         self._project = project
         self._machine = machine
         self._design = machine.design
         self._conditions: Conditions = machine.guards.conditions
-        self._robot = Interpreter(project, self._design.component)
+        self._robot = Interpreter(project, self._design.component, on_decision=on_decision)
         for name, each in self._robot.machines.items():
             for function, value in each.functions.items():
                 self._robot.set_input(name, function, _always(value))
-        self.tick_ns = round(1e9 / self._design.frequency_hz) if self._design.frequency_hz else DEFAULT_TICK_NS
+        self._inputs = InputChooser(project, machine)
+        self.tick_ns = self._inputs.tick_ns
         self.steps: list[WalkStep] = []
 
     @property
     def state(self) -> str:
-        return self._memory.components[self._design.component].state
-
-    @property
-    def _memory(self) -> RobotMemory:
-        return self._robot.memory
+        return self.memory.components[self._design.component].state
 
     def go_to(self, state: str) -> bool:
         """Follow a shortest way of live transitions to a state; False if a transition on it could not be taken."""
         if self.steps:
             return self._follow_way(state)
-        start = self._memory.copy()
-        for inputs in self._find_first_inputs(state):
+        start = self.save()
+        for inputs in self.find_first_inputs(edge.taken for edge in self._shortest_way(state)[:1]):
             self.step(inputs, 0)
             if self._follow_way(state):
                 return True
-            self._robot.memory = start.copy()
-            self.steps.clear()
+            self.restore(start)
         return False
 
-    def _find_first_inputs(self, goal: str) -> Iterator[Inputs]:
-        """Inputs of the first iteration, in which the initial state can already be left."""
+    def find_first_inputs(self, nodes: Iterable[Node]) -> Iterator[Inputs]:
+        """Inputs of the first iteration, in which the initial state is kept or can already be left as diagrams say."""
         at_start = self._conditions.diagrams.test(STATE_TIME, (((0, 0), (1, 0)),))
-        ways = self._shortest_way(goal)[:1]
-        for node in (self._machine.staying(self.state), *(edge.taken for edge in ways)):
-            found = self._find_inputs(self._conditions.diagrams.both(node, at_start))
+        for node in (self._machine.staying(self.state), *nodes):
+            found = self._inputs.find(self.memory, self._conditions.diagrams.both(node, at_start))
             yield from (inputs for inputs, _time_ns in islice(found, 1))
         yield {}
 
@@ -102,28 +116,49 @@ class Walk:
                 failed.add(edge.path)
         return True
 
+    @property
+    def active(self) -> Mapping[str, str]:
+        """The states of the designs that were stepped in the last iteration."""
+        components = self.memory.components.items()
+        return {
+            name: each.state for name, each in components if each.state and each.stepped_in == self.memory.iteration
+        }
+
+    @property
+    def memory(self) -> RobotMemory:
+        return self._robot.memory
+
     def take(self, edge: LiveTransition) -> bool:
         """Take a transition in the next iteration; without effect if no inputs are found."""
-        return any(self._try(edge, inputs, time_ns) for inputs, time_ns in self._find_inputs(edge.taken))
+        return self.meet(edge.taken, lambda: self.state == edge.target)
+
+    def meet(self, node: Node, is_met: Callable[[], bool]) -> bool:
+        """Run an iteration with values of a diagram after which a condition holds; without effect if none is found."""
+        for inputs, time_ns in self._inputs.find(self.memory, node):
+            before = self.save()
+            if self.try_step(inputs, time_ns) and is_met():
+                return True
+            self.restore(before)
+        return False
 
     def hold(self, node: Node, states: Sequence[str]) -> bool:
         """Set inputs that are in a diagram once; whether the next iterations are in these states, one after another."""
-        for inputs, _time_ns in self._find_inputs(node):
-            before, count = self._memory.copy(), len(self.steps)
+        for inputs, _time_ns in self._inputs.find(self.memory, node):
+            before = self.save()
             for index, state in enumerate(states):
-                self.step(inputs if index == 0 else {}, self._memory.now_ns + self.tick_ns)
+                self.step(inputs if index == 0 else {}, self.memory.now_ns + self.tick_ns)
                 if self.state != state:
                     break
             else:
                 return True
-            self._restore(before, count)
+            self.restore(before)
         return False
 
     def find_inputs_to_stay(self, state: str, fixed: Inputs, iterations: int) -> Iterator[Inputs]:
         """Yield inputs, the fixed ones among them, for which the root stays in a state for some iterations."""
         early = self._conditions.diagrams.test(STATE_TIME, (((0, 0), (self.tick_ns * (iterations + 1), 0)),))
         node = self._conditions.diagrams.both(self._machine.staying(state), early)
-        for inputs, _time_ns in self._find_inputs(node, fixed):
+        for inputs, _time_ns in self._inputs.find(self.memory, node, fixed):
             yield {**inputs, **fixed}
 
     def follow(self, component: str, expected: Sequence[str], states: Mapping[str, str], inputs: Inputs) -> bool:
@@ -131,18 +166,18 @@ class Walk:
 
         The inputs hold still. Without effect if they are not.
         """
-        before, count = self._memory.copy(), len(self.steps)
-        self.step(inputs, self._memory.now_ns + self.tick_ns)
-        memories = self._memory.components
+        before = self.save()
+        self.step(inputs, self.memory.now_ns + self.tick_ns)
+        memories = self.memory.components
         for name, state in states.items():
             # A component that was not active before would restart.
-            memories[name].state, memories[name].stepped_in = state, self._memory.iteration
-            memories[name].entered_ns = self._memory.now_ns
+            memories[name].state, memories[name].stepped_in = state, self.memory.iteration
+            memories[name].entered_ns = self.memory.now_ns
         for state in expected:
-            self.step({}, self._memory.now_ns + self.tick_ns)
-            memory = self._memory.components[component]
-            if memory.state != state or memory.stepped_in != self._memory.iteration:
-                self._restore(before, count)
+            self.step({}, self.memory.now_ns + self.tick_ns)
+            memory = self.memory.components[component]
+            if memory.state != state or memory.stepped_in != self.memory.iteration:
+                self.restore(before)
                 return False
         return True
 
@@ -158,17 +193,24 @@ class Walk:
         self._robot.step(time_ns)
         self.steps.append(WalkStep(time_ns=time_ns, inputs=inputs, state=self.state))
 
-    def _try(self, edge: LiveTransition, inputs: Inputs, time_ns: int) -> bool:
-        before, count = self._memory.copy(), len(self.steps)
-        self.step(inputs, time_ns)
-        if self.state == edge.target:
-            return True
-        self._restore(before, count)
-        return False
+    def try_step(self, inputs: Inputs, time_ns: int) -> bool:
+        """Run an iteration; False if it runs code that is not portable, after which the walk must be restored."""
+        try:
+            self.step(inputs, time_ns)
+        except NotInterpretableError as error:
+            if not self._may_leave_out:
+                raise
+            self.left_out.add(str(error))
+            return False
+        return True
 
-    def _restore(self, memory: RobotMemory, count: int) -> None:
-        self._robot.memory = memory
-        del self.steps[count:]
+    def save(self) -> SavedWalk:
+        return self.memory.copy(), tuple(self.steps)
+
+    def restore(self, saved: SavedWalk) -> None:
+        """Continue where the walk was saved."""
+        self._robot.memory = saved[0].copy()
+        self.steps[:] = saved[1]
 
     def _shortest_way(self, goal: str, without: Collection[DesignPath] = ()) -> list[LiveTransition]:
         ways: dict[str, list[LiveTransition]] = {self.state: []}
@@ -182,70 +224,6 @@ class Walk:
                         following.append(edge.target)
             pending = following
         return ways.get(goal, [])
-
-    # Inputs
-
-    def _find_inputs(self, node: Node, fixed: Inputs = MappingProxyType({})) -> Iterator[tuple[Inputs, int]]:
-        """Inputs that are in a diagram together with the present values of everything else, and the time for them."""
-        try:
-            boxes = list(islice(self._conditions.diagrams.iterate_boxes(self._restrict(node, fixed)), _MOST_BOXES))
-        except (TooLargeError, RecursionError):
-            return
-        for box in boxes:
-            settable = {level: key for level in box if (key := self._key(self._conditions.quantities[level]))}
-            choices = [list(self._choose(self._conditions.quantities[level], box[level])) for level in settable]
-            for values in islice(product(*choices), _MOST_CHOICES):
-                yield dict(zip(settable.values(), values, strict=True)), self._time_of(box.get(STATE_TIME))
-
-    def _restrict(self, node: Node, fixed: Inputs) -> Node:
-        diagrams, conditions = self._conditions.diagrams, self._conditions
-        restricted = diagrams.both(node, conditions.possible((node,), with_nan=False))
-        for level in diagrams.find_cuts((restricted,)):
-            quantity = conditions.quantities[level]
-            key = self._key(quantity)
-            value = self._present_value(quantity) if key is None else fixed.get(key)
-            if value is not None:
-                restricted = diagrams.both(restricted, diagrams.test(level, (self._point(quantity, value),)))
-        return restricted
-
-    def _time_of(self, interval: Interval | None) -> int:
-        entered = self._memory.components[self._design.component].entered_ns
-        soonest = self._memory.now_ns + self.tick_ns
-        return soonest if interval is None else max(soonest, entered + math.ceil(interval[0][0]))
-
-    def _key(self, quantity: Quantity) -> tuple[str, str] | None:
-        """The component and name of an input; None for what is no input."""
-        match quantity.tree:
-            case Variable(name=name, kind="parameter"):
-                return (self._design.component, name)
-            case OutputRef(alias=alias, output=output):
-                use = self._design.use(alias)
-                is_input = use is not None and self._project.design(use.component) is None
-                return (use.component, output) if use is not None and is_input else None
-            case _:
-                return None
-
-    def _present_value(self, quantity: Quantity) -> Value | None:
-        match quantity.tree:
-            case Variable(name=name):
-                return self._memory.components[self._design.component].values.get(name)
-            case OutputRef(alias=alias, output=output, arguments=None):
-                use = self._design.use(alias)
-                return self._memory.components[use.component].values.get(output) if use else None
-            case _:
-                return None
-
-    def _choose(self, quantity: Quantity, interval: Interval) -> Iterator[Value]:
-        for value in islice(choose_values(quantity, interval, self._conditions.table), _MOST_VALUES):
-            yield f"{quantity.type}.{value}" if isinstance(value, str) else value
-
-    def _point(self, quantity: Quantity, value: Value) -> Interval:
-        if isinstance(value, str):
-            elements = self._conditions.table.elements(quantity.type)
-            value = elements.index(value.rpartition(".")[2])
-        if quantity.type == FLOAT:
-            return ((float(value), 0), (float(value), 1))
-        return ((int(value), 0), (int(value) + 1, 0))
 
 
 def _always(value: Value) -> InputFunction:

@@ -6,19 +6,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.bica import options
+from vicode.cli.coverage_report import report_coverage, report_mutants
 from vicode.cli.root_selection import select_root
 from vicode.output import temporary_folder
 
 if TYPE_CHECKING:
-    from vicode.conformance.design_mutants import MutantReport
     from vicode.conformance.inputs import ConformanceRun
-    from vicode.conformance.result import InputCoverage, LanguageComparison
-    from vicode.findings import DesignPath
+    from vicode.conformance.result import LanguageComparison
     from vicode.model.project import Project
     from vicode.store import OpenProject
 
 _MAX_ITERATIONS = 20_000
-_MAX_NEVER = 20
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -72,7 +70,7 @@ def run(args: argparse.Namespace) -> int:
         comparison = compare_languages(runs, folder, project.folder.resolve(), tools=tools)
     code = _report(args, component, comparison)
     if comparison.coverage is not None:
-        _report_coverage(comparison.coverage, project)
+        report_coverage(comparison.coverage, project)
     return code
 
 
@@ -116,16 +114,6 @@ def _report(args: argparse.Namespace, component: str, comparison: "LanguageCompa
     return 0
 
 
-def _report_coverage(coverage: "InputCoverage", project: "OpenProject") -> None:
-    from vicode.conformance.result import as_design_path
-
-    print(f"coverage: {coverage.summary}")
-    for each in coverage.never[:_MAX_NEVER]:
-        print(f"never: {each.text}{_place(project, each.component, as_design_path(each.path))} {each.outcome}")
-    if len(coverage.never) > _MAX_NEVER:
-        print(f"never: {len(coverage.never) - _MAX_NEVER} more")
-
-
 def _try_mutants(runs: "tuple[ConformanceRun, ...]", component: str, project: "OpenProject") -> int:
     """Print which mutants of the design are not noticed; return 2 if it cannot be interpreted."""
     from vicode.conformance.design_mutants import try_mutants
@@ -136,20 +124,5 @@ def _try_mutants(runs: "tuple[ConformanceRun, ...]", component: str, project: "O
     except NotInterpretableError as error:
         print(f"vicode: the reference interpreter cannot run {component}: {error}", file=sys.stderr)
         return 2
-    _report_mutants(report, component, project)
+    report_mutants(report, component, project)
     return 0
-
-
-def _report_mutants(report: "MutantReport", component: str, project: "OpenProject") -> None:
-    print(f"{component}: {report.count - len(report.survivors)} of {report.count} mutants of the design are noticed")
-    for mutant in report.survivors:
-        print(f"not noticed: {mutant.text}{_place(project, mutant.design.component, mutant.path)}")
-
-
-def _place(project: "OpenProject", component: str, path: "DesignPath") -> str:
-    """The file and line of a part of a design, in parentheses; "" if it has none."""
-    from vicode.findings import FindingSubject
-    from vicode.store import find_location
-
-    location = find_location(FindingSubject(component=component, path=path), project.sources)
-    return f" ({location.file}:{location.line})" if location else ""

@@ -20,6 +20,7 @@ COMMANDS = (
     "sync",
     "check",
     "conform",
+    "test",
     "docs",
     "run",
     "bridge",

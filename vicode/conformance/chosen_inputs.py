@@ -67,6 +67,22 @@ def choose_runs(
     return tuple(runs)
 
 
+def choose_missing(
+    recorder: CoverageRecorder, setting: ConformanceRun, *, wanted: frozenset[Goal], iterations: int
+) -> Iterator[ConformanceRun]:
+    """Runs of one robot that reach goals which a recorder has not seen.
+
+    Args:
+        recorder: What was seen.
+        setting: A run without iterations.
+        wanted: The goals that count.
+        iterations: The number of iterations that the search may use.
+    """
+    project, root = setting.project, setting.root
+    drawer = ValueDrawer(random.Random(0), known_numbers(project, root))
+    yield from _Search(recorder.goals, setting, drawer, iter(()), recorder).find_wanted(wanted, iterations)
+
+
 def _team_sizes(machines: dict[str, Machine]) -> tuple[int, ...]:
     """The numbers of robots that show what states coordinate: enough to fill them, and one more for a capacity."""
     designs = [machine.design for machine in machines.values() if machine.design is not None]
@@ -117,6 +133,7 @@ class _Search:
         setting: A run without iterations.
         draw: Draws values and times.
         unusual: Inputs with unusual values.
+        recorder: What was seen before; None: nothing.
     """
 
     def __init__(
@@ -125,19 +142,18 @@ class _Search:
         setting: ConformanceRun,
         draw: ValueDrawer,
         unusual: Iterator[tuple[RunInput, float]],
+        recorder: CoverageRecorder | None = None,
     ) -> None:
         self._goals, self._setting, self._draw, self._rng = goals, setting, draw, draw.rng
-        self._recorder = CoverageRecorder(goals)
+        self._recorder = recorder or CoverageRecorder(goals)
         self._robots = self._recorder.make_robots(setting)
         self._points = [_Point(None, (), self._robots.save())]
         self._unusual = unusual
 
     def find(self, iterations: int) -> Iterator[ConformanceRun]:
         """Search, and return the runs."""
-        tries = iterations * _TRIES_PER_ITERATION
-        while tries > 0:
-            tries -= self._attempt(self._choose_point())
-        ends = self._select(iterations)
+        self._explore(iterations)
+        ends = self._select(frozenset(self._recorder.seen), iterations)
         spare = iterations - sum(len(point.run) for point in ends)
         for point in ends:
             tail = tuple(self._continue(point, min(spare, _LONGEST_TAIL)))
@@ -152,10 +168,22 @@ class _Search:
             if steps:
                 yield replace(self._setting, steps=steps)
 
-    def _select(self, iterations: int) -> list[_Point]:
+    def find_wanted(self, wanted: frozenset[Goal], iterations: int) -> Iterator[ConformanceRun]:
+        """Search, and return the runs that reach some goals first."""
+        wanted -= self._recorder.seen
+        self._explore(iterations)
+        for point in self._select(wanted & self._recorder.seen, iterations):
+            yield replace(self._setting, steps=point.run)
+
+    def _explore(self, iterations: int) -> None:
+        tries = iterations * _TRIES_PER_ITERATION
+        while tries > 0:
+            tries -= self._attempt(self._choose_point())
+
+    def _select(self, missing: frozenset[Goal], iterations: int) -> list[_Point]:
         """The points whose runs reach all goals, or most of them; first those with the most goals per iteration."""
         rest = {point: (point.all_goals, len(point.run)) for point in self._points if point.steps}
-        missing, chosen = frozenset(self._recorder.seen), list[_Point]()
+        chosen = list[_Point]()
         while rest:
             point, (goals, length) = max(rest.items(), key=lambda pair: len(pair[1][0] & missing) / pair[1][1])
             if not goals & missing:

@@ -12,7 +12,7 @@ from pathlib import Path
 from vicode.check import check_project
 from vicode.conformance.chosen_inputs import choose_runs
 from vicode.conformance.coverage import measure_coverage
-from vicode.conformance.cpp import COMPILER_MISSING, CompileError, CppProgram, CppTools, ProgramError, find_tools
+from vicode.conformance.cpp import COMPILER_MISSING, CompileError, CppTools, ProgramError, find_tools, run_cpp
 from vicode.conformance.inputs import ConformanceRun
 from vicode.conformance.python import CodeRunError, run_python, run_simulator
 from vicode.conformance.random_inputs import random_run
@@ -155,7 +155,7 @@ def _make_runners(
     return {
         "reference": lambda fit: {number: run_reference(run) for number, run in fit.items()},
         "python": lambda fit: _by_number(fit, run_python(_by_name(fit), folder, modules)),
-        "cpp": lambda fit: _run_cpp(fit, folder, tools),
+        "cpp": lambda fit: run_cpp(fit, folder, tools),
         "xabsl": lambda fit: {number: run_xabsl(run) for number, run in fit.items()},
         "simulator": lambda fit: _by_number(fit, run_simulator(_by_name(fit), folder, modules)),
     }
@@ -179,13 +179,6 @@ def _by_name(runs: Mapping[int, ConformanceRun]) -> dict[str, ConformanceRun]:
 
 def _by_number(runs: Mapping[int, ConformanceRun], traces: Mapping[str, list[TraceIteration]]) -> Traces:
     return dict(zip(runs, traces.values(), strict=True))
-
-
-def _run_cpp(runs: Mapping[int, ConformanceRun], folder: Path, tools: CppTools | None) -> Traces:
-    """Compile once and run all; the runs differ in their inputs."""
-    assert tools is not None
-    program = CppProgram({"compared": next(iter(runs.values()))}, folder, tools)
-    return {number: program.run({"compared": run})["compared"] for number, run in runs.items()}
 
 
 def _find_difference(

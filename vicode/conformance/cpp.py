@@ -152,6 +152,15 @@ class CppProgram:
         return interleave(traces)
 
 
+def run_cpp(
+    runs: Mapping[int, ConformanceRun], folder: Path, tools: CppTools | None
+) -> dict[int, list[TraceIteration]]:
+    """Compile the design of runs once and run all, which differ in their inputs; see `CppProgram` for errors."""
+    assert tools is not None
+    program = CppProgram({"compared": next(iter(runs.values()))}, folder, tools)
+    return {number: program.run({"compared": run})["compared"] for number, run in runs.items()}
+
+
 def interleave(traces: Sequence[Sequence[TraceIteration]]) -> list[TraceIteration]:
     """The iterations of several robots in one list, ordered by time."""
     return [iteration for iterations in zip(*traces, strict=True) for iteration in iterations]

@@ -1,15 +1,19 @@
 """Small faults of a design, and which of them inputs would show.
 
 Each mutant is the design with one change. It runs in the reference interpreter on the same inputs as the design; it is
-noticed if its trace differs. A mutant that is not noticed may behave the same on all inputs, which cannot be told.
+noticed if what is observed differs. A mutant that is not noticed may behave the same on all inputs, which the analysis
+of guards proves for some.
 """
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from textwrap import shorten
+from typing import Any
 
+from vicode.analysis.decision_targets import is_equivalent
+from vicode.analysis.machines import MachineAnalysis
 from vicode.conformance.inputs import ConformanceRun
 from vicode.conformance.reference import ReferenceRobots
 from vicode.findings import DesignPath
@@ -58,47 +62,101 @@ class DesignMutant:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MutantReport:
-    """The mutants that were tried, and those that were not noticed."""
+    """The mutants of a design.
+
+    Attributes:
+        count: The number of mutants that were tried.
+        equivalent: The number of others, which are proved to behave like the design.
+        survivors: Those that were not noticed.
+    """
 
     count: int
+    equivalent: int
     survivors: tuple[DesignMutant, ...]
 
 
-def try_mutants(runs: Sequence[ConformanceRun]) -> MutantReport:
-    """Try the mutants of a design and of those that it uses on its runs.
+Observe = Callable[[Sequence[Mapping[str, Any]]], object]
+"""What is compared of the records of an iteration."""
+
+
+def try_mutants(runs: Sequence[ConformanceRun], *, observe: Observe = repr, is_root_only: bool = False) -> MutantReport:
+    """Try the mutants of a design on its runs.
+
+    Args:
+        runs: Runs of one design.
+        observe: What is compared; by default everything, as text, so that nan equals nan.
+        is_root_only: Whether the designs that it uses stay as they are.
 
     Raises:
         NotInterpretableError: The design has errors, or code that is not portable.
     """
     project, root = runs[0].project, runs[0].root
-    expected = [list(_records(project, run)) for run in runs]
-    used = collect_components(project, (root,))
-    count, survivors = 0, []
-    for design in project.designs:
-        if design.component not in used:
-            continue
+    expected = [_ExpectedRun.of(run, observe) for run in runs]
+    used = (root,) if is_root_only else collect_components(project, (root,))
+    count, equivalent, tried, survivors = 0, 0, set[Design](), []
+    for design in (each for each in project.designs if each.component in used):
+        machine = MachineAnalysis(project, design)
+        tried.add(design)
         for mutant in list_mutants(project, design, is_root=design.component == root):
-            changed = replace(
-                project, designs=tuple(mutant.design if each is design else each for each in project.designs)
-            )
+            # A run sets the parameters of its root.
+            if mutant.design in tried or (mutant.path[0] == "parameters" and design.component == root):
+                continue
+            tried.add(mutant.design)
+            if is_equivalent(machine, mutant.design, mutant.path):
+                equivalent += 1
+                continue
             try:
-                is_noticed = any(_differs(changed, run, records) for run, records in zip(runs, expected, strict=True))
+                is_noticed = _is_noticed(mutant, design, expected, observe)
             except NotInterpretableError:
                 continue
             count += 1
             if not is_noticed:
                 survivors.append(mutant)
-    return MutantReport(count=count, survivors=tuple(survivors))
+    return MutantReport(count=count, equivalent=equivalent, survivors=tuple(survivors))
 
 
-def _records(project: Project, run: ConformanceRun) -> Iterator[str]:
-    robots = ReferenceRobots(project, run.root, run.inputs, robots=run.robots, team_ticks=run.team_ticks)
-    # As text, nan equals nan.
-    return (repr(robots.step(step)) for step in run.steps)
+@dataclass(frozen=True, slots=True)
+class _ExpectedRun:
+    """A run with what is observed of the design, and the states in which its components are."""
+
+    run: ConformanceRun
+    observed: tuple[object, ...]
+    states: frozenset[tuple[str, str]]
+
+    @classmethod
+    def of(cls, run: ConformanceRun, observe: Observe) -> "_ExpectedRun":
+        records = list(_records(run.project, run))
+        steps = (step for robots in records for record in robots for step in record["tree"])
+        states = frozenset(
+            (step["component"], state) for step in steps for state in (step["state"], step["changed_from"])
+        )
+        return cls(run, tuple(map(observe, records)), states)
 
 
-def _differs(project: Project, run: ConformanceRun, expected: Iterable[str]) -> bool:
-    return any(one != other for one, other in zip(_records(project, run), expected, strict=True))
+def _is_noticed(mutant: DesignMutant, design: Design, expected: Sequence[_ExpectedRun], observe: Observe) -> bool:
+    project = expected[0].run.project
+    changed = replace(project, designs=tuple(mutant.design if each is design else each for each in project.designs))
+    place = (design.component, str(mutant.path[1]) if mutant.path[0] == "states" else design.initial)
+    # First the runs that are in the state which is changed.
+    ordered = sorted(expected, key=lambda each: (place not in each.states, len(each.observed)))
+    return any(
+        any(
+            observe(records) != known for records, known in zip(_records(changed, each.run), each.observed, strict=True)
+        )
+        for each in ordered
+    )
+
+
+def _records(project: Project, run: ConformanceRun) -> Iterator[list[dict[str, Any]]]:
+    robots = ReferenceRobots(
+        project,
+        run.root,
+        run.inputs,
+        robots=run.robots,
+        team_ticks=run.team_ticks,
+        holds_outputs=run.holds_outputs,
+    )
+    return (robots.step(step) for step in run.steps)
 
 
 def list_mutants(project: Project, design: Design, *, is_root: bool) -> Iterator[DesignMutant]:
@@ -169,9 +227,13 @@ def _change_text(text: str, tree: Expr) -> Iterator[tuple[str, str]]:
             case Comparison(operands=operands):
                 for left, right in pairwise(operands):
                     yield from _change_between(text, left, right, _OPERATOR, _OTHER_COMPARISONS)
-            case Logic(operands=operands):
+            case Logic(operator=operator, operands=operands):
                 for left, right in pairwise(operands):
                     yield from _change_between(text, left, right, re.compile(r"\b(?:and|or)\b"), _LOGIC)
+                for start, end in (each.span for each in operands):
+                    neutral = "true" if operator == "and" else "false"
+                    words = f"{operator} {shorten(text[start:end], _WIDTH, placeholder='…')} removed"
+                    yield text[:start] + neutral + text[end:], words
 
 
 def _change_between(

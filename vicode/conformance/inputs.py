@@ -77,13 +77,20 @@ class RunStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConformanceRun:
-    """A root component of a project with its inputs. `team_ticks` is `team.ticks` of each robot."""
+    """A root component of a project with its inputs.
+
+    Attributes:
+        team_ticks: `team.ticks` of each robot.
+        holds_outputs: Whether an output of a hand-written component changes when it is stepped, as on a robot, and not
+            before the iteration; only in Python and the reference interpreter.
+    """
 
     project: Project
     root: str
     steps: tuple[RunStep, ...]
     robots: int = 1
     team_ticks: int = 0
+    holds_outputs: bool = False
     inputs: tuple[RunInput, ...] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -124,9 +131,14 @@ def used_interfaces(project: Project, root: str) -> tuple[Interface, ...]:
 def derive_value(of: RunInput, base: Any, given: Mapping[str, Any]) -> Any:
     """The value of an output with arguments, as the XABSL engine's tool computes it from a table.
 
+    Instead of a base, there may be a list of calls, each with some arguments and the value; the first one also stands
+    for all others.
+
     S is the sum of i × number i, 0.5 j × bool j and 0.25 k × number of element k. A number is base + S, a bool changes
     if floor |S| is odd, an element is the one floor |S| places after the base.
     """
+    if isinstance(base, list):
+        return next((value for arguments, value in base if _is_call(arguments, given)), base[0][1])
     groups: dict[float, list[float]] = {1.0: [], 0.5: [], 0.25: []}
     for argument in of.arguments or ():
         value = given.get(argument.name, argument.default)
@@ -140,6 +152,13 @@ def derive_value(of: RunInput, base: Any, given: Mapping[str, Any]) -> Any:
     if of.type == BOOL:
         return bool(base) != (steps % 2 == 1)
     return f"{of.type}.{of.elements[(of.elements.index(element_of(base)) + steps) % len(of.elements)]}"
+
+
+def _is_call(arguments: Mapping[str, Any], given: Mapping[str, Any]) -> bool:
+    return all(
+        element_of(value) == element_of(given.get(name)) if isinstance(value, str) else value == given.get(name)
+        for name, value in arguments.items()
+    )
 
 
 _WEIGHTS = {INT: 1.0, FLOAT: 1.0, BOOL: 0.5}

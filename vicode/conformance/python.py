@@ -157,7 +157,7 @@ def _stub(run: ConformanceRun, component: str) -> Stub:
         for each in run.inputs
         if each.component == component
     )
-    return Stub(component=component, outputs=outputs, is_live=True)
+    return Stub(component=component, outputs=outputs, is_live=not run.holds_outputs)
 
 
 def _with_stubs(project: Project, run: ConformanceRun) -> Project:

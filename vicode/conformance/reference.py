@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
-from vicode.conformance.inputs import PARAMETERS, ConformanceRun, InputKey, RunInput, RunStep, derive_value
+from vicode.conformance.inputs import PARAMETERS, ConformanceRun, InputKey, InputKind, RunInput, RunStep, derive_value
 from vicode.conformance.traces import TraceIteration, TraceNormalizer
 from vicode.model.design import Decision
 from vicode.model.project import Project
@@ -39,7 +39,9 @@ class ReferenceRobots:
         robots: int = 1,
         team_ticks: int = 0,
         on_decision: OnDecision = lambda _step, _item, _outcome: None,
+        holds_outputs: bool = False,
     ) -> None:
+        self._holds_outputs = holds_outputs
         self._inputs = {each.key: each for each in inputs}
         self.robots = [
             Interpreter(project, root, priority=number, team_ticks=team_ticks, on_decision=on_decision)
@@ -65,6 +67,10 @@ class ReferenceRobots:
         robot = self.robots[number]
         for key, value in values.items():
             component, each = robot.root if key[0] == PARAMETERS else key[0], self._inputs[key]
+            is_held = self._holds_outputs and each.kind is InputKind.STUB and each.arguments is None
+            if is_held and robot.memory.iteration:
+                robot.hold_input(component, each.name, value)
+                continue
             robot.set_input(
                 component, each.name, value if each.arguments is None else partial(derive_value, each, value)
             )
@@ -95,7 +101,13 @@ def run_reference(run: ConformanceRun, on_decision: OnDecision = lambda *_: None
         NotInterpretableError: A design has errors, or code that is not portable.
     """
     robots = ReferenceRobots(
-        run.project, run.root, run.inputs, robots=run.robots, team_ticks=run.team_ticks, on_decision=on_decision
+        run.project,
+        run.root,
+        run.inputs,
+        robots=run.robots,
+        team_ticks=run.team_ticks,
+        on_decision=on_decision,
+        holds_outputs=run.holds_outputs,
     )
     normalizer = TraceNormalizer(run.project)
     iterations: list[TraceIteration] = []

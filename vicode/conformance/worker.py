@@ -95,9 +95,11 @@ class _PythonRobot:
             component = self._components.get(each.component, self.root.main)
             if each.kind is InputKind.WORLD:
                 # The world uses the elements' names in XABSL.
-                plain = self._enumerations[each.type][element_of(value)].value if each.elements else value
-                function = _plain_function(each, value, self._enumerations)
-                self._world.__dict__[name] = plain if each.arguments is None else function
+                if each.arguments is not None:
+                    self._world.__dict__[name] = _plain_function(each, value, self._enumerations)
+                else:
+                    plain = self._enumerations[each.type][element_of(value)].value if each.elements else value
+                    self._world.__dict__[name] = plain
             elif each.arguments is None:
                 typed = convert_value(value, each.type, self._enumerations)
                 if isinstance(component, StubComponent):

@@ -47,6 +47,7 @@ class Interpreter:
             team=TeamMemory(priority=priority, ticks=team_ticks),
         )
         self._functions: dict[tuple[str, str], InputFunction] = {}
+        self._held: dict[str, dict[str, Value]] = {}
         self._tree: list[dict[str, Any]] = []
 
     def set_input(self, component: str, name: str, value: Value | InputFunction) -> None:
@@ -56,6 +57,10 @@ class Interpreter:
         else:
             machine = self.machines[component]
             self.memory.components[component].values[name] = stored(value, machine.types[name])
+
+    def hold_input(self, component: str, name: str, value: Value) -> None:
+        """Set an output of a component without a design when it is stepped next."""
+        self._held.setdefault(component, {})[name] = value
 
     def step(self, clock_ns: int, reports: Iterable[RobotReport] = ()) -> dict[str, Any]:
         """Run one iteration and return its record (docs/traces.md).
@@ -134,6 +139,8 @@ class Interpreter:
         return stored(self._functions[component, name](arguments), machine.scope.type_of(output))
 
     def _step(self, component: str, by: str, link: Link, parameters: Arguments) -> None:
+        for name, value in self._held.pop(component, {}).items():
+            self.set_input(component, name, value)
         step = ComponentStep(self, component, self.machines[component], self.memory.components[component])
         record: dict[str, Any] = {}
         self._tree.append(record)
