@@ -76,6 +76,8 @@ class ComponentGraphs:
         if self.is_in_cycle(component):
             return frozenset()
         if component not in self._stepped_with:
+            # Names may be empty, as that of the caller of agents.
+            self._stepped_with[component] = frozenset()
             found = []
             for caller, stepped in self.together:
                 if component in stepped:
