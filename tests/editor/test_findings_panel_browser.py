@@ -69,3 +69,41 @@ def test_a_sound_design_has_nothing_to_go_to(editor: str, page: Page) -> None:
     expect(state(page, "Kick")).to_be_visible()
     page.keyboard.press("F8")
     expect(page.get_by_text("No problems found").last).to_be_visible()
+
+
+LAMP = """\
+vicode: 1
+component: Lamp
+frequency: 10
+parameters: {on: false}
+initial: Dark
+states:
+  Dark: {transitions: [{to: Lit, when: on}]}
+  Lit: {transitions: [{to: Dark, after: 2}]}
+properties:
+  - {after: Lit, reach: Dark, within: 1}
+"""
+
+
+def test_a_deep_check_finds_a_run_that_can_be_played(editor: str, page: Page, project: Path) -> None:
+    file = project / "forward" / "lamp.yaml"
+    file.write_text(LAMP)
+    page.goto(editor + "design/forward/Lamp")
+    broken = findings(page).get_by_role("listitem").filter(has_text="D441")
+    expect(findings(page).get_by_role("switch", name="Deep check")).to_be_visible()
+    expect(broken).to_have_count(0)
+    findings(page).get_by_role("switch", name="Deep check").click()
+    expect(broken).to_contain_text("'after Lit, Dark within 1' does not hold", timeout=30_000)
+
+    broken.get_by_role("button", name="Play:").click()
+    expect(page.get_by_label("Simulate with")).to_have_value("View a trace")
+    # The run ends when the lamp is dark, too late.
+    expect(page.get_by_text("End of the recording")).to_be_visible()
+    expect(page.get_by_text(re.compile(r"iteration \d+ · Dark"))).to_be_visible()
+
+    # Each edit is checked again: the lamp goes out in time.
+    page.get_by_role("tab", name="Findings").click()
+    file.write_text(LAMP.replace("after: 2", "after: 0.8"))
+    expect(broken).to_have_count(0, timeout=30_000)
+    file.write_text(LAMP.replace("after: 2", "after: 1.5"))
+    expect(broken).to_have_count(1, timeout=30_000)

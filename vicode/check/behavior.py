@@ -8,8 +8,8 @@ from dataclasses import replace
 from vicode.analysis.alternation import Alternation
 from vicode.analysis.examples import describe_value
 from vicode.analysis.projects import ProjectAnalysis
-from vicode.check import check_project
-from vicode.check.properties import find_broken_properties
+from vicode.check import check_project, find_errors
+from vicode.check.properties import describe_steps, find_broken_properties
 from vicode.check.teams import ShownNames, find_in_teams
 from vicode.findings import Finding, FindingSubject, Note, Severity, get_rule
 from vicode.model.design import Design
@@ -32,6 +32,12 @@ def check_behavior(
     if not any(each.rule.code == "D408" for each in found):
         found += find_behavior(project, components, are_names_xabsl=are_names_xabsl, analysis=analysis)
     return tuple(_mark_inactive(analysis, each) for each in found)
+
+
+def find_deep(project: Project, component: str) -> tuple[Finding, ...]:
+    """The findings of the rules in this module for one design; none while a design steps itself."""
+    has_cycle = any(each.rule.code == "D408" for each in find_errors(project, [component]))
+    return () if has_cycle else find_behavior(project, [component])
 
 
 def _mark_inactive(analysis: ProjectAnalysis, finding: Finding) -> Finding:
@@ -60,10 +66,10 @@ def find_behavior(
     designs = (each for each in project.designs if components is None or each.component in components)
     found: list[Finding] = []
     for design in designs:
+        found += find_broken_properties(project, design)
         if design.component not in analysis.active:
             found.append(_report_inactive(design, names))
             continue
-        found += find_broken_properties(project, design)
         found += (_report_alternation(design, each, names) for each in analysis.find_alternations(design.component))
     in_teams = find_in_teams(analysis, names)
     found += (
@@ -93,6 +99,7 @@ def _report_alternation(design: Design, alternation: Alternation, names: ShownNa
         message=f"{cycle} alternate in each iteration while the inputs hold still{inputs}",
         fix="let the guards exclude each other, with a distance between their limits, or add a minimum time",
         subject=FindingSubject(component=design.component, path=alternation.paths[0]),
+        run=describe_steps(design.component, alternation.steps),
         notes=tuple(
             Note(message="and this transition leads on", subject=FindingSubject(component=design.component, path=path))
             for path in alternation.paths[1:]

@@ -1,10 +1,10 @@
 """Rules for the properties of a design: what is promised and not kept."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from vicode.analysis.properties import Judgement, PropertyVerdict, judge_properties
 from vicode.analysis.walk import WalkStep
-from vicode.findings import Finding, FindingSubject, get_rule
+from vicode.findings import Finding, FindingSubject, FoundRun, get_rule
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.model.words import describe_property
@@ -20,7 +20,8 @@ def find_broken_properties(project: Project, design: Design) -> Iterator[Finding
         if judged.verdict is PropertyVerdict.FAILS:
             message = f"'{phrase}' does not hold: {describe_run(judged.steps)}"
             fix = "change the behavior or the property"
-            yield Finding(rule=get_rule("D441"), message=message, fix=fix, subject=subject)
+            run = describe_steps(design.component, judged.steps)
+            yield Finding(rule=get_rule("D441"), message=message, fix=fix, subject=subject, run=run)
         elif judged.verdict is PropertyVerdict.UNDECIDED:
             message = f"'{phrase}' is not proved{_explain(judged)}"
             fix = "simplify the guards, or test it with runs: vicode trace check"
@@ -50,6 +51,14 @@ def _explain(judged: Judgement) -> str:
     if judged.at_most_ns is not None:
         return f": it may take {judged.at_most_ns / 1e9:g} s"
     return f": {' → '.join(judged.lasso)} may be possible" if judged.lasso else ""
+
+
+def describe_steps(component: str, steps: Iterable[WalkStep]) -> FoundRun:
+    """The steps of a run as a finding has them."""
+    return FoundRun(
+        component=component,
+        steps=tuple((step.time_ns, tuple((*key, value) for key, value in step.inputs.items())) for step in steps),
+    )
 
 
 def describe_run(steps: tuple[WalkStep, ...]) -> str:

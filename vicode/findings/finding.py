@@ -1,7 +1,7 @@
 """A finding: a violation of a rule, located by design path and later by line and column."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from vicode.findings.catalogue import Rule, Severity
 from vicode.findings.nearest import Suggestion
@@ -44,11 +44,24 @@ class Note:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class FoundRun:
+    """A run that shows what a finding says.
+
+    Attributes:
+        component: The component that is stepped in each iteration.
+        steps: The time of each iteration in ns, and what is set before it: component, input or parameter, value.
+    """
+
+    component: str
+    steps: tuple[tuple[int, tuple[tuple[str, str, bool | float | str], ...]], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:
     """A violation of a rule.
 
     `message` describes the problem, `fix` how to fix it. A finding with `languages` prevents generation of only those.
-    `name` is the name that quick fixes use.
+    `name` is the name that quick fixes use, `run` one that shows the problem.
     """
 
     rule: Rule
@@ -59,6 +72,7 @@ class Finding:
     notes: tuple[Note, ...] = ()
     languages: tuple[str, ...] = ()
     name: str = ""
+    run: FoundRun | None = field(default=None, compare=False)
 
     @property
     def suggestion(self) -> str:

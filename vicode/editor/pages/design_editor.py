@@ -152,6 +152,9 @@ class DesignEditor:
     def offer_undo(self, text: str, undo: Callable[[], object]) -> None:
         self.window.undo_bar.show(text, undo, is_brief=True)
 
+    async def view_run(self, trace: str) -> None:
+        await self.side_panels.view_run(trace)
+
     def recover_work(self, is_continued: bool) -> None:
         if is_continued:
             self.autosave.recover()

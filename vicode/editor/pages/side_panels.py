@@ -101,6 +101,15 @@ class SidePanels:
             ),
         )
 
+    async def view_run(self, trace: str) -> None:
+        """View a recorded run of the design in Simulate, from its beginning."""
+        with self._canvas.client:
+            self._dock.show(_SIMULATE)
+            controller = self._simulate()
+            controller.use_trace(trace, is_replay=True)
+            await controller.restart()
+            controller.toggle_play()
+
     def design_changed(self) -> None:
         if self._simulator is not None:
             self._simulator.check_design()

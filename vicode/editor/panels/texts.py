@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 NO_PROBLEMS = "No problems found"
+RUN_IS_OLD = "The designs have changed since this run was found; the deep check will find it again"
 FIX_OUTDATED = "The text has changed. Choose the fix again."
 NO_SUCH_COMPONENT = "No such component."
 SAVED = "Saved"

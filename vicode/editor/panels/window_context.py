@@ -30,6 +30,9 @@ class PageServices(Protocol):
     def offer_undo(self, text: str, undo: Callable[[], object]) -> None:
         """Show a message about a change of files, with an undo button."""
 
+    async def view_run(self, trace: str) -> None:
+        """View a recorded run of the design in Simulate."""
+
     def recover_work(self, is_continued: bool) -> None:
         """Offer unsaved work that a killed server has left; recover that of the design if its user was typing then."""
 

@@ -78,6 +78,8 @@ class SharedDocument:
     presence: PresenceRoom = field(init=False, default_factory=PresenceRoom)
     history: UndoHistory = field(init=False)
     findings: tuple[Finding, ...] = field(init=False, default=())
+    deep_findings: tuple[Finding, ...] = field(init=False, default=())
+    """Those of the checks that take longer, for the current design."""
     rev: int = field(init=False, default=0)
     disk_conflict: DiskVersion | None = field(init=False, default=None)
     notice: ChangeNotice = field(init=False, default=ChangeNotice())
@@ -104,6 +106,7 @@ class SharedDocument:
         self._recent_designs.pop(self.rev - _MAX_RECENT_DESIGNS, None)
         self.list_ids.follow(self.history.current.design, history.current.design)
         self.history = history
+        self.deep_findings = ()
         self.rev += 1
         self.findings = self._find()
         self.changes.notify(origin)
@@ -170,6 +173,11 @@ class SharedDocument:
             return ""
         return ""
 
+    def set_deep_findings(self, findings: tuple[Finding, ...]) -> None:
+        """Show the findings of the checks that take longer, until the next edit."""
+        self.deep_findings = findings
+        self.recheck()
+
     def recheck(self) -> None:
         """Check the design again after a change of another design."""
         findings = self._find()
@@ -178,9 +186,8 @@ class SharedDocument:
             self.changes.notify(DocumentSession(self, DISK_USER))
 
     def _find(self) -> tuple[Finding, ...]:
-        return tuple(
-            dict.fromkeys((*self.parse_findings, *self.check(self.history.current.design), *self.outside.findings))
-        )
+        found = self.check(self.history.current.design)
+        return tuple(dict.fromkeys((*self.parse_findings, *found, *self.outside.findings, *self.deep_findings)))
 
 
 @dataclass(eq=False)

@@ -54,6 +54,19 @@ class FindingNavigator:
             return
         self.select_finding(finding)
 
+    def play(self, finding: Finding) -> None:
+        """Show the run of a finding in Simulate, where it can be played and stepped through."""
+        from vicode.runs.found_runs import write_found_run  # noqa: PLC0415 - not needed before a click
+        from vicode.semantics import NotInterpretableError  # noqa: PLC0415
+
+        assert finding.run is not None
+        try:
+            trace = write_found_run(self.context.workspace.project, finding.run)
+        except (NotInterpretableError, KeyError):
+            self.context.show_toast(texts.RUN_IS_OLD, "warning")
+            return
+        self.context.run_in_background(self.context.page.view_run(trace), "run of a finding")
+
     def select_finding(self, finding: Finding) -> None:
         self.current = finding
         items: tuple[ItemRef, ...] = ()

@@ -7,6 +7,7 @@ from pathlib import PurePath
 from nicegui import ui
 
 from vicode.editor.panels import texts
+from vicode.editor.panels.findings.deep_check import DeepCheck
 from vicode.editor.panels.findings.finding_navigation import FindingNavigator, fix_button
 from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.finding_list import filter_findings, group_by_severity
@@ -31,6 +32,7 @@ class FindingsPanel:
         self.rows: dict[_Row, ui.element] = {}
         with ui.row().classes("findings-head"):
             self.summary = ui.label().classes("findings-summary").props('role="status"')
+            self.deep_check = DeepCheck(context)
             ui.element("div").classes("spacer")
             self.toggles = {severity: self._toggle(severity) for severity in Severity}
             self.filter = ui.input(placeholder="Filter", on_change=self.refresh)
@@ -41,6 +43,7 @@ class FindingsPanel:
         self.more.set_visibility(False)
 
     def refresh(self) -> None:
+        self.deep_check.refresh()
         findings = self.context.document.findings
         matching = filter_findings(findings, self.filter.value or "", self.hidden_severities)
         shown = (findings, matching, self.navigator.current, self.context.document.shared.unfinished_states)
@@ -99,6 +102,10 @@ class FindingsPanel:
                 notes = (f"note: {note.message}" for note in finding.notes)
                 ui.label(" · ".join(part for part in (finding.fix, *notes) if part)).classes("finding-hint")
             row.on("click", lambda: self.navigator.select_finding(finding))
+            if finding.run is not None:
+                play = ui.button("Play", icon="play_arrow", on_click=lambda: self.navigator.play(finding), color=None)
+                play.props("flat dense no-caps size=sm").classes("finding-fix")
+                play.props["aria-label"] = f"Play: {finding.message}"
             if is_fixable(finding):
                 fix_button(self.context, finding, f"Fix: {finding.message}")
         return element

@@ -71,6 +71,9 @@ class InputSourceForm:
         self._stubbed: frozenset[str] = frozenset()
 
     def refresh(self) -> None:
+        if self.controller.trace and self.controller.is_replay and self.source != _REPLAY:
+            # The run of a finding.
+            self.source = self.choice.value = _REPLAY
         self.robot_form.refresh()
         self.overlays.refresh()
         self.options.set_visibility(self.source != _ROBOT)
@@ -105,6 +108,8 @@ class InputSourceForm:
         self.controller.set_config(replace(self.controller.config, stubbed=stubbed))
 
     def _choose(self) -> None:
+        if self.source == str(self.choice.value):
+            return
         self.source = str(self.choice.value)
         self.controller.clear_trace()
         if self.source == _ROBOT:
