@@ -10,9 +10,11 @@ from vicode.bica import options
 from vicode.findings import escape_text
 
 if TYPE_CHECKING:
-    from vicode.model.design import Design
+    from vicode.analysis.machines import MachineAnalysis
     from vicode.runs.property_check import PropertyResult
     from vicode.traces.statistics import RunHistory, StateStatistics
+
+_IMPOSSIBLE = "  it cannot occur"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -176,13 +178,15 @@ def _read_runs(paths: Sequence[str]) -> "list[RunHistory]":
         raise OSError(f"{error}") from error
 
 
-def _find_designs(path: str, components: Sequence[str]) -> "dict[str, Design]":
+def _find_designs(path: str, components: Sequence[str]) -> "dict[str, MachineAnalysis]":
+    from vicode.analysis.machines import MachineAnalysis
     from vicode.services.project_loader import load_projects
 
-    found: dict[str, Design] = {}
+    found: dict[str, MachineAnalysis] = {}
     for opened in load_projects([path]):
         project = opened.open_project.project
-        found |= {each.component: each for each in project.designs if each.component in components}
+        designs = (each for each in project.designs if each.component in components)
+        found |= {each.component: MachineAnalysis(project, each) for each in designs}
     if not found:
         raise OSError(f"{path} has no design of {', '.join(components)}")
     return found
@@ -208,13 +212,13 @@ def _print_component(
     component: str,
     states: "dict[str, StateStatistics]",
     transitions: dict[tuple[str, str, str], int],
-    design: "Design | None",
+    machine: "MachineAnalysis | None",
 ) -> None:
     whole_ns = sum(each.total_ns for each in states.values()) or 1
     ends: Counter[str] = Counter()
     for (source, target, _given), count in transitions.items():
         ends[f"{source} → {target}"] += count
-    never = [each.name for each in design.states if each.name not in states] if design is not None else []
+    never = [each.name for each in machine.design.states if each.name not in states] if machine is not None else []
     width = max(len(name) for name in ("transition", *states, *ends, *never))
     print()
     _print(component)
@@ -225,15 +229,15 @@ def _print_component(
             f"  {name:{width}} {each.entries:8} {each.total_ns / 1e9:10.2f} {share:>6} {each.longest_ns / 1e9:10.2f}"
         )
     for name in never:
-        _print(f"  {name:{width}} {'never':>8}")
+        _print(f"  {name:{width}} {'never':>8}{'' if machine and name in machine.reachable else _IMPOSSIBLE}")
     print(f"  {'transition':{width}} {'taken':>8}")
     for words, count in ends.most_common():
         _print(f"  {words:{width}} {count:8}")
-    if design is not None:
+    if machine is not None:
         from vicode.services.transition_counts import list_never_taken
 
-        for words in list_never_taken(design, transitions):
-            _print(f"  {words:{width}} {'never':>8}")
+        for words, is_possible in list_never_taken(machine, transitions):
+            _print(f"  {words:{width}} {'never':>8}{'' if is_possible else _IMPOSSIBLE}")
 
 
 def _draw(
@@ -241,16 +245,17 @@ def _draw(
     component: str,
     states: "dict[str, dict[str, StateStatistics]]",
     transitions: Counter[tuple[str, str, str, str]],
-    designs: "dict[str, Design]",
+    designs: "dict[str, MachineAnalysis]",
 ) -> None:
     from vicode.diagram.heat_map import StateHeat, render_heat_map
     from vicode.diagram.svg import write_svg
     from vicode.output import write_atomically
     from vicode.services.transition_counts import count_by_path
 
-    design = designs.get(component)
-    if design is None:
+    machine = designs.get(component)
+    if machine is None:
         raise OSError(f"{args.design} has no design of {component}; choose another with --component")
+    design = machine.design
     heat = {
         name: StateHeat(entries=each.entries, total_s=each.total_ns / 1e9, longest_s=each.longest_ns / 1e9)
         for name, each in states[component].items()

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 
+from vicode.analysis.machines import MachineAnalysis
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Design
 from vicode.model.traversal import iter_transitions
@@ -26,10 +27,11 @@ def count_by_path(design: Design, transitions: CountByEnds) -> dict[DesignPath, 
     return counts
 
 
-def list_never_taken(design: Design, transitions: CountByEnds) -> Iterable[str]:
-    """The transitions that no trace contains, in words."""
-    counts = count_by_path(design, transitions)
-    for located in iter_transitions(design):
+def list_never_taken(machine: MachineAnalysis, transitions: CountByEnds) -> Iterable[tuple[str, bool]]:
+    """The transitions that no trace contains, in words, and whether they can be taken at all."""
+    counts = count_by_path(machine.design, transitions)
+    live = {edge.path for name in machine.reachable for edge in machine.live_in(name)}
+    for located in iter_transitions(machine.design):
         if not counts.get(located.path):
             source = "common" if located.source == COMMON else located.source
-            yield f"{source} → {getattr(located.decision, 'to', '')}"
+            yield f"{source} → {getattr(located.decision, 'to', '')}", located.path in live

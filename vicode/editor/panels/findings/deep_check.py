@@ -7,7 +7,7 @@ from nicegui import run, ui
 from vicode.check.behavior import find_deep
 from vicode.editor.panels.window_context import WindowContext
 
-_PAUSE_S = 0.4
+_PAUSE_S = 0.3
 _HINT = "Also search for runs that break properties, states that alternate, and robots that wait for each other"
 
 
