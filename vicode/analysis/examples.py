@@ -72,8 +72,9 @@ def choose_values(quantity: Quantity, interval: Interval, table: QuantityTable) 
         yield from _plain_floats((low[0] / table.ns_per_unit, 0), last)
     elif quantity.type == FLOAT:
         yield from _plain_floats(low, high)
-    else:
-        yield table.elements(quantity.type)[int(low[0])]
+    elif elements := table.elements(quantity.type):
+        # Nothing is known of a value whose type has errors.
+        yield elements[int(low[0])]
 
 
 def _plain_ints(low: int, high: int) -> Iterator[int]:
