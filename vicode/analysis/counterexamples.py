@@ -43,9 +43,11 @@ class CounterexampleSearch:
 
     def follow(self, promised: Property, begin: str, way: _Way, limit_ns: int = 0) -> tuple[WalkStep, ...]:
         """A run along a way that breaks the property; with a limit, each state lasts as long as possible up to it."""
-        return self._find(
-            lambda walk: self._follow(walk, begin, way, limit_ns) and self._replay(promised, walk.steps)[0]
+        steps = self._find(
+            lambda walk: self._follow(walk, begin, way, limit_ns) and bool(self._replay(promised, walk.steps)[0])
         )
+        # The run ends where the property is broken.
+        return steps[: self._replay(promised, steps)[0]]
 
     def go_to(self, *states: str, hold_ns: int = 0) -> tuple[WalkStep, ...]:
         """A run that visits states one after another; the last one lasts longer than a time."""
@@ -132,19 +134,20 @@ class CounterexampleSearch:
             return False
         return count > 0 and walk.hold(node, [walk.state] * count)
 
-    def _replay(self, promised: Property, steps: Sequence[WalkStep]) -> tuple[bool, bool]:
-        """Whether a run breaks a property, and whether the property waits for a state at its end."""
+    def _replay(self, promised: Property, steps: Sequence[WalkStep]) -> tuple[int, bool]:
+        """How many steps break a property, 0 if none do, and whether the property waits for a state at the end."""
         monitor = create_monitor(self._machine.guards.conditions.table, promised)
-        is_broken, before = False, ""
-        for step in steps:
+        broken_after, before = 0, ""
+        for count, step in enumerate(steps, start=1):
             # The initial state may be left in the first iteration.
             for state in (step.state,) if before else dict.fromkeys((self._design.initial, step.state)):
                 observed = ObservedStep(
                     time_ns=step.time_ns, state=state, is_start=not before, is_entered=state != before
                 )
-                is_broken = monitor.observe(observed, _unknown) or is_broken
+                if monitor.observe(observed, _unknown) and not broken_after:
+                    broken_after = count
                 before = state
-        return is_broken, monitor.since_ns is not None
+        return broken_after, monitor.since_ns is not None
 
 
 def _unknown(_condition: str) -> Any:

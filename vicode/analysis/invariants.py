@@ -42,12 +42,15 @@ _OWN = (ScopeSymbolKind.VARIABLE, ScopeSymbolKind.OUTPUT)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Step:
-    """A step: the values for which it is taken, its actions, whether it enters a state, and what is called in it."""
+    """A step: the values for which it is taken, its actions, whether it enters a state.
+
+    It is disturbed if other components are stepped or set in it, whose outputs then differ from what its guards read.
+    """
 
     taken: Node
     actions: tuple[Action, ...]
     is_entry: bool
-    called: frozenset[str]
+    is_disturbed: bool
 
 
 def prove_invariant(machine: MachineAnalysis, condition: str) -> Basis | None:
@@ -91,9 +94,18 @@ class _Induction:
             and (not isinstance(each, Variable) or each.kind in (*_OWN, ScopeSymbolKind.CONSTANT))
             for each in walk(condition)
         )
-        self._held_before = self._guards.conditions.of_condition(condition) if is_about_own_values else TRUE
+        constants = self._guards.conditions.table.constants
+        has_tuned = any(
+            isinstance(each, Variable) and each.kind == ScopeSymbolKind.CONSTANT and each.name not in constants
+            for each in walk(condition)
+        )
+        self._is_about_own_values = is_about_own_values and not has_tuned
+        self._held_before = self._guards.conditions.of_condition(condition) if self._is_about_own_values else TRUE
 
     def prove(self) -> Basis | None:
+        if self._design.frequency_hz and not self._is_about_own_values:
+            # Inputs also change in iterations in which the component does not work.
+            return None
         facts: dict[str, None] = {}
         no_nan = False
         for node in (self._broken_at_start(), *map(self._broken_by, self._list_steps())):
@@ -171,8 +183,11 @@ class _Induction:
 def _make_step(
     taken: Node, actions: Sequence[Action], *, is_entry: bool, required: Sequence[str] | set[str] = ()
 ) -> _Step:
-    called = {each.alias for each in actions if isinstance(each, Call)}
-    return _Step(taken=taken, actions=tuple(actions), is_entry=is_entry, called=frozenset(called | set(required)))
+    is_disturbed = bool(required) or any(
+        isinstance(each, Call) or (isinstance(each, Assign) and any("." in name for name, _text in each.values))
+        for each in actions
+    )
+    return _Step(taken=taken, actions=tuple(actions), is_entry=is_entry, is_disturbed=is_disturbed)
 
 
 def _substituted(node: Expr, values: dict[str, Expr]) -> Expr:
@@ -180,11 +195,11 @@ def _substituted(node: Expr, values: dict[str, Expr]) -> Expr:
 
 
 def _after_calls(node: Expr, step: _Step, number: int) -> Expr:
-    """What a step reads after its actions: outputs of called components may differ from those that its guards read."""
+    """What a step reads after its actions: outputs may differ from those that its guards read."""
     match node:
         case ElapsedTime(kind="state") if step.is_entry:
             return Number(value=0.0, type=FLOAT, span=_NO_SPAN)
-        case OutputRef(alias=alias) if alias in step.called:
+        case OutputRef() if step.is_disturbed:
             marker = ("", Number(value=number, type="int", span=_NO_SPAN))
             return replace(node, arguments=(*(node.arguments or ()), marker))
         case Done() | StatusFlag():

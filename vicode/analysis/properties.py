@@ -137,8 +137,10 @@ class PropertyAnalysis:
             return Judgement(promised=promised, verdict=PropertyVerdict.GUARANTEED, at_most_ns=0)
         ways = self._after(begin, {goal})
         passed = [name for name in ways if name != goal or name == begin]
-        limit_ns = within_ns(self._machine.guards.conditions.table, promised)
+        limit_ns = within_ns(self._machine.guards.conditions.table, promised, is_least=True)
         longest = self._find_longest(begin, goal, passed)
+        if promised.within and limit_ns is None:
+            return Judgement(promised=promised, verdict=PropertyVerdict.UNDECIDED, at_most_ns=longest)
         if longest is not None and (limit_ns is None or longest <= limit_ns):
             return Judgement(promised=promised, verdict=PropertyVerdict.GUARANTEED, at_most_ns=longest)
         lost = [name for name in passed if not self._leads_to(name, goal)]
@@ -188,7 +190,9 @@ class PropertyAnalysis:
         time = self._machine.time_in(state)
         if time is None or time.at_most_ns is None:
             return math.inf
-        return max(1, math.ceil(time.at_most_ns / self._period_ns)) * self._period_ns
+        # Without a frequency, iterations may come at other times: up to one period later.
+        late_ns = 0 if self._design.frequency_hz else self._period_ns
+        return max(1, math.ceil(time.at_most_ns / self._period_ns)) * self._period_ns + late_ns
 
     def _find_longest(self, begin: str, goal: str, passed: Collection[str]) -> int | None:
         """The longest time from the entry into a state until a goal is reached; None if there is none."""
@@ -281,16 +285,18 @@ class PropertyAnalysis:
         )
 
 
-def judge_properties(project: Project, design: Design) -> tuple[Judgement, ...]:
+def judge_properties(project: Project, design: Design, *, may_search: bool = True) -> tuple[Judgement, ...]:
     """Judge the properties of a design, with the assumptions without which the verdicts would differ."""
+    if not design.properties:
+        return ()
     machine = MachineAnalysis(project, design)
-    judged = tuple(PropertyAnalysis(project, machine).judge_all())
+    judged = tuple(PropertyAnalysis(project, machine, may_search=may_search).judge_all())
     assumptions = machine.guards.conditions.table.assumptions
-    if not assumptions or not judged:
+    if not assumptions:
         return judged
     components = tuple(replace(each, assume="") for each in project.components)
     plain = replace(project, components=components)
-    without = PropertyAnalysis(plain, MachineAnalysis(plain, design)).judge_all()
+    without = PropertyAnalysis(plain, MachineAnalysis(plain, design), may_search=may_search).judge_all()
     facts = tuple(f"assumed of {each.text}" for each in assumptions)
     return tuple(
         each if each.verdict is other.verdict or each.basis.facts else replace(each, basis=Basis(facts=facts))

@@ -7,9 +7,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from vicode.analysis.quantities import QuantityTable, build_quantities
+from vicode.analysis.quantities import QuantityTable, build_quantities, initial_value
 from vicode.model.design import Design, InvariantProperty, NeverProperty, Property, ReachProperty
-from vicode.model.expressions import FLOAT, parse_expression
+from vicode.model.expressions import FLOAT, Variable, parse_expression
 from vicode.model.project import Project
 
 
@@ -110,9 +110,20 @@ def create_monitor(table: QuantityTable, promised: Property) -> PropertyMonitor:
     return PropertyMonitor(promised=promised, within_ns=limit_ns)
 
 
-def within_ns(table: QuantityTable, promised: ReachProperty) -> int | None:
-    """The time of `within` in nanoseconds; None if there is none, or it has errors."""
+def within_ns(table: QuantityTable, promised: ReachProperty, *, is_least: bool = False) -> int | None:
+    """The time of `within` in nanoseconds; None if there is none, or it has errors.
+
+    That of a tunable constant is its declared value, or the least in its range.
+    """
     tree = parse_expression(promised.within, table.scope, FLOAT).tree if promised.within else None
     value = table.value_of(tree) if tree is not None else None
-    is_time = isinstance(value, int | float) and math.isfinite(value)
-    return round(value * table.ns_per_unit) if is_time and isinstance(value, int | float) else None
+    if value is None and isinstance(tree, Variable):
+        symbol = table.scope.symbols[tree.name]
+        range_ = symbol.declaration.range
+        if is_least:
+            value = range_[0] if range_ else None
+        else:
+            value = initial_value(symbol.declaration, table.scope, table.constants)
+    if not isinstance(value, int | float) or not math.isfinite(value * table.ns_per_unit):
+        return None
+    return round(value * table.ns_per_unit)

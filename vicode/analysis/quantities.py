@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 from vicode.analysis.interval_diagrams import AFTER_ALL, BEFORE_ALL, BEFORE_NAN, Interval, Position
@@ -85,6 +85,8 @@ class QuantityTable:
         ns_per_unit: Nanoseconds of the unit of times.
         is_xabsl: Whether the design divides as the XABSL engine does.
         assumptions: What holds for the outputs of used components.
+        kept_ranges: What designs set themselves, with ranges that they keep: own names, and `alias.output`.
+        designs: The names of the components with a design.
     """
 
     scope: Scope
@@ -92,6 +94,8 @@ class QuantityTable:
     ns_per_unit: float
     is_xabsl: bool
     assumptions: tuple["Assumption", ...] = ()
+    kept_ranges: frozenset[str] = frozenset()
+    designs: frozenset[str] = frozenset()
     _quantities: dict[Shape, Quantity] = field(default_factory=dict)
 
     def value_of(self, node: Expr, values: Mapping[str, Value] = MappingProxyType({})) -> Value | None:
@@ -129,6 +133,17 @@ class QuantityTable:
             case _:
                 return None
 
+    def trusting(self, names: frozenset[str]) -> "QuantityTable":
+        """The table if the ranges of some more names are kept."""
+        return replace(self, kept_ranges=self.kept_ranges | names, _quantities={})
+
+    def _has_kept_range(self, node: Expr, name: str) -> bool:
+        """Whether a declared range holds: that of an input does, others if the design that sets them keeps them."""
+        is_set = isinstance(node, Variable) and node.kind in (ScopeSymbolKind.VARIABLE, ScopeSymbolKind.OUTPUT)
+        interface = self.scope.uses.get(node.alias) if isinstance(node, OutputRef) else None
+        is_of_design = interface is not None and interface.component in self.designs
+        return not (is_set or is_of_design) or name in self.kept_ranges
+
     def _describe(self, node: Expr, name: str) -> Quantity:
         if isinstance(node, ElapsedTime):
             is_state = node.kind == "state"
@@ -137,7 +152,8 @@ class QuantityTable:
         if isinstance(node, StatusFlag) and node.type == INT:
             return Quantity(name=name, type=INT, domain=_TEAM_SIZES, tree=node)
         declared = self.declaration(node)
-        if declared is not None and declared.range is not None and node.type in (INT, FLOAT):
+        has_range = declared is not None and declared.range is not None and self._has_kept_range(node, name)
+        if declared is not None and declared.range is not None and has_range and node.type in (INT, FLOAT):
             low, high = declared.range
             domain = ((low, 0), (high, 1))
             if node.type == INT:
@@ -210,8 +226,28 @@ def name_of(node: Expr) -> str:
             return ""
 
 
-def build_quantities(project: Project, design: Design) -> QuantityTable:
-    """Build the table of a design of a project."""
+def build_quantities(project: Project, design: Design, above: frozenset[str] = frozenset()) -> QuantityTable:
+    """Build the table of a design of a project.
+
+    Args:
+        project: The project.
+        design: The design.
+        above: The designs whose tables need this one.
+    """
+    from vicode.analysis.kept_ranges import find_kept_ranges  # noqa: PLC0415 - it calculates with quantities
+
+    table, above = _build_table(project, design), above | {design.component}
+    of_used: set[str] = set()
+    for use in design.uses:
+        used = project.design(use.component)
+        if used is not None and used.component not in above and any(each.range for each in used.outputs):
+            kept = build_quantities(project, used, above).kept_ranges
+            of_used |= {f"{use.alias}.{each.name}" for each in used.outputs if each.name in kept}
+    table = table.trusting(frozenset(of_used))
+    return table.trusting(find_kept_ranges(design, table))
+
+
+def _build_table(project: Project, design: Design) -> QuantityTable:
     scope = build_scope(project, design)
     constants: dict[str, Value] = {}
     for constant in project.constants:
@@ -224,6 +260,7 @@ def build_quantities(project: Project, design: Design) -> QuantityTable:
         ns_per_unit=1e6 if design.time_unit == "ms" else 1e9,
         is_xabsl=design.arithmetic == "xabsl",
         assumptions=tuple(_find_assumptions(project, design)),
+        designs=frozenset(each.component for each in project.designs),
     )
 
 

@@ -59,7 +59,10 @@ def _find_ends(context: RuleContext, tree: Expr) -> tuple[float | None, float | 
     literal = literal_value(tree, context.scope)
     if literal is not None or tree.type not in (INT, FLOAT):
         return literal, None
-    ((low, _), (high, _)), may_be_nan = find_bounds(tree, {}, context.machine.guards.conditions.table)
+    # What it reads is in its range: if it is not, that is reported where it was set.
+    declared = frozenset(declaration.name for _section, declaration in context.design.declarations())
+    table = context.machine.guards.conditions.table.trusting(declared)
+    ((low, _), (high, _)), may_be_nan = find_bounds(tree, {}, table)
     return (None, None) if may_be_nan else (low, high)
 
 

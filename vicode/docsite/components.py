@@ -7,7 +7,7 @@ from itertools import groupby, islice
 from vicode.analysis.examples import describe_value
 from vicode.analysis.machines import MachineAnalysis
 from vicode.analysis.overlaps import find_overlaps
-from vicode.analysis.properties import PropertyAnalysis
+from vicode.analysis.properties import judge_properties
 from vicode.check.properties import describe_judgement
 from vicode.docsite.decisions import CodeLinks, code_blocks, numbered_decisions, pseudocode_lines, transition_rows
 from vicode.docsite.diagrams import draw_decision_tree, draw_design, draw_neighborhood
@@ -72,7 +72,7 @@ def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView
         columns=frozenset(name for row in transitions for name in ("timer", "doc_html") if getattr(row, name)),
         properties=tuple(
             (describe_property(each.promised), describe_judgement(each))
-            for each in PropertyAnalysis(project, machine, may_search=False).judge_all()
+            for each in judge_properties(project, design, may_search=False)
         ),
         common=_common(design, linker, inputs) if has_common else None,
         states=tuple(_state(machine, state, linker, inputs) for state in design.states),

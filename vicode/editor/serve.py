@@ -74,7 +74,7 @@ def serve(
     # Imported objects stay alive: collecting during the imports takes a tenth of the startup time.
     gc.disable()
     _set_storage_folder()
-    from nicegui import app, background_tasks, run, ui
+    from nicegui import app, background_tasks, ui
     from starlette.middleware.gzip import GZipMiddleware
 
     from vicode.editor.connection_limits import LimitedHttpProtocol
@@ -87,8 +87,6 @@ def serve(
     register_pages(library, _start_autosave(library), tour=tour)
     _configure_app(app, address)
     app.on_startup(lambda: background_tasks.create(_announce(path, address, start), name="announce"))
-    # A fork of a server with threads may hang.
-    run.process_pool_start_method = "spawn"
     GcPolicy(app).freeze_gc()
     gc.enable()
     ui.run(
@@ -160,6 +158,10 @@ def _end_on_hangup() -> None:
 
 
 def _configure_app(app: "App", address: ServerAddress) -> None:
+    from nicegui import run
+
+    # A fork of a server with threads may hang.
+    run.process_pool_start_method = "spawn"
     # Quasar's loading bar is a landmark without a name, and useless here: all traffic uses one socket.
     app.config.quasar_config.update({"loadingBar": {"skipHijack": True}, "ripple": False})
     from vicode.editor.access import TOKEN_COOKIE, AccessMiddleware

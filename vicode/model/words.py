@@ -86,17 +86,17 @@ def describe_action(action: Action) -> str:
 
 
 def describe_property(promised: Property) -> str:
-    """A property as a phrase, such as "after Kick, LookForBall within 5"."""
+    """A property as a phrase, such as "after Kick, LookForBall is reached within 5"."""
     match promised:
         case ReachProperty(reach=reach, after=after, within=within):
-            phrase = f"{reach} within {within}" if within else f"{reach} at some time"
+            phrase = f"{reach} is reached within {within}" if within else f"{reach} is reached eventually"
         case NeverProperty(never=never, after=after, before=before):
-            phrase = f"{never} never before {before}" if before else f"{never} never"
+            phrase = f"no {never} before {before}" if before else f"{never} is never active"
         case RecoveryProperty(can_reach=can_reach):
-            return f"always a way to {can_reach}"
+            return f"there is always a way to {can_reach}"
         case InvariantProperty(holds=holds):
-            return f"always {holds}"
-    return f"after {after}, {phrase}" if after else f"after the start, {phrase}"
+            return f"{holds} always holds"
+    return f"after {after}, {phrase}" if after else phrase
 
 
 def describe_code(code: Code | None) -> str:

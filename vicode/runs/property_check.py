@@ -87,9 +87,14 @@ class PropertyCheck:
     def _observe_step(
         self, design: Design, step: Mapping[str, Any], iteration: IterationResult
     ) -> Iterator[PropertyResult]:
+        was_away = design.component not in self._states
         observed = list(self._observed(design.component, step, iteration.time_ns))
         self._states[design.component] = str(step["state"])
         holds = partial(self._holds, design, iteration)
+        if was_away and not observed[0].is_start:
+            # What was expected ended when the caller left.
+            for monitor, _result in self._monitors[design.component]:
+                monitor.since_ns = None
         for monitor, result in self._monitors[design.component]:
             # A condition is one on the values after the step.
             seen = observed[-1:] if isinstance(monitor.promised, InvariantProperty) else observed

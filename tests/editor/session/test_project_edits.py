@@ -166,6 +166,7 @@ def test_references_are_the_places_that_a_rename_changes(workspace: Workspace) -
         assert thing.name == spot.name(project)
         assert thing.name in sibling_names(project, thing)
         texts = "".join(repr(design) for design in project.designs) + repr(project.agents)
+        texts += " ".join(each.assume for each in project.components)
         assert bool(find_references(project, thing)) <= (thing.name in texts)
     assert SymbolRef(component="Perception", section="outputs", name="ball_seen") in [
         spot.symbol_ref(project) for spot in spots

@@ -79,7 +79,6 @@ class SharedDocument:
     history: UndoHistory = field(init=False)
     findings: tuple[Finding, ...] = field(init=False, default=())
     deep_findings: tuple[Finding, ...] = field(init=False, default=())
-    """Those of the checks that take longer, for the current design."""
     rev: int = field(init=False, default=0)
     disk_conflict: DiskVersion | None = field(init=False, default=None)
     notice: ChangeNotice = field(init=False, default=ChangeNotice())
@@ -105,8 +104,7 @@ class SharedDocument:
         self._recent_designs[self.rev] = self.history.current.design
         self._recent_designs.pop(self.rev - _MAX_RECENT_DESIGNS, None)
         self.list_ids.follow(self.history.current.design, history.current.design)
-        self.history = history
-        self.deep_findings = ()
+        self.history, self.deep_findings = history, ()
         self.rev += 1
         self.findings = self._find()
         self.changes.notify(origin)
