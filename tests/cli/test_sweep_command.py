@@ -285,20 +285,8 @@ def test_each_error_is_a_row(cars: Path, capsys: pytest.CaptureFixture[str]) -> 
 
 def test_ctrl_c_ends_the_runs_and_keeps_what_is_done(cars: Path) -> None:
     Path("trouble").touch()
-    words = [
-        "sweep",
-        "cars/car.yaml",
-        "--set",
-        "limit=0.5",
-        "--seeds",
-        "9",
-        "--jobs",
-        "2",
-        "--seconds",
-        "3",
-        "--out",
-        "out",
-    ]
+    limits = ["--seeds", "9", "--jobs", "2", "--seconds", "3"]
+    words = ["sweep", "cars/car.yaml", "--set", "limit=0.5", *limits, "--out", "out"]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     command = [sys.executable, "-m", "vicode", *words]
     with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True) as process:

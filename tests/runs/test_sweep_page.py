@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from vicode.runs.sweep import Combination, Row
 from vicode.runs.sweep_page import MAXIMIZE, MINIMIZE, Result, compare, format_table, sign_test, write_page
 
-TIMES = {1: [3.0, 5.0, None, 4.0], 2: [2.0, 6.0, 9.0, None], 3: [None, None, None, None]}
+TIMES: dict[int, list[float | None]] = {1: [3.0, 5.0, None, 4.0], 2: [2.0, 6.0, 9.0, None], 3: [None, None, None, None]}
 
 
 def combination(value: int) -> Combination:

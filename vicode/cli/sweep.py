@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from vicode.runs.sweep import Combination, Row, Submit, SweepRun
     from vicode.runs.sweep_page import Result
 
-
 _TABLE, _PAGE = "runs.csv", "sweep.html"
 
 
