@@ -236,6 +236,31 @@ def test_another_limit_and_a_file_of_something_else_are_not_continued(
     assert Path("out/runs.jsonl").read_text(encoding="utf-8") == "my notes\n"
 
 
+@pytest.mark.parametrize("name", ["runs.csv", "sweep.html"])
+def test_results_of_something_else_stay(cars: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
+    Path("out").mkdir()
+    Path("out", name).write_text("mine", encoding="utf-8")
+    for words in ([], ["--again"]):
+        assert sweep(*words, seeds=1) == 2
+        assert f"out/{name} is not replaced" in capsys.readouterr().err
+    assert [(path.name, path.read_text(encoding="utf-8")) for path in Path("out").iterdir()] == [(name, "mine")]
+
+
+@pytest.mark.parametrize("text", ["mine", "mine\n", '{"vicode": 1}\n'])
+def test_runs_of_something_else_stay(cars: Path, capsys: pytest.CaptureFixture[str], text: str) -> None:
+    Path("out").mkdir()
+    Path("out/runs.jsonl").write_text(text, encoding="utf-8")
+    for words in ([], ["--again"]):
+        assert sweep(*words, seeds=1) == 2
+        assert "out/runs.jsonl is not replaced, as 'vicode sweep' did not write it" in capsys.readouterr().err
+    assert Path("out/runs.jsonl").read_text(encoding="utf-8") == text
+
+
+def test_too_many_runs_are_refused(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert sweep("--set", "unused=1..400:400", values="limit=1..400:400", seeds=2) == 2
+    assert "320000 runs are too many: a sweep has at most 100000" in capsys.readouterr().err
+
+
 def test_each_error_is_a_row(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("trouble").touch()
     assert sweep(seeds=5, values="limit=0.5") == 1
@@ -260,20 +285,8 @@ def test_each_error_is_a_row(cars: Path, capsys: pytest.CaptureFixture[str]) -> 
 
 def test_ctrl_c_ends_the_runs_and_keeps_what_is_done(cars: Path) -> None:
     Path("trouble").touch()
-    words = [
-        "sweep",
-        "cars/car.yaml",
-        "--set",
-        "limit=0.5",
-        "--seeds",
-        "9",
-        "--jobs",
-        "2",
-        "--seconds",
-        "3",
-        "--out",
-        "out",
-    ]
+    limits = ["--seeds", "9", "--jobs", "2", "--seconds", "3"]
+    words = ["sweep", "cars/car.yaml", "--set", "limit=0.5", *limits, "--out", "out"]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     command = [sys.executable, "-m", "vicode", *words]
     with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True) as process:
@@ -296,6 +309,8 @@ def test_ctrl_c_ends_the_runs_and_keeps_what_is_done(cars: Path) -> None:
     ("values", "message"),
     [
         ("limit=0.2..0.6", "write a range as FIRST..LAST:COUNT, such as 0.2..0.6:5"),
+        ("limit=1..2:01", "write a range as FIRST..LAST:COUNT, such as 0.2..0.6:5"),
+        ("limit=1..2:1000000000", "1000000000 values are too many: a sweep has at most 100000 runs"),
         ("limit=fast", "'fast' is no value of limit, which has the type float"),
         ("limits=1", "the project has no constant 'limits'; did you mean 'limit'?"),
         ("Wheels.paus=1", "Wheels has no parameter 'paus'; did you mean 'pause'?"),

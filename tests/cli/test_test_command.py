@@ -90,6 +90,40 @@ def test_a_recorded_run_becomes_a_test_of_its_component(gates: Path, capsys: pyt
     assert "it has tests of Gate from vicode test gen" in capsys.readouterr().err
 
 
+def test_a_suite_of_another_trace_with_the_same_name_stays(gates: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for folder, seconds in (("p", "1"), ("q", "2")):
+        (gates / folder).mkdir()
+        assert vicode("run", "gate.yaml", "--seconds", seconds, "--trace", f"{folder}/a.jsonl", "--values") == 0
+    assert vicode("test", "record", "p/a.jsonl") == 0
+    before = (gates / "tests/a.suite.json").read_bytes()
+    assert vicode("test", "record", "q/a.jsonl") == 2
+    assert "it has tests of Gate from ../p/a.jsonl" in capsys.readouterr().err
+    assert (gates / "tests/a.suite.json").read_bytes() == before
+    # The same trace may be recorded again.
+    (gates / "q/a.jsonl").replace(gates / "p/a.jsonl")
+    assert vicode("test", "record", str(gates / "p/a.jsonl")) == 0
+    assert (gates / "tests/a.suite.json").read_bytes() != before
+
+
+def test_an_edited_module_stays(gates: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert vicode("test", "gen", "gate.yaml") == 0
+    assert vicode("test", "gen", "gate.yaml") == 0
+    assert "kept" not in capsys.readouterr().out
+    module = gates / "tests/test_gates_designs.py"
+    edited = module.read_text(encoding="utf-8") + "# mine\n"
+    module.write_text(edited, encoding="utf-8")
+    assert vicode("test", "gen", "gate.yaml") == 0
+    assert "kept tests/test_gates_designs.py, which differs from what" in capsys.readouterr().out
+    assert module.read_text(encoding="utf-8") == edited
+
+
+def test_a_file_that_is_no_suite_is_named_once(gates: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (gates / "tests").mkdir()
+    (gates / "tests/a.suite.json").write_text("{}", encoding="utf-8")
+    assert vicode("test", "mutate", "gate.yaml") == 2
+    assert capsys.readouterr().err == 'vicode: tests/a.suite.json: it has no "vicode-suite": 1\n'
+
+
 def test_a_run_of_another_design_is_no_test(gates: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert vicode("run", "gate.yaml", "--seconds", "2", "--trace", "run.jsonl", "--values") == 0
     (gates / "gate.yaml").write_text(GATE.replace("distance < 1}", "distance < 0.5}"), encoding="utf-8")

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from vicode.runs.sweep import Combination, Row
 from vicode.runs.sweep_page import MAXIMIZE, MINIMIZE, Result, compare, format_table, sign_test, write_page
 
-TIMES = {1: [3.0, 5.0, None, 4.0], 2: [2.0, 6.0, 9.0, None], 3: [None, None, None, None]}
+TIMES: dict[int, list[float | None]] = {1: [3.0, 5.0, None, 4.0], 2: [2.0, 6.0, 9.0, None], 3: [None, None, None, None]}
 
 
 def combination(value: int) -> Combination:
@@ -60,12 +60,28 @@ def test_the_mean_decides_between_equal_medians() -> None:
 def test_the_baseline_is_the_best_if_others_are_only_as_good() -> None:
     row: Row = {"values": {}, "seed": 1, "error": "", "goals": 1}
     found = compare([(combination(value), [row]) for value in reversed(TIMES)], "goals", MAXIMIZE)
-    assert found.describe_best() == "Best goals: a=1, median 1, mean 1. These are the values of the files."
+    assert found.describe_best() == "Best goals: a=1, median 1, mean 1. This is the value in the files."
+
+
+@pytest.mark.parametrize(
+    ("times", "message"),
+    [
+        ([None, None], "No run has this figure: time_s. Runs with errors are left out."),
+        ([None, 2.0], "No value is the best: with each, at least half of the runs lack time_s."),
+    ],
+)
+def test_without_a_median_no_value_is_the_best(times: list[float | None], message: str) -> None:
+    rows: list[Row] = [
+        {"values": {}, "seed": seed, "error": "", "stopped": "limit", "time_s": time} for seed, time in enumerate(times)
+    ]
+    found = compare([(combination(value), rows) for value in TIMES], "time_s", MINIMIZE)
+    assert found.describe_best() == message
 
 
 def test_runs_with_errors_are_in_the_table_only() -> None:
     found = results("it failed")
-    assert compare(found, "time_s", MINIMIZE).describe_best() == "No run without an error has time_s."
+    nothing = "No run has this figure: time_s. Runs with errors are left out."
+    assert compare(found, "time_s", MINIMIZE).describe_best() == nothing
     assert format_table([row for _combination, own in found for row in own]).count("it failed") == 12
     assert "All runs have the same figures" in write_page("A sweep", found)
 

@@ -9,6 +9,7 @@ from concurrent.futures import as_completed
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from hashlib import sha256
+from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,8 @@ from vicode.services.project_loader import LoadedProject
 if TYPE_CHECKING:
     from vicode.runs.sweep import Combination, Row, Submit, SweepRun
     from vicode.runs.sweep_page import Result
+
+_TABLE, _PAGE = "runs.csv", "sweep.html"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -74,10 +77,11 @@ def run(args: argparse.Namespace) -> int:
 
 def _sweep(opened: LoadedProject, component: str, args: argparse.Namespace) -> int:
     from vicode.output import temporary_folder
-    from vicode.runs.sweep import open_runs
+    from vicode.runs.sweep import check_folder, open_runs
 
-    combinations = _combine(opened, component, args.set)
+    combinations = _combine(opened, component, args)
     out = Path(args.out)
+    check_folder(out / "runs.jsonl", [out / _TABLE, out / _PAGE])
     out.mkdir(parents=True, exist_ok=True)
     origin = _describe_origin(opened, component, args)
     with open_runs(out / "runs.jsonl", origin, is_new=args.again) as (rows, append), temporary_folder("sweep") as code:
@@ -97,27 +101,30 @@ def _key(values: "Row", seed: int) -> object:
     return frozenset(values.items()), seed
 
 
-def _combine(opened: LoadedProject, component: str, given: Sequence[str]) -> "list[Combination]":
+def _combine(opened: LoadedProject, component: str, args: argparse.Namespace) -> "list[Combination]":
     from vicode.runs.changed_values import ChangedValueError
-    from vicode.runs.sweep import combine, parse_values
+    from vicode.runs.sweep import MAX_RUNS, combine, parse_values
     from vicode.runs.value_replay import concerns
 
     project, axes = opened.open_project.project, []
     design = project.design(component)
     assert design is not None
-    for text in given:
+    for text in args.set:
         try:
             axes.append(parse_values(text, project))
         except ChangedValueError as error:
             raise ChangedValueError(f"--set {text}: {error}") from error
         if not concerns(project, design, axes[-1][0]):
             raise ChangedValueError(f"--set {text}: {component} does not use {axes[-1][0].component}")
+    if (count := prod(map(len, axes)) * args.seeds) > MAX_RUNS:
+        raise ChangedValueError(f"{count} runs are too many: a sweep has at most {MAX_RUNS}")
     return combine(axes, project)
 
 
 def _describe_origin(opened: LoadedProject, component: str, args: argparse.Namespace) -> "Row":
     """What must stay the same when a sweep continues."""
     from vicode.model.design_hash import hash_design
+    from vicode.runs.sweep import ORIGIN_KEY
     from vicode.services.generation.project_output import output_folder
 
     folder, generated = opened.open_project.folder.resolve(), output_folder(opened).resolve()
@@ -127,7 +134,7 @@ def _describe_origin(opened: LoadedProject, component: str, args: argparse.Names
             code.update(file.relative_to(folder).as_posix().encode() + file.read_bytes())
     design = f"{component} {hash_design(opened.open_project.project, component)}"
     limits = {"--seconds": args.seconds, "--until-done": args.until_done}
-    return {"vicode-sweep": 1, "design": design, "Python code": code.hexdigest(), **limits}
+    return {ORIGIN_KEY: 1, "design": design, "Python code": code.hexdigest(), **limits}
 
 
 def _prepare(
@@ -200,7 +207,7 @@ def _report(results: "Sequence[Result]", args: argparse.Namespace) -> int:
         print(f"  {row['values']}, seed {row['seed']}: {row['error']}")
     if len(results) > 1 and len({repr([{**row, "values": None} for row in own]) for _combination, own in results}) == 1:
         print("the values make no difference; that of a parameter has no effect where a state passes another one")
-    write_atomically(out / "runs.csv", format_table(rows))
-    write_atomically(out / "sweep.html", write_page(f"Sweep of {args.path}", results, best))
-    print(*([best.describe_best()] if best else []), f"wrote {out / 'runs.csv'} and {out / 'sweep.html'}", sep="\n")
+    write_atomically(out / _TABLE, format_table(rows))
+    write_atomically(out / _PAGE, write_page(f"Sweep of {args.path}", results, best))
+    print(*([best.describe_best()] if best else []), f"wrote {out / _TABLE} and {out / _PAGE}", sep="\n")
     return 1 if failed else 0

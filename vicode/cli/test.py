@@ -17,8 +17,9 @@ if TYPE_CHECKING:
     from vicode.store import OpenProject
 
 _FOLDER = "tests"
-_MARK = '"""Runs the suites of this folder. `vicode test` writes this file and may replace it."""'
-_MODULE = f"""{_MARK}
+_MARK = '"""Runs the suites of this folder. `vicode test` writes this file'
+_TITLE = f'{_MARK} and keeps changes of it."""'
+_MODULE = f"""{_TITLE}
 
 import pytest
 
@@ -120,7 +121,9 @@ def _record(args: argparse.Namespace) -> int:
         print(f"vicode: {path}: {error}; 'vicode replay' shows the first difference", file=sys.stderr)
         return 1
     folder = Path(args.out or opened.open_project.folder / _FOLDER)
-    suite = _make_suite(opened.open_project, design.component, folder, source=path.name, cases=(case,))
+    # Traces of several folders may have the same name.
+    source = Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
+    suite = _make_suite(opened.open_project, design.component, folder, source=source, cases=(case,))
     _write(opened.open_project, folder, path.stem, suite)
     return 0
 
@@ -171,7 +174,7 @@ def _make_suite(
 
 
 def _write(opened: "OpenProject", folder: Path, stem: str, suite: "Suite") -> None:
-    """Write a suite and the module that runs it, or neither."""
+    """Write a suite and the module that runs it, or neither; a module that was edited stays."""
     from vicode.conformance.suite import SUFFIX, SuiteError, format_suite, read_suite
     from vicode.model.names import package_name
     from vicode.output import write_atomically
@@ -185,11 +188,15 @@ def _write(opened: "OpenProject", folder: Path, stem: str, suite: "Suite") -> No
         if (old.component, old.source) != (suite.component, suite.source):
             made = f"it has tests of {old.component} from {old.source}"
             raise OSError(f"{file} is not replaced: {made}; move it, or choose another --out")
-    if module.exists() and not module.read_text(encoding="utf-8", errors="replace").startswith(_MARK):
+    present = module.read_text(encoding="utf-8", errors="replace") if module.exists() else ""
+    if module.exists() and not present.startswith(_MARK):
         raise OSError(f"{module} is not replaced, as 'vicode test' did not write it; move it, or choose another --out")
     folder.mkdir(parents=True, exist_ok=True)
     write_atomically(file, format_suite(suite))
-    write_atomically(module, _MODULE)
+    if not present:
+        write_atomically(module, _MODULE)
+    elif present != _MODULE:
+        print(f"kept {module}, which differs from what 'vicode test' writes; remove it to have it written again")
     cases = f"{len(suite.cases)} case{'s' * (len(suite.cases) != 1)}"
     print(f"wrote {file}: {cases}, {suite.steps} steps; run them with 'pytest {folder}'")
 
@@ -204,8 +211,11 @@ def _read_suites(args: argparse.Namespace, opened: "OpenProject", component: str
     for file in list_files(folder):
         try:
             suite = read_suite(file)
-            if suite.component != component:
-                continue
+        except SuiteError as error:
+            raise OSError(str(error)) from error
+        if suite.component != component:
+            continue
+        try:
             problems = check_suite(suite, opened.project, opened.folder, "reference")
             runs += (make_run(suite, case, opened.project) for case in suite.cases)
         except SuiteError as error:

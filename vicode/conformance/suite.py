@@ -59,7 +59,7 @@ class Suite:
     Attributes:
         component: Its component.
         design: Its file, relative to the folder of the suite.
-        source: What the cases were made from: GENERATED, or the name of a trace.
+        source: What the cases were made from: GENERATED, or the file of a trace, relative to the folder of the suite.
         languages: The languages in which they run.
     """
 

@@ -28,11 +28,17 @@ from vicode.traces.statistics import read_history, sum_states
 SECONDS, TAKEN = "seconds.", "taken."
 """Prefixes of the time in a state, and of how often a transition was taken."""
 
+MAX_RUNS = 100_000
+
+ORIGIN_KEY = "vicode-sweep"
+"""The first key of a file of runs."""
+
 Row = Mapping[str, Any]
 """A finished run: its `values`, `seed`, `error` ("" if there was none), and the figures that are known."""
 
-_RANGE = re.compile(r"\s*(-?\d*\.?\d+)\.\.(-?\d*\.?\d+):([2-9]|\d\d+)\s*")
+_RANGE = re.compile(r"\s*(-?\d*\.?\d+)\.\.(-?\d*\.?\d+):([2-9]|[1-9]\d+)\s*")
 _NUMBERS = (bool, int, float)
+_REMEDY = "move it, or choose another --out"
 _ERROR, _REPEATED = "error: ", " (reported once; repetitions are only counted)"
 
 
@@ -66,12 +72,16 @@ def parse_values(text: str, project: Project) -> tuple[ChangedValue, ...]:
     """Read `NAME=FIRST..LAST:COUNT`, which are values at equal distances, or `NAME=VALUE,VALUE`.
 
     Raises:
-        ChangedValueError: There is no such parameter or constant, or a value does not suit it.
+        ChangedValueError: There is no such parameter or constant, a value does not suit it, or there are more than
+            MAX_RUNS values.
     """
     name, _equals, values = text.partition("=")
     texts = values.split(",")
     if found := _RANGE.fullmatch(values):
-        first, last, count = Decimal(found[1]), Decimal(found[2]), int(found[3])
+        first, last = Decimal(found[1]), Decimal(found[2])
+        if Decimal(found[3]) > MAX_RUNS:
+            raise ChangedValueError(f"{found[3]} values are too many: a sweep has at most {MAX_RUNS} runs")
+        count = int(found[3])
         steps = (first + (last - first) * number / (count - 1) for number in range(count))
         texts = [f"{Context(prec=6).plus(each).normalize():f}" for each in steps]
     elif ".." in values:
@@ -98,6 +108,18 @@ def _shorten(value: Any) -> Any:
     return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
+def check_folder(runs: Path, results: Sequence[Path]) -> None:
+    """Check that results may be written: they are those of a sweep if their folder has a file of runs.
+
+    Raises:
+        OtherRunsError: There are no runs, but a file with the name of a result.
+    """
+    if runs.exists() and runs.stat().st_size:
+        return
+    if foreign := next((file for file in results if file.exists()), None):
+        raise OtherRunsError(f"{foreign} is not replaced, as there is no {runs.name} of a sweep beside it; {_REMEDY}")
+
+
 @contextmanager
 def open_runs(path: Path, origin: Row, *, is_new: bool) -> Iterator[tuple[list[Row], Callable[[Row], object]]]:
     """Open a file of finished runs: yield those that it has, and a function that appends one.
@@ -110,7 +132,7 @@ def open_runs(path: Path, origin: Row, *, is_new: bool) -> Iterator[tuple[list[R
         is_new: Whether to remove the runs that it has.
 
     Raises:
-        OtherRunsError: The file has runs of another origin, or other contents.
+        OtherRunsError: The file has runs of another origin, or other contents; these are not removed.
         OSError: The file cannot be read or written.
     """
     with path.open("a+b", buffering=0) as stream:
@@ -119,7 +141,11 @@ def open_runs(path: Path, origin: Row, *, is_new: bool) -> Iterator[tuple[list[R
             stream.write(json.dumps(row).encode() + b"\n")
 
         stream.seek(0)
-        whole = b"" if is_new else stream.read().rpartition(b"\n")[0]
+        content, start = stream.read(), f'{{"{ORIGIN_KEY}": '.encode()
+        # The first line may have been cut off.
+        if not start.startswith(content[: len(start)]):
+            raise OtherRunsError(f"{path} is not replaced, as 'vicode sweep' did not write it; {_REMEDY}")
+        whole = b"" if is_new else content.rpartition(b"\n")[0]
         try:
             known, *rows = [json.loads(line) for line in whole.splitlines()] or [origin]
         except ValueError:

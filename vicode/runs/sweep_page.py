@@ -64,7 +64,10 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FigureComparison:
-    """A figure with each combination of values that has runs; `best` is one of them if the figure has a goal."""
+    """A figure with each combination of values that has runs; `best` is one of them if the figure has a goal.
+
+    None is the best if no median is finite.
+    """
 
     figure: str
     outcomes: tuple[Outcome, ...]
@@ -79,9 +82,13 @@ class FigureComparison:
     def describe_best(self) -> str:
         """Say which value is the best, and how sure that is."""
         if self.best is None:
-            return f"No run without an error has {self.figure}."
+            if any(each.finite for each in self.outcomes):
+                return f"No value is the best: with each, at least half of the runs lack {self.figure}."
+            return f"No run has this figure: {self.figure}. Runs with errors are left out."
         if self.best.combination.is_baseline:
-            return f"Best {self.figure}: {self.best}. These are the values of the files."
+            is_one = len(self.best.combination.values) == 1
+            origin = "This is the value in the files." if is_one else "These are the values in the files."
+            return f"Best {self.figure}: {self.best}. {origin}"
         baseline = next((str(each) for each in self.outcomes if each.combination.is_baseline), "no runs")
         counts = f"Higher in {self.best.higher} and lower in {self.best.lower} of {len(self.best.numbers)} seeds"
         verdict = "significant" if self.best.p < SIGNIFICANT else "may be chance"
@@ -124,7 +131,8 @@ def compare(results: Sequence[Result], figure: str, goal: int = 0) -> FigureComp
     rated = sorted(
         outcomes, key=lambda each: (-goal * each.quartiles[1], -goal * each.mean, not each.combination.is_baseline)
     )
-    return FigureComparison(figure=figure, outcomes=tuple(outcomes), best=rated[0] if goal and rated else None)
+    best = rated[0] if goal and rated and isfinite(rated[0].quartiles[1]) else None
+    return FigureComparison(figure=figure, outcomes=tuple(outcomes), best=best)
 
 
 def sign_test(higher: int, lower: int) -> float:
