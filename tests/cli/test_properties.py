@@ -77,6 +77,16 @@ def test_the_same_lines_before_during_and_after_a_run(
     assert line.endswith(time)
 
 
+def test_conditions_are_watched_without_a_trace(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("project.yaml").write_text(PROJECT, encoding="utf-8")
+    Path("player.yaml").write_text(f"{DESIGN}  - {{holds: tries < 1}}\n", encoding="utf-8")
+    assert main(["run", "player.yaml", *INPUTS, "--plain"]) == 1
+    assert "1.00 s  Player: broken: tries < 1 always holds\n" in capfd.readouterr().out
+
+
 def test_assumptions_are_watched(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:

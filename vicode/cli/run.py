@@ -138,6 +138,8 @@ def _duplicate_stdout() -> Iterator[int]:
 
 
 def _command(opened: LoadedProject, names: tuple[str, str], folder: Path, args: argparse.Namespace) -> list[str]:
+    from vicode.runs.property_watch import reads_values
+
     component, class_path = names
     # -P: files in the current folder must not shadow modules.
     command = [sys.executable, "-P", "-m", "vicode.bica", class_path, "--stream", "--path", str(folder / "python")]
@@ -164,7 +166,7 @@ def _command(opened: LoadedProject, names: tuple[str, str], folder: Path, args: 
     command += ["--on-error", args.on_error]
     command += _origin(opened, component) if args.trace is not None else []
     flags = {
-        "--values": args.values,
+        "--values": args.values or (args.trace is None and reads_values(opened.open_project.project)),
         "--real-time": args.real_time,
         "--until-done": args.until_done,
         "--control": args.control,

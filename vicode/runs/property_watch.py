@@ -1,6 +1,7 @@
 """Watches the properties of designs during a run in the foreground."""
 
 from vicode.findings import escape_text
+from vicode.model.design import InvariantProperty
 from vicode.model.project import Project
 from vicode.runs.foreground import TracePrinter
 from vicode.runs.property_check import PropertyCheck
@@ -44,3 +45,11 @@ def watch_properties(project: Project, printer: TracePrinter) -> PropertyWatch |
     """Watch the properties of a project; None if it has none, and assumes nothing."""
     has_any = any(design.properties for design in project.designs) or any(each.assume for each in project.components)
     return PropertyWatch(project, printer) if has_any else None
+
+
+def reads_values(project: Project) -> bool:
+    """Whether conditions of properties, or assumptions, can only be watched with the values of each iteration."""
+    has_conditions = any(
+        isinstance(each, InvariantProperty) for design in project.designs for each in design.properties
+    )
+    return has_conditions or any(each.assume for each in project.components)
