@@ -123,7 +123,7 @@ def _report_waiting(waiting: Waiting, text: _TeamText, team: TeamAnalysis, path:
         rule=get_rule("D436"),
         message=f"a robot can wait forever in {source} for {place}, which {cooperation.number} {limit}: "
         + text.configuration(waiting.robots),
-        fix=f"add a transition out of {source}, or let the other robots {others}",
+        fix=f"before this transition, add one that leaves {source}, or let the other robots {others}",
         subject=FindingSubject(component=waiting.place[0], path=path),
         notes=(Note(message=f"a run of {team.size} robots: {run}"),) if run else (),
     )

@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--deep",
         action="store_true",
-        help="also search for states that alternate, designs that no agent activates, and robots that wait forever",
+        help="also check properties, and search for states that alternate, inactive designs, and robots that wait",
     )
     parser.add_argument("--strict", action="store_true", help="exit with code 1 on warnings, too")
 
