@@ -114,7 +114,7 @@ def test_a_state_with_capacity_is_never_left(tmp_path: Path) -> None:
     assert found.message == (
         "a robot can wait forever in 'Wait' for 'Door', which 1 can be in: robot 1 in 'Door', robot 2 in 'Wait'"
     )
-    assert found.fix == "add a transition out of 'Wait', or let the other robots leave it"
+    assert found.fix == "before this transition, add one that leaves 'Wait', or let the other robots leave it"
 
 
 def test_a_robot_that_is_done_does_not_wait(tmp_path: Path) -> None:
