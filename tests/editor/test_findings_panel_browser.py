@@ -93,13 +93,13 @@ def test_a_deep_check_finds_a_run_that_can_be_played(editor: str, page: Page, pr
     expect(findings(page).get_by_role("switch", name="Deep check")).to_be_visible()
     expect(broken).to_have_count(0)
     findings(page).get_by_role("switch", name="Deep check").click()
-    expect(broken).to_contain_text("'after Lit, Dark within 1' does not hold", timeout=30_000)
+    expect(broken).to_contain_text("'after Lit, Dark is reached within 1' does not hold", timeout=30_000)
 
     broken.get_by_role("button", name="Play:").click()
     expect(page.get_by_label("Simulate with")).to_have_value("View a trace")
-    # The run ends when the lamp is dark, too late.
+    # The run ends a second after the lamp was lit.
     expect(page.get_by_text("End of the recording")).to_be_visible()
-    expect(page.get_by_text(re.compile(r"iteration \d+ · Dark"))).to_be_visible()
+    expect(page.get_by_text(re.compile(r"iteration \d+ · Lit"))).to_be_visible()
 
     # Each edit is checked again: the lamp goes out in time.
     page.get_by_role("tab", name="Findings").click()

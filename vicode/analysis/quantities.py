@@ -260,7 +260,7 @@ def _build_table(project: Project, design: Design) -> QuantityTable:
         ns_per_unit=1e6 if design.time_unit == "ms" else 1e9,
         is_xabsl=design.arithmetic == "xabsl",
         assumptions=tuple(_find_assumptions(project, design)),
-        designs=frozenset(each.component for each in project.designs),
+        designs=frozenset(use.component for use in design.uses if project.design(use.component) is not None),
     )
 
 

@@ -66,6 +66,7 @@ class ComponentGraphs:
     steps: ComponentGraph
     together: tuple[tuple[str, frozenset[str]], ...]
     _stepped_with: dict[str, frozenset[str]] = field(default_factory=dict)
+    _callers: dict[str, list[tuple[str, frozenset[str]]]] = field(default_factory=dict)
 
     def transitive_steps(self, component: str) -> set[str]:
         """Return all components that stepping a component may step, without the component itself."""
@@ -79,12 +80,19 @@ class ComponentGraphs:
             # Names may be empty, as that of the caller of agents.
             self._stepped_with[component] = frozenset()
             found = []
-            for caller, stepped in self.together:
-                if component in stepped:
-                    others = stepped - {component}
-                    found.append(others.union(self.stepped_with(caller), *map(self.transitive_steps, others)))
+            for caller, stepped in self._find_callers().get(component, ()):
+                others = stepped - {component}
+                found.append(others.union(self.stepped_with(caller), *map(self.transitive_steps, others)))
             self._stepped_with[component] = frozenset.intersection(*found) if found else frozenset()
         return self._stepped_with[component]
+
+    def _find_callers(self) -> dict[str, list[tuple[str, frozenset[str]]]]:
+        """The entries of `together` by what they step."""
+        if not self._callers:
+            for caller, stepped in self.together:
+                for component in stepped:
+                    self._callers.setdefault(component, []).append((caller, stepped))
+        return self._callers
 
     def is_in_cycle(self, component: str) -> bool:
         """Whether stepping a component may step it again, which is reported as a cycle."""
