@@ -175,7 +175,7 @@ class _Induction:
             return None
         parsed = parse_expression(text, scope, symbol.type)
         if parsed.tree is None or parsed.diagnostics:
-            # Any value: what a function returns that nobody knows.
+            # It may be any value, as the result of an unknown function is.
             return OutputRef(alias="", output=name, arguments=(), type=symbol.type, span=_NO_SPAN)
         return parsed.tree
 

@@ -56,7 +56,7 @@ class Judgement:
         promised: The property.
         verdict: What is known.
         at_most_ns: The longest time until a state is reached, if it is guaranteed.
-        lasso: States that can be active in this order without reaching a state; the last one is active for ever, or
+        lasso: States that can be active in this order without reaching a state; the last one is active forever, or
             the states from its earlier occurrence on repeat.
         steps: The run that breaks the property.
         basis: What a proof rests on.
@@ -186,7 +186,7 @@ class PropertyAnalysis:
         return self._settled_states[name]
 
     def _longest_in(self, state: str) -> float:
-        """The longest time in a state in ns, as whole periods; infinite if it may be active for ever."""
+        """The longest time in a state in ns, as whole periods; infinite if it may be active forever."""
         time = self._machine.time_in(state)
         if time is None or time.at_most_ns is None:
             return math.inf
@@ -209,7 +209,7 @@ class PropertyAnalysis:
     def _find_lasso(
         self, begin: str, goal: str, passed: Collection[str], ways: dict[str, list[LiveTransition]]
     ) -> tuple[str, ...]:
-        """States that may be active for ever without the goal: one that may be held, or a cycle."""
+        """States that may be active forever without the goal: one that may be held, or a cycle."""
         for name in passed:
             if math.isinf(self._longest_in(name)):
                 return (begin, *(edge.target for edge in ways[name]))
