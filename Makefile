@@ -32,6 +32,8 @@ lint: $(VENV)/.ready-dev  ## format, lint, types, import contracts
 	$(BIN)/ruff format --check
 	$(BIN)/ruff check
 	$(BIN)/mypy
+	$(BIN)/mypy --platform win32 --cache-dir .mypy_cache/win32 vicode
+	$(BIN)/mypy --platform darwin --cache-dir .mypy_cache/darwin vicode
 	$(BIN)/lint-imports
 
 check: lint gpp neovim  ## lint, and the fast tests (about six minutes)

@@ -1,24 +1,24 @@
 """Output files: compares them with a folder and writes them atomically."""
 
 import errno
-import fcntl
 import os
 import re
 import shutil
 import stat
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, nullcontext, suppress
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from difflib import unified_diff
 from enum import StrEnum
 from hashlib import sha256
 from pathlib import Path
 
-CACHE_VARIABLE = "VICODE_CACHE"
+from vicode.platform import cache_folder, is_running
+
 _TEMPORARY = re.compile(r"\..+\.[0-9a-f]{8}\.tmp")
-_TEMPORARY_FOLDER = re.compile(r"vicode-[a-z]+-\w+\.tmp")
+_TEMPORARY_FOLDER = re.compile(r"vicode-[a-z]+-(?P<process>\d{1,10})-\w+\.tmp")
 _MIN_AGE_S = 60.0
 
 
@@ -31,12 +31,10 @@ class OutputFile:
     component: str = ""
 
 
-def cache_path(out: Path, kind: str, environment: Mapping[str, str] = os.environ) -> Path:
+def cache_path(out: Path, kind: str) -> Path:
     """The path of a JSON file about an output folder; it is outside that folder, because readers do not need it."""
-    given, home = environment.get(CACHE_VARIABLE), environment.get("XDG_CACHE_HOME")
-    folder = Path(given) if given else (Path(home) if home else Path.home() / ".cache") / "vicode"
     name = sha256(str(out.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
-    return folder / kind / f"{name}.json"
+    return cache_folder() / kind / f"{name}.json"
 
 
 class FileStatus(StrEnum):
@@ -165,10 +163,10 @@ def write_atomically(
         raise OSError(errno.ELOOP, "it is a link to a file that does not exist; delete it", str(path))
     temporary = target.with_name(f".{target.name}.{os.urandom(4).hex()}.tmp")
     try:
-        with _write_new(temporary, content.encode("utf-8") if isinstance(content, str) else content, is_durable):
-            if target.exists():
-                temporary.chmod(target.stat().st_mode & 0o777)
-            replace(temporary, target)
+        _write_new(temporary, content.encode("utf-8") if isinstance(content, str) else content, is_durable)
+        if target.exists():
+            temporary.chmod(target.stat().st_mode & 0o777)
+        replace(temporary, target)
         if is_durable:
             remove_leftovers(target.parent)
     except OSError as error:
@@ -181,63 +179,52 @@ def write_atomically(
         raise
 
 
-@contextmanager
-def _write_new(file: Path, content: bytes, is_durable: bool) -> Iterator[None]:
-    """Write a file; while it is open, its lock keeps `remove_leftovers` from removing it."""
-    descriptor = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
-    with os.fdopen(descriptor, "wb") as stream:
-        with suppress(OSError):
-            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+def _write_new(file: Path, content: bytes, is_durable: bool) -> None:
+    with file.open("xb") as stream:
         stream.write(content)
         stream.flush()
         if is_durable:
             os.fsync(stream.fileno())
-        yield
 
 
 def remove_leftovers(folder: Path) -> None:
-    """Remove the temporary files in a folder that killed programs left."""
+    """Remove the temporary files in a folder that killed programs left more than a minute ago."""
     with suppress(OSError), os.scandir(folder) as entries:
         for entry in entries:
-            if entry.name.endswith(".tmp") and _TEMPORARY.fullmatch(entry.name) and entry.is_file():
-                with suppress(OSError), _locked(entry.path):
-                    Path(entry).unlink()
+            if entry.name.endswith(".tmp") and _TEMPORARY.fullmatch(entry.name):
+                with suppress(OSError):
+                    _remove_if_old(entry)
+
+
+def _remove_if_old(entry: "os.DirEntry[str]") -> None:
+    if entry.is_file(follow_symlinks=False) and _is_old(entry.stat()):
+        Path(entry).unlink()
+
+
+def _is_old(status: os.stat_result) -> bool:
+    return time.time() - status.st_mtime > _MIN_AGE_S
 
 
 @contextmanager
 def temporary_folder(kind: str) -> Iterator[Path]:
     """Make a folder for the time of the context; if the program is killed, a later one removes it."""
-    _remove_abandoned(Path(tempfile.gettempdir()))
-    with tempfile.TemporaryDirectory(prefix=f"vicode-{kind}-", suffix=".tmp") as name, _locked(name, is_required=False):
+    with tempfile.TemporaryDirectory(prefix=f"vicode-{kind}-{os.getpid()}-", suffix=".tmp") as name:
+        _remove_abandoned(Path(name))
         yield Path(name)
 
 
-def _remove_abandoned(place: Path) -> None:
-    with suppress(OSError), os.scandir(place) as entries:
+def _remove_abandoned(own: Path) -> None:
+    """Remove the folders of this user beside `own` whose programs have ended."""
+    user = own.stat().st_uid
+    with suppress(OSError), os.scandir(own.parent) as entries:
         for entry in entries:
-            if not _TEMPORARY_FOLDER.fullmatch(entry.name) or not entry.is_dir(follow_symlinks=False):
+            found = _TEMPORARY_FOLDER.fullmatch(entry.name)
+            if found is None or not entry.is_dir(follow_symlinks=False):
                 continue
             status = entry.stat(follow_symlinks=False)
-            # One that was just made may not be locked yet.
-            if status.st_uid == os.geteuid() and time.time() - status.st_mtime > _MIN_AGE_S:
-                with suppress(OSError), _locked(entry.path):
+            if status.st_uid == user and _is_old(status) and not is_running(int(found["process"])):
+                with suppress(OSError):
                     shutil.rmtree(entry.path)
-
-
-@contextmanager
-def _locked(path: str, *, is_required: bool = True) -> Iterator[None]:
-    """Lock a file or folder.
-
-    Raises:
-        OSError: It is locked, or the file system has no locks; only if the lock is required.
-    """
-    descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
-    try:
-        with nullcontext() if is_required else suppress(OSError):
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        yield
-    finally:
-        os.close(descriptor)
 
 
 def _compare_one(path: str, new: str, old: str | None) -> FileDiff:

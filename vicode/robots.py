@@ -210,7 +210,13 @@ def _robot(plain: Mapping[str, Any]) -> RobotDescription:
 
 async def _open(address: RobotAddress) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
     if address.path:
-        return await asyncio.open_unix_connection(address.path, limit=_MAX_LINE_BYTES)
+        open_unix: Any = getattr(asyncio, "open_unix_connection", None)
+        if open_unix is None:
+            raise AttachError("this system has no Unix sockets; write PORT or HOST:PORT", is_final=True)
+        streams: tuple[asyncio.StreamReader, asyncio.StreamWriter] = await open_unix(
+            address.path, limit=_MAX_LINE_BYTES
+        )
+        return streams
     return await asyncio.open_connection(address.host, address.port, limit=_MAX_LINE_BYTES)
 
 

@@ -7,7 +7,6 @@ crash.
 
 import contextlib
 import errno
-import fcntl
 import json
 import os
 import shutil
@@ -17,6 +16,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from vicode.output import resolve_below, write_atomically
+from vicode.platform import take_lock
 
 STATE_FOLDER = ".vicode"
 """Folder of vicode's own files in a root folder; git ignores it."""
@@ -87,14 +87,15 @@ def _lock(root: Path) -> Iterator[Path]:
     if not state.is_dir():
         state.mkdir(parents=True)
         write_atomically(state / ".gitignore", "*\n", is_durable=False)
-    descriptor = os.open(state, os.O_RDONLY)
+    lock = None
+    # Some network file systems have no locks.
+    with contextlib.suppress(OSError):
+        lock = take_lock(state / "lock", timeout_s=-1)
     try:
-        # Some network file systems have no locks.
-        with contextlib.suppress(OSError):
-            fcntl.flock(descriptor, fcntl.LOCK_EX)
         yield state
     finally:
-        os.close(descriptor)
+        if lock is not None:
+            lock.release()
 
 
 def _write_pending(

@@ -26,7 +26,7 @@ def test_files_are_written_and_deleted(tmp_path: Path) -> None:
     assert read(tmp_path) == {"a/new.py": "1"}
     replace_files(tmp_path, {"a/new.py": "2"})
     assert read(tmp_path) == {"a/new.py": "2"}
-    assert [path.name for path in (tmp_path / ".vicode").iterdir()] == [".gitignore"]
+    assert sorted(path.name for path in (tmp_path / ".vicode").iterdir()) == [".gitignore", "lock"]
 
 
 def test_a_file_keeps_its_mode_and_its_link(tmp_path: Path) -> None:

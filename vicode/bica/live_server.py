@@ -370,6 +370,8 @@ def _listen(address: str) -> tuple[socket.socket, str]:
     """Open the listening socket; return it with its address as viewers write it."""
     if address.startswith(_UNIX):
         path = Path(address.removeprefix(_UNIX))
+        if not hasattr(socket, "AF_UNIX"):
+            raise OSError("this system has no Unix sockets; write PORT or HOST:PORT")
         listener = socket.socket(socket.AF_UNIX)
         if path.is_socket():
             # A program that was killed left it; a running one would answer.

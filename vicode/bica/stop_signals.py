@@ -14,7 +14,7 @@ _MESSAGE = b"stopping after this iteration; press Ctrl-C again to stop immediate
 
 
 class StopSignals:
-    """Handles Ctrl-C, SIGTERM and, unless `nohup` ignores it, SIGHUP.
+    """Handles Ctrl-C, SIGTERM, SIGBREAK of Windows and, unless `nohup` ignores it, SIGHUP.
 
     All raise `KeyboardInterrupt`, except the first one if `is_deferred` is set: the caller asks `was_received`.
     """
@@ -23,7 +23,7 @@ class StopSignals:
         self.received: int | None = None
         self.is_deferred = False
         self._is_silent = is_silent
-        for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+        for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK"):
             number = getattr(signal, name, None)
             if number is not None and (name != "SIGHUP" or signal.getsignal(number) != signal.SIG_IGN):
                 signal.signal(number, self._handle_signal)

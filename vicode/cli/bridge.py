@@ -14,6 +14,7 @@ from vicode.bica import options
 from vicode.cli.bridge_behaviors import LoadedBehaviors, load_behaviors, load_world
 from vicode.cli.ports import port_number
 from vicode.output import temporary_folder
+from vicode.platform import end_signals
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -137,9 +138,9 @@ async def _wait_for_signal(server: "BridgeServer", view: "BridgeView") -> int:
         received.append(number)
         ended.set()
 
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
-            loop.add_signal_handler(number, end, number)
+    for signal_number in end_signals():
+        # Windows has no `loop.add_signal_handler`.
+        signal.signal(signal_number, lambda number, _frame: loop.call_soon_threadsafe(end, number))
     ticker = server.ticker
     assert ticker is not None
     ticker.add_done_callback(lambda _task: ended.set())

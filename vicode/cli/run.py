@@ -119,6 +119,9 @@ def run(args: argparse.Namespace) -> int:
             from vicode.cli.run_reload import start_watching
 
             start_watching(args, folder)
+        if args.trace == "-" and not Path("/dev/fd").exists():
+            print("vicode: this system has no /dev/fd for '--trace -'; write the trace to a file", file=sys.stderr)
+            return 2
         if args.trace != "-":
             return _run_process(opened, _command(opened, (component, class_path), folder, args), is_plain=args.plain)
         with _duplicate_stdout() as descriptor, contextlib.redirect_stdout(sys.stderr):
@@ -186,6 +189,7 @@ def _origin(opened: LoadedProject, component: str) -> list[str]:
 
 
 def _run_process(opened: LoadedProject, command: list[str], *, is_plain: bool, kept: tuple[int, ...] = ()) -> int:
+    from vicode.platform import session_options
     from vicode.runs.foreground import follow_process
     from vicode.runs.property_watch import watch_properties
     from vicode.simulation.environment import fresh_environment
@@ -202,7 +206,7 @@ def _run_process(opened: LoadedProject, command: list[str], *, is_plain: bool, k
         encoding="utf-8",
         errors="replace",
         env=fresh_environment(),
-        start_new_session=True,
+        **session_options(),
         pass_fds=kept,
     )
     printer: TracePrinter = PlainTracePrinter()

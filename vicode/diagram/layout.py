@@ -3,7 +3,6 @@
 import contextlib
 import json
 import os
-import signal
 import subprocess
 import sys
 import threading
@@ -18,6 +17,7 @@ from vicode.diagram.layered_layout import NodeLayout
 from vicode.diagram.layout_fit import fit_layout, layered_positions, screens_needed
 from vicode.diagram.layout_graph import LayoutGraph, build_layout_graph
 from vicode.model.design import Design, Point
+from vicode.platform import kill_session, session_options
 
 WorkerCommand = tuple[str, ...]
 WORKER_COMMAND: WorkerCommand = (sys.executable, "-P", "-m", "vicode.diagram.worker")
@@ -148,16 +148,13 @@ def _start_worker(command: WorkerCommand) -> subprocess.Popen[str]:
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, folders))},
         encoding="utf-8",
         # A separate process group, so that a `dot` it started ends with it, and Ctrl-C reaches only the editor.
-        start_new_session=True,
+        **session_options(),
     )
 
 
 def _kill(process: subprocess.Popen[str]) -> None:
     if process.poll() is None:
-        if hasattr(os, "killpg"):
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)
-        process.kill()
+        kill_session(process.pid)
     process.wait()
 
 

@@ -117,8 +117,9 @@ def _limit_run_time(seconds: float) -> None:
     """Let the operating system end this process after a time, even inside Graphviz or if the editor was killed; 0:
     never.
     """
+    signals: Any = signal
     if hasattr(signal, "setitimer"):
-        signal.setitimer(signal.ITIMER_REAL, seconds)
+        signals.setitimer(signals.ITIMER_REAL, seconds)
 
 
 @contextlib.contextmanager

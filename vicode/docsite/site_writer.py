@@ -1,7 +1,6 @@
 """Writes a site into a folder: renders and writes only outdated files."""
 
 import json
-import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
@@ -90,14 +89,14 @@ def write_site(
     return SiteWriteResult(manifest=Manifest(tool=tool_digest(), files=files), changed=tuple(touched))
 
 
-def manifest_path(out: Path, environment: Mapping[str, str] = os.environ) -> Path:
+def manifest_path(out: Path) -> Path:
     """The path of the manifest of a folder."""
-    return cache_path(out, "docs", environment)
+    return cache_path(out, "docs")
 
 
-def results_path(out: Path, environment: Mapping[str, str] = os.environ) -> Path:
+def results_path(out: Path) -> Path:
     """The path of the kept results of a folder."""
-    return cache_path(out, "docs-results", environment)
+    return cache_path(out, "docs-results")
 
 
 def load_manifest(file: Path) -> Manifest:

@@ -1,10 +1,11 @@
 """Limits on unfinished requests, so that clients that never finish one do not lock others out."""
 
 import asyncio
-import resource
 from typing import Any
 
 from uvicorn.protocols.http.auto import AutoHTTPProtocol
+
+from vicode.platform import limit_resource
 
 REQUEST_TIMEOUT_S = 10.0
 MAX_UNFINISHED = 256
@@ -55,5 +56,4 @@ class LimitedHttpProtocol(AutoHTTPProtocol):  # type: ignore[misc, valid-type]
 
 def raise_file_limit() -> None:
     """Allow as many open connections as the system permits."""
-    _soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
-    resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
+    limit_resource("RLIMIT_NOFILE")

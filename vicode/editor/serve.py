@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from vicode.platform import end_signals, user_id
+
 if TYPE_CHECKING:
     from nicegui import App
 
@@ -111,7 +113,7 @@ def serve(
 
 def _set_storage_folder() -> None:
     """By default, NiceGUI creates its folder in the working directory, which is the user's project."""
-    os.environ.setdefault(STORAGE_VARIABLE, str(Path(tempfile.gettempdir()) / f"vicode-{os.getuid()}"))
+    os.environ.setdefault(STORAGE_VARIABLE, str(Path(tempfile.gettempdir()) / f"vicode{user_id()}"))
 
 
 def _open_library(
@@ -152,9 +154,9 @@ def _prepare_process() -> None:
 
 
 def _end_on_hangup() -> None:
-    """End as for SIGTERM, which saves, when the terminal is closed; not if SIGHUP is ignored, as by nohup."""
-    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
-        signal.signal(signal.SIGHUP, lambda _number, _frame: os.kill(os.getpid(), signal.SIGTERM))
+    """End as for SIGTERM, which saves, when the terminal is closed; not if that is ignored, as by nohup."""
+    for number in set(end_signals()) - {signal.SIGINT, signal.SIGTERM}:
+        signal.signal(number, lambda _number, _frame: signal.raise_signal(signal.SIGTERM))
 
 
 def _configure_app(app: "App", address: ServerAddress) -> None:

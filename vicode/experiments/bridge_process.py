@@ -1,7 +1,6 @@
 """A bridge in a separate process, for the time of an experiment."""
 
 import re
-import resource
 import subprocess
 import sys
 import tempfile
@@ -10,6 +9,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+import psutil
+
+from vicode.platform import session_options
 from vicode.simulation.environment import fresh_environment
 
 _ADDRESS = re.compile(r"127\.0\.0\.1:(\d+)")
@@ -38,7 +40,6 @@ def running_bridge(arguments: Sequence[str]) -> Iterator[BridgeUse]:
         BridgeStartError: It ended before it listened.
     """
     command = [sys.executable, "-P", "-m", "vicode", "bridge", *arguments, "--port", "0"]
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     with tempfile.TemporaryFile() as errors:
         # In a separate session, the bridge does not receive Ctrl-C from the terminal; it ends with the block.
         process = subprocess.Popen(
@@ -47,20 +48,20 @@ def running_bridge(arguments: Sequence[str]) -> Iterator[BridgeUse]:
             stderr=errors,
             stdin=subprocess.DEVNULL,
             env=fresh_environment(),
-            start_new_session=True,
+            **session_options(),
         )
         try:
             use = BridgeUse(_read_port(process))
             yield use
             use.memory_mb = _read_peak_memory(process.pid)
+            times = psutil.Process(process.pid).cpu_times()
+            use.cpu_s = times.user + times.system
         except BridgeStartError as error:
             process.wait(_END_TIMEOUT_S)
             errors.seek(0)
             raise BridgeStartError(f"{error}\n{errors.read().decode(errors='replace')}".strip()) from None
         finally:
             _end(process)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    use.cpu_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def _read_port(process: subprocess.Popen[bytes]) -> int:

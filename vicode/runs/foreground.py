@@ -2,7 +2,6 @@
 
 import contextlib
 import json
-import os
 import signal
 import subprocess
 import threading
@@ -12,6 +11,7 @@ from types import FrameType
 from typing import IO, Protocol
 
 from vicode.bica.run import EXIT_OUTPUT_LOST
+from vicode.platform import end_signals, kill_session, send_end_signal
 from vicode.traces.descriptions import StateChangeTracker, TraceRecord
 
 _SHUTDOWN_TIMEOUT_S = 5.0
@@ -121,7 +121,7 @@ class _SignalForwarder:
         if threading.current_thread() is not threading.main_thread():
             yield
             return
-        before = {number: signal.signal(number, self._on_signal) for number in _forwarded_signals()}
+        before = {number: signal.signal(number, self._on_signal) for number in end_signals()}
         try:
             yield
         finally:
@@ -138,14 +138,14 @@ class _SignalForwarder:
             self._repeat(number)
         else:
             self.received = number
-            self._child.send_signal(number)
+            send_end_signal(self._child, number)
             # The interrupted code may hold the lock of the output stream, so write from another thread.
             self._waiter = threading.Thread(target=self._wait_for_end, args=(number,), daemon=True)
             self._waiter.start()
 
     def _repeat(self, number: int) -> None:
         self._is_repeated = True
-        self._child.send_signal(number)
+        send_end_signal(self._child, number)
 
     def _wait_for_end(self, number: int) -> None:
         self._printer.show_notice("stopping after this iteration; press Ctrl-C again to stop immediately")
@@ -156,16 +156,10 @@ class _SignalForwarder:
             kill_group(self._child)
 
 
-def _forwarded_signals() -> list[int]:
-    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
-    return [number for number in numbers if number == signal.SIGINT or signal.getsignal(number) != signal.SIG_IGN]
-
-
 def kill_group(child: "subprocess.Popen[str]") -> None:
     """Kill a program and its children, which could keep its output open."""
     if child.returncode is None:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(child.pid, signal.SIGKILL)
+        kill_session(child.pid)
 
 
 def _terminate(child: "subprocess.Popen[str]") -> None:

@@ -12,10 +12,11 @@ from pathlib import Path
 
 from vicode.bica.errors import find_region
 from vicode.output import apply_diffs, compare_files
+from vicode.platform import kill_session, session_options
 from vicode.runs.client import RunClient
 from vicode.runs.setup import PreparedRun
 from vicode.simulation.environment import fresh_environment
-from vicode.simulation.isolation import isolation_problem, launch_command, make_temporary
+from vicode.simulation.isolation import has_launcher, isolation_problem, launch_command, make_temporary
 from vicode.simulation.messages import MAX_MESSAGE_BYTES
 
 _MAX_STDERR = 64_000
@@ -66,17 +67,19 @@ class ProcessTransport:
         self._is_closed = True
         if self.process.stdin is not None:
             self.process.stdin.close()
-        # The launcher kills all descendants, also those in other process groups.
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.kill(self.process.pid, signal.SIGTERM)
+        if has_launcher():
+            # It kills all descendants, also those in other process groups.
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.kill(self.process.pid, signal.SIGTERM)
+        else:
+            kill_session(self.process.pid)
         shutil.rmtree(self.folder, ignore_errors=True)
 
     async def wait_closed(self) -> None:
         """Wait until a killed process is cleaned up."""
         with contextlib.suppress(TimeoutError):
             await asyncio.wait_for(asyncio.gather(self.process.wait(), self._listening, self._drain()), 10)
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(self.process.pid, signal.SIGKILL)
+        kill_session(self.process.pid)
 
     async def _drain(self) -> None:
         assert self.process.stdout is not None
@@ -87,7 +90,7 @@ class ProcessTransport:
         """Design, region and line of the innermost user code, from the reported stack; "" if unknown."""
         for found in _FRAME.finditer(self._stderr_tail.decode(errors="replace")):
             file, line = found["file"], int(found["line"])
-            if "/vicode/" in file or file.startswith("<"):
+            if "vicode" in Path(file).parts or file.startswith("<"):
                 continue
             region, before = find_region(file, line)
             where = f"{region}, line {line - before}" if region else f"{found['name']}, line {line}"
@@ -150,6 +153,6 @@ async def launch_module(
         limit=2 * MAX_MESSAGE_BYTES,
         cwd=cwd,
         env=fresh_environment(PYTHONDONTWRITEBYTECODE="1", PYTHONHASHSEED="0", **environment),
-        start_new_session=True,
+        **session_options(),
     )
     return ProcessTransport(process, whole)

@@ -5,6 +5,7 @@ processes would start two for each run.
 """
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -19,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from vicode.model.project import Project
+from vicode.platform import session_options
 from vicode.runs.changed_values import ChangedValue, ChangedValueError, parse_changed_value
 from vicode.runs.foreground import kill_group
 from vicode.simulation import IterationResult
@@ -204,7 +206,7 @@ def execute(
         errors="replace",
         # Sets of texts have the same order in each run.
         env=fresh_environment(PYTHONHASHSEED="0"),
-        start_new_session=True,
+        **session_options(),
     )
     on_start(child)
     out, err = child.communicate()
@@ -215,7 +217,7 @@ def execute(
         reported = [line.removeprefix(_ERROR).removesuffix(_REPEATED) for line in lines if line.startswith(_ERROR)]
         error = (reported or [": ".join([f"the program ended with exit code {child.returncode}", *lines[-1:]])])[0]
     for path in paths:
-        error = error.replace(f"{path}/", "")
+        error = error.replace(f"{path}{os.sep}", "")
     return {"values": run.values, "seed": run.seed, "error": error, **figures}
 
 

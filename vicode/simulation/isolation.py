@@ -1,5 +1,6 @@
 """Whether and how a simulation is isolated from the machine; see `vicode.simulation.launcher`."""
 
+import ctypes
 import functools
 import json
 import os
@@ -8,11 +9,14 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from vicode.simulation import launcher
+if TYPE_CHECKING:
+    from vicode.simulation.launcher import LaunchConfig
 
 SANDBOX_VARIABLE = "VICODE_SANDBOX"
 _PROBE_TIMEOUT_S = 20.0
+_LAUNCHER = Path(__file__).resolve().with_name("launcher.py")
 
 
 @functools.cache
@@ -20,6 +24,8 @@ def isolation_problem() -> str:
     """Why simulations are not isolated on this machine, or "" if they are; takes a tenth of a second once."""
     if os.environ.get(SANDBOX_VARIABLE) == "off":
         return f"{SANDBOX_VARIABLE} is off"
+    if not has_launcher():
+        return "this system has no sandbox for it"
     temporary = make_temporary()
     probe = launch_command([sys.executable, "-I", "-S", "-c", ""], (), temporary, is_isolated=True)
     try:
@@ -35,6 +41,12 @@ def isolation_problem() -> str:
     return "" if done.returncode == 0 else f"this system has no user namespaces for it ({reason[:100]})"
 
 
+@functools.cache
+def has_launcher() -> bool:
+    """Whether the system ends what a program has started when the program ends: Linux."""
+    return hasattr(os, "fork") and hasattr(ctypes.CDLL(None), "prctl")
+
+
 def make_temporary() -> Path:
     """Create the temporary folder of a program."""
     folder = Path(tempfile.mkdtemp(prefix="vicode-simulation-")).resolve()
@@ -44,7 +56,7 @@ def make_temporary() -> Path:
 
 
 def launch_command(command: list[str], readable: tuple[str, ...], temporary: Path, *, is_isolated: bool) -> list[str]:
-    """The command that starts another one, which ends with all its descendants.
+    """The command that starts another one, which ends with all its descendants where the system has a launcher.
 
     Args:
         command: the program with its arguments.
@@ -53,8 +65,10 @@ def launch_command(command: list[str], readable: tuple[str, ...], temporary: Pat
             the program fails.
         is_isolated: whether it runs in a sandbox.
     """
+    if not has_launcher():
+        return command
     paths = sorted({os.path.realpath(path) for path in (*readable, *_python_folders())} | {*readable})
-    config: launcher.LaunchConfig = {
+    config: LaunchConfig = {
         "command": command,
         "is_isolated": is_isolated,
         "readable": paths,
@@ -63,7 +77,7 @@ def launch_command(command: list[str], readable: tuple[str, ...], temporary: Pat
         "temporary": str(temporary),
     }
     # Without the modules of site-packages it starts in a fraction of the time.
-    return [sys.executable, "-I", "-S", str(Path(launcher.__file__).resolve()), json.dumps(config)]
+    return [sys.executable, "-I", "-S", str(_LAUNCHER), json.dumps(config)]
 
 
 def _python_folders() -> tuple[str, ...]:

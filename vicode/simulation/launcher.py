@@ -77,6 +77,9 @@ class LaunchConfig(TypedDict):
     temporary: str
 
 
+assert sys.platform == "linux"
+
+
 def main() -> int:
     """Start the program and return its exit code after all its descendants have ended."""
     config: LaunchConfig = json.loads(sys.argv[1])

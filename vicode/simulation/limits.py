@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import ctypes
 import io
-import resource
 import signal
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import NoReturn
+from typing import Any, NoReturn
+
+from vicode.platform import limit_resource
 
 MAX_LINES = 200
 MAX_LINE_LENGTH = 2_000
@@ -25,22 +28,46 @@ def time_limit(seconds: float) -> Iterator[None]:
     Raises:
         TimeLimitError: The body took longer.
     """
-    signal.signal(signal.SIGALRM, _interrupt)
+    signals: Any = signal
+    if not hasattr(signal, "setitimer"):
+        with _thread_limit(seconds):
+            yield
+        return
+    signal.signal(signals.SIGALRM, _interrupt)
     # Repeats, in case user code swallows the first interrupt.
-    signal.setitimer(signal.ITIMER_REAL, seconds, 0.1)
+    signals.setitimer(signals.ITIMER_REAL, seconds, 0.1)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
+        signals.setitimer(signals.ITIMER_REAL, 0)
+
+
+@contextmanager
+def _thread_limit(seconds: float) -> Iterator[None]:
+    """The same where there are no timers with signals; it interrupts no call of C code, such as `time.sleep`."""
+    thread, ended, guard = ctypes.c_ulong(threading.get_ident()), threading.Event(), threading.Lock()
+
+    def interrupt() -> None:
+        wait_s = seconds
+        while not ended.wait(wait_s):
+            wait_s = 0.1
+            with guard:
+                if not ended.is_set():
+                    ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, ctypes.py_object(TimeLimitError))
+
+    threading.Thread(target=interrupt, daemon=True).start()
+    try:
+        yield
+    finally:
+        with guard:
+            ended.set()
 
 
 def limit_memory(bytes_: int) -> None:
-    """Make allocations above this limit fail with `MemoryError`, and disable core dumps."""
-    _soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
-    most = bytes_ if hard == resource.RLIM_INFINITY else min(bytes_, hard)
+    """Make allocations above this limit fail with `MemoryError`, and disable core dumps; Windows has no such limit."""
     # The hard limit, too: the code must not raise it.
-    resource.setrlimit(resource.RLIMIT_DATA, (most, most))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    limit_resource("RLIMIT_DATA", bytes_)
+    limit_resource("RLIMIT_CORE", 0)
 
 
 def _interrupt(_number: int, _frame: FrameType | None) -> NoReturn:

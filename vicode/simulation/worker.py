@@ -14,7 +14,7 @@ from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from vicode.bica import Component, CyclicUseError
 from vicode.bica.errors import describe_exception, make_error_record
@@ -72,7 +72,9 @@ def _start_reader(requests: BinaryIO, folder: str) -> queue.SimpleQueue[bytes]:
 
     def read() -> None:
         # The stack shown for a timeout must be that of the thread that runs user code.
-        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGABRT})
+        signals: Any = signal
+        if hasattr(signal, "pthread_sigmask"):
+            signals.pthread_sigmask(signals.SIG_BLOCK, {signal.SIGABRT})
         for line in requests:
             lines.put(line)
         _remove_folder(folder)

@@ -2,13 +2,13 @@
 
 import contextlib
 import errno
-import fcntl
+import hashlib
 import os
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from vicode.output import write_atomically
+from vicode.platform import flush_folder, state_folder, take_lock
 
 _LOCK_TIMEOUT_S = 2.0
 
@@ -83,36 +83,23 @@ def write_text(path: Path, text: str, *, replace: Callable[[Path, Path], object]
         # The new file is written to the same folder first.
         raise PermissionError(errno.EACCES, "its folder is read-only", str(path))
     write_atomically(path, text, replace=replace)
-    folder = os.open(path.resolve().parent, os.O_RDONLY)
-    try:
-        # The rename is durable only after the folder is flushed.
-        os.fsync(folder)
-    finally:
-        os.close(folder)
+    # The rename is durable only after the folder is flushed.
+    flush_folder(path.resolve().parent)
 
 
 @contextlib.contextmanager
 def _lock_folder(folder: Path) -> Iterator[None]:
-    """Hold the lock of a folder, which needs no file in it; without a lock if the file system has none."""
-    descriptor = os.open(folder, os.O_RDONLY)
+    """Hold the user's lock of a folder, which is no file in it; without a lock where there are none."""
+    name, lock = hashlib.sha256(os.fsencode(folder)).hexdigest()[:32], None
+    with contextlib.suppress(OSError):
+        locks = state_folder() / "locks"
+        locks.mkdir(parents=True, exist_ok=True, mode=0o700)
+        lock = take_lock(locks / name, _LOCK_TIMEOUT_S)
     try:
-        deadline_s = time.monotonic() + _LOCK_TIMEOUT_S
-        while not _try_lock(descriptor) and time.monotonic() < deadline_s:
-            time.sleep(0.001)
         yield
     finally:
-        os.close(descriptor)
-
-
-def _try_lock(descriptor: int) -> bool:
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except OSError:
-        # Some network file systems have no locks.
-        return True
-    return True
+        if lock is not None:
+            lock.release()
 
 
 def is_read_only(path: Path) -> bool:

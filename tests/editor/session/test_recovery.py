@@ -9,8 +9,9 @@ import pytest
 
 from vicode.editor.session import Library, Workspace
 from vicode.editor.session.recovery.autosave import AutosaveService, format_diff
-from vicode.editor.session.recovery.recovery_store import RecoveryStore, state_folder
+from vicode.editor.session.recovery.recovery_store import RecoveryStore
 from vicode.model.design import Declaration
+from vicode.platform import state_folder
 
 
 @pytest.fixture
@@ -38,7 +39,7 @@ def journal(service: AutosaveService) -> int:
 
 def restarted(service: AutosaveService, project: Path, tmp_path: Path) -> AutosaveService:
     """The service of a new server after this one was killed."""
-    service.recovery._lock.close()
+    service.recovery._lock.release()
     return AutosaveService(Library(project), RecoveryStore(tmp_path / "state"))
 
 
@@ -213,7 +214,11 @@ def test_a_failed_autosave_is_reported_once(service: AutosaveService, project: P
     assert document.is_saved
 
 
-def test_the_environment_selects_the_state_folder(tmp_path: Path) -> None:
-    assert state_folder({"VICODE_STATE": str(tmp_path)}) == tmp_path
-    assert state_folder({"XDG_STATE_HOME": str(tmp_path)}) == tmp_path / "vicode"
-    assert state_folder({}) == Path.home() / ".local" / "state" / "vicode"
+def test_the_environment_selects_the_state_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("VICODE_STATE", str(tmp_path))
+    assert state_folder() == tmp_path
+    monkeypatch.delenv("VICODE_STATE")
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    assert state_folder() == tmp_path / "vicode"
+    monkeypatch.delenv("XDG_STATE_HOME")
+    assert state_folder() == Path.home() / ".local" / "state" / "vicode"

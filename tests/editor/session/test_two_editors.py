@@ -91,7 +91,7 @@ def test_the_mark_of_a_killed_editor_is_removed(tmp_path: Path) -> None:
     killed, other = OpenFolders(tmp_path / "open"), OpenFolders(tmp_path / "open")
     assert not killed.has_other_editor(tmp_path)
     for mark in killed._own.values():
-        mark.close()
+        mark.release()
     assert not other.has_other_editor(tmp_path)
     other.close()
 

@@ -14,6 +14,7 @@ from vicode.editor.session.document import DocumentSession
 from vicode.editor.session.workspace import Workspace
 from vicode.findings import DesignPath
 from vicode.generators import UnsoundDesignError, list_regions
+from vicode.platform import session_options
 from vicode.regions import find_regions, get_comment_prefix
 
 _VSCODE = ("-g", "{file}:{line}")
@@ -67,7 +68,7 @@ class ExternalEditor:
         values = {"{file}": str(place.file), "{line}": str(place.line)}
         command = [_filled(part, values) for part in self.arguments]
         null = subprocess.DEVNULL
-        process = subprocess.Popen(command, stdin=null, stdout=null, stderr=null, start_new_session=True)
+        process = subprocess.Popen(command, stdin=null, stdout=null, stderr=null, **session_options())
         # An ended process that no one waits for stays in the process table.
         threading.Thread(target=process.wait, daemon=True).start()
 

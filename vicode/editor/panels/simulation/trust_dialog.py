@@ -8,8 +8,8 @@ from vicode.editor.panels import texts
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.widgets import primary_button
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.recovery.recovery_store import state_folder
 from vicode.editor.session.trust import contains_code, is_trusted, trust_folder
+from vicode.platform import state_folder
 from vicode.simulation.isolation import isolation_problem
 
 

@@ -1,35 +1,26 @@
 """Journals of unsaved designs, outside the project, from which work is recovered after a server was killed."""
 
 import contextlib
-import fcntl
 import hashlib
 import json
-import os
 import secrets
 import shutil
 import tempfile
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING
 
 from vicode.editor.session.document import SharedDocument
 from vicode.model.design import Design
 from vicode.output import write_atomically
+from vicode.platform import state_folder, take_lock, user_id
 from vicode.store import save_design
 
-STATE_VARIABLE = "VICODE_STATE"
+if TYPE_CHECKING:
+    from filelock import BaseFileLock
+
 _MAX_JOURNAL_BYTES = 20_000_000
 _MAX_JOURNALS = 200
-
-
-def state_folder(environment: Mapping[str, str] = os.environ) -> Path:
-    """The folder of persistent state: VICODE_STATE, else `vicode` in the user's state folder."""
-    given = environment.get(STATE_VARIABLE)
-    if given:
-        return Path(given)
-    home = environment.get("XDG_STATE_HOME")
-    return (Path(home) if home else Path.home() / ".local" / "state") / "vicode"
 
 
 def open_recovery_store() -> "RecoveryStore":
@@ -37,7 +28,7 @@ def open_recovery_store() -> "RecoveryStore":
     try:
         return RecoveryStore(state_folder())
     except OSError:
-        return RecoveryStore(Path(tempfile.gettempdir()) / f"vicode-state-{os.getuid()}")
+        return RecoveryStore(Path(tempfile.gettempdir()) / f"vicode-state{user_id()}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,14 +65,15 @@ class RecoveryStore:
 
     folder: Path
     _own_folder: Path = field(init=False)
-    _lock: TextIO = field(init=False)
+    _lock: "BaseFileLock" = field(init=False)
     _seen: dict[tuple[Path, str], tuple[Design, str]] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         self._own_folder = self.folder / "unsaved" / secrets.token_hex(8)
         self._own_folder.mkdir(parents=True, mode=0o700)
-        self._lock = (self._own_folder / "lock").open("w")
-        fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        lock = take_lock(self._own_folder / "lock")
+        assert lock is not None
+        self._lock = lock
 
     def next_snapshot(self, project: Path, component: str, shared: SharedDocument) -> JournalSnapshot | None:
         """The snapshot to write for a design, None if its journal is up to date."""
@@ -129,7 +121,7 @@ class RecoveryStore:
 
     def close(self) -> None:
         """Release the lock; journals of unsaved designs stay for recovery."""
-        self._lock.close()
+        self._lock.release()
         self._remove_if_empty(self._own_folder)
 
     def _write(self, snapshot: JournalSnapshot) -> None:
@@ -171,9 +163,11 @@ def _name(project: Path, component: str) -> str:
 
 
 def _is_abandoned(folder: Path) -> bool:
-    with contextlib.suppress(OSError), (folder / "lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        return True
+    with contextlib.suppress(OSError):
+        lock = take_lock(folder / "lock")
+        if lock is not None:
+            lock.release()
+            return True
     return False
 
 
