@@ -5,7 +5,6 @@ import signal
 import subprocess
 from collections.abc import Iterator
 from contextlib import suppress
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -69,11 +68,13 @@ def limit_resource(name: str, most: int | None = None) -> None:
     """
     # Windows has no such module; macOS refuses "unlimited", which it reports.
     with suppress(ImportError, AttributeError, ValueError, OSError):
-        resource: Any = import_module("resource")
-        hard = resource.getrlimit(getattr(resource, name))[1]
-        if most is not None and (hard == resource.RLIM_INFINITY or most < hard):
+        import resource
+
+        system: Any = resource
+        hard = system.getrlimit(getattr(system, name))[1]
+        if most is not None and (hard == system.RLIM_INFINITY or most < hard):
             hard = most
-        resource.setrlimit(getattr(resource, name), (hard, hard))
+        system.setrlimit(getattr(system, name), (hard, hard))
 
 
 def flush_folder(folder: Path) -> None:

@@ -39,6 +39,7 @@ COMMANDS = (
     "export",
     "import",
     "schema",
+    "mcp",
     "xabsl",
 )
 _BATCH_COMMANDS = ("gen", "sync", "check")
