@@ -87,7 +87,7 @@ def test_an_agent_reads_edits_generates_and_runs(folder: Path) -> None:
         changes = [line.split("  (")[0].split() for line in run["printed"].splitlines() if "Player: " in line]
         assert changes[0][-3:] == ["LookForBall", "→", "FollowBall"]
         assert (changes[1][0], changes[1][-1]) == ("2.00", "GetUp")
-        assert run["records"][-1]["tree"][0]["state"] == "GetUp"
+        assert run["iterations"][-1]["tree"][0]["state"] == "GetUp"
 
     talk(folder, "--allow-edit", "--allow-run", session=session)
 

@@ -173,7 +173,7 @@ class AgentTools:
     def run(
         self, path: str, seconds: float = 10.0, inputs: Sequence[str] = (), seed: int = 0, profile: str = ""
     ) -> dict[str, Any]:
-        """Run a design in simulated time: the state changes, and the last records of its trace with values.
+        """Run a design in simulated time: the state changes, and the last iterations of its trace with values.
 
         Without `inputs` it runs in the world of its project. Each of `inputs` is `NAME=VALUE`, or `TIME:NAME=VALUE` as
         in `2.5 s: Eyes.distance=0.4`; then hand-written components are replaced by these values.
@@ -187,10 +187,12 @@ class AgentTools:
             profiles = ["--profile", profile] if profile else []
             printed = self._vicode("run", self._inside(path), *options, *given, *profiles, codes=(0, 1))
             lines = trace.read_text(encoding="utf-8").splitlines() if trace.exists() else []
-        records, size = list[Any](), 0
-        while lines and (size := size + len(lines[-1])) < _MAX_TEXT:
-            records.insert(0, json.loads(lines.pop()))
-        return {"printed": printed, "left_out": len(lines), "records": records}
+        # The first line describes the run, the last one sums it up.
+        iterations = [record for record in map(json.loads, lines) if "tree" in record]
+        kept, size = list[Any](), 0
+        while iterations and (size := size + len(json.dumps(iterations[-1]))) < _MAX_TEXT:
+            kept.insert(0, iterations.pop())
+        return {"printed": printed, "left_out": len(iterations), "iterations": kept}
 
     def _check(self, folder: Path, path: str, *, deep: bool = False) -> list[dict[str, Any]]:
         options = ["--deep"] if deep else []

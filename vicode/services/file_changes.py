@@ -43,12 +43,12 @@ def iter_changes(folders: Sequence[Path], suffixes: Sequence[str] = _SUFFIXES) -
 
 
 def _open_folder(folder: Path, stack: ExitStack) -> tuple[int, int] | None:
-    """Open a folder and return its identity; while it is open, no other folder gets the same inode."""
+    """The identity of a folder, which is opened: while it is open, no other folder gets the same inode."""
+    # Windows cannot open folders.
     with suppress(OSError):
-        descriptor = os.open(folder, os.O_RDONLY)
-        stack.callback(os.close, descriptor)
-        return _file_id(os.fstat(descriptor))
-    return None
+        if hasattr(os, "O_DIRECTORY"):
+            stack.callback(os.close, os.open(folder, os.O_RDONLY))
+    return _folder_id(folder)
 
 
 def _folder_id(folder: Path) -> tuple[int, int] | None:
