@@ -5,7 +5,7 @@ from itertools import groupby
 
 from vicode.regions import has_header, strip_bodies
 from vicode.sync.code_items import HEADER, IMPORT, CodeItem, ModulePart, imported_names, split_items, split_parts
-from vicode.sync.cpp_tokens import iter_tokens, iter_words, number_value
+from vicode.cpp_tokens import iter_tokens, iter_words, number_value
 
 
 def is_same_code(a: str, b: str, comment: str = "#") -> bool:
