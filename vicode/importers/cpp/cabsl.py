@@ -1,26 +1,25 @@
 """Reads options of CABSL, the C-based agent behavior specification language.
 
 An option is a design with the same rules: the first `goto` of the common transition, else of the active state, is taken,
-then the action block runs. Options that an action block calls are called by the design, too; the C++ text stays.
+then the action block runs. The design calls the options that an action block may call, and keeps its C++ text.
 """
 
+import ast
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from vicode.cpp_tokens import STRING
-from vicode.importers.cpp.conditions import Condition, ConditionReader, join
+from vicode.cpp_tokens import WORD
+from vicode.importers.cpp.conditions import ASSIGNING, Conditions, join, negate, to_guard
 from vicode.importers.cpp.machine import CppMachine
-from vicode.importers.cpp.tree import CppNode, compact, split, words
+from vicode.importers.cpp.tree import CppTree, compact, split, words
 from vicode.model.design import (
-    Action,
     Call,
     Code,
     CommonSection,
     Decision,
     DecisionGroup,
     Design,
-    Guard,
     RunCode,
     State,
     Stay,
@@ -28,293 +27,243 @@ from vicode.model.design import (
 )
 
 _STATES = frozenset({"initial_state", "state", "target_state", "aborted_state"})
-_LOOPS = frozenset({"for", "while", "switch", "catch"})
 _MAX_SHOWN = 60
 
 
-def iter_options(nodes: Sequence[CppNode]) -> Iterator[tuple[CppNode, CppNode, CppNode]]:
+def iter_options(nodes: Sequence[CppTree]) -> Iterator[tuple[CppTree, CppTree, CppTree]]:
     """Yield the name, the head and the body of each option that has a body."""
     for index, node in enumerate(nodes):
-        following = nodes[index + 1 : index + 3]
-        is_option = node.text == "option" and len(following) == 2 and following[0].is_group("(")
-        name = next((each for each in following[0].children if each.is_word), None) if is_option else None
-        if name is not None and following[1].is_group("{") and words(following[1].children) & _STATES:
-            yield name, following[0], following[1]
-        elif node.is_group("{"):
+        head, body = (*nodes[index + 1 : index + 3], node, node)[:2]
+        name = next((each for each in head.children if each.kind == WORD), None)
+        if node.text == "option" and head.text == "(" and name and body.text == "{" and words(body.children) & _STATES:
+            yield name, head, body
+        elif node.text == "{":
             yield from iter_options(node.children)
 
 
-def read_option(machine: CppMachine, head: CppNode, body: CppNode) -> None:
+def read_option(machine: CppMachine, head: CppTree, body: CppTree) -> None:
     """Read an option into the design of a machine."""
-    machine.inputs.changing = _find_variables(head) | set(_find_assigned(body.children))
-    reader = _OptionReader(machine)
-    initial = reader.read(body.children)
+    # Declared variables stand last, after their types and initial values.
+    variables = [part[1] for part in split(head.children, ",") if len(part) == 2 and part[0].text == "vars"]
+    declared = {each[-1].text for group in variables for each in split(group.children, ",") if each}
+    machine.conditions.changing = declared | set(_find_assigned(body.children))
+    reader, initial, common, states = _OptionReader(machine, body.children), "", list[Decision](), list[State]()
+    index, nodes = 0, body.children
+    while index < len(nodes):
+        end = _statement_end(nodes, index)
+        if nodes[index].text == "common_transition":
+            end = _statement_end(nodes, index + 1)
+            common += reader.read(nodes[index + 1 : end])
+        elif nodes[index].text in _STATES and len(nodes) > index + 2 and nodes[index + 2].text == "{":
+            end = index + 3
+            shared = dict(machine.conditions.versions)
+            states.append(machine.place(reader.state(*nodes[index:end]), nodes[index]))
+            initial = initial or (states[-1].name if nodes[index].text == "initial_state" else "")
+            machine.conditions.versions, machine.conditions.done = shared, ""
+        else:
+            reader.skip(nodes[index:end])
+        index = end
     machine.design = Design(
         component=machine.component,
         time_unit="ms",
+        uses=machine.uses(),
         initial=initial,
-        common=CommonSection(transitions=tuple(reader.common)),
-        states=tuple(reader.states),
+        common=CommonSection(transitions=tuple(common)),
+        states=tuple(states),
     )
-    machine.design = replace(machine.design, uses=machine.uses())
 
 
-def _find_variables(head: CppNode) -> set[str]:
-    parts = split(head.children, ",")
-    variables = [part[1] for part in parts if len(part) == 2 and part[0].text == "vars"]
-    return {each[-1].text for group in variables for each in split(group.children, ",") if each}
-
-
-def _find_assigned(nodes: Sequence[CppNode]) -> Iterator[str]:
-    """The words that are assigned to, or counted, but not declared."""
+def _find_assigned(nodes: Sequence[CppTree]) -> Iterator[str]:
+    """The words that are assigned to or counted, and not declared there."""
     for index, node in enumerate(nodes):
         yield from _find_assigned(node.children)
-        before = nodes[index - 1] if index else node
-        if node.text in ("=", "+=", "-=", "*=", "/=", "++", "--") and before.is_word:
-            if (
-                node.text != "="
-                or index < 2
-                or not (nodes[index - 2].is_word or nodes[index - 2].text in (">", "&", "*"))
-            ):
-                yield before.text
-        if node.text in ("++", "--") and index + 1 < len(nodes) and nodes[index + 1].is_word:
-            yield nodes[index + 1].text
+        if node.text in ASSIGNING:
+            is_declared = (
+                node.text == "=" and index > 1 and (nodes[index - 2].kind == WORD or nodes[index - 2].text in "*&>")
+            )
+            around = nodes[max(0, index - 1) : index + (2 if node.text in ("++", "--") else 0)]
+            yield from () if is_declared else (each.text for each in around if each.kind == WORD)
 
 
 class _OptionReader:
-    def __init__(self, machine: CppMachine) -> None:
-        self.machine = machine
-        self.states: list[State] = []
-        self.common: list[Decision] = []
-        self.names: set[str] = set()
+    def __init__(self, machine: CppMachine, body: Sequence[CppTree]) -> None:
+        self._machine = machine
+        self._conditions: Conditions = machine.conditions
+        self._states = {compact(name.children) for kind, name in pairwise(body) if kind.text in _STATES}
 
-    def read(self, nodes: Sequence[CppNode]) -> str:
-        """Read a body; returns the name of the initial state."""
-        self.names = {compact(each.children) for node, each in pairwise(nodes) if node.text in _STATES}
-        initial, index, conditions = "", 0, ConditionReader(inputs=self.machine.inputs)
-        while index < len(nodes):
-            node = nodes[index]
-            if node.text == "common_transition" and index + 1 < len(nodes):
-                end = _statement_end(nodes, index + 1)
-                self.common += _DecisionReader(self.machine, conditions).read(nodes[index + 1 : end])
-            elif node.text in _STATES and index + 2 < len(nodes) and nodes[index + 2].is_group("{"):
-                end = index + 3
-                own = replace(conditions, versions=dict(conditions.versions))
-                state = self._state(node, nodes[index + 1], nodes[index + 2].children, own)
-                initial = initial or (state.name if node.text == "initial_state" else "")
-            else:
-                end = _statement_end(nodes, index)
-                _note_gotos(self.machine, nodes[index:end], self.names)
-            index = end
-        return initial
+    def skip(self, nodes: Sequence[CppTree]) -> None:
+        """Skip a statement outside of transitions."""
+        if self._states & set(_find_gotos(nodes)):
+            self._machine.is_partial = True
+            self._note(nodes, "goto outside of a transition")
 
-    def _state(self, kind: CppNode, name: CppNode, body: Sequence[CppNode], conditions: ConditionReader) -> State:
-        called, actions = self._actions(body)
-        # With several, the last one that was called counts, which depends on conditions.
-        conditions.done = f"done({called[0]})" if len(called) == 1 else ""
-        transitions: list[Decision] = []
-        index = 0
-        while index < len(body):
-            is_part = body[index].text in ("transition", "action")
-            end = _statement_end(body, index + is_part)
-            if body[index].text == "transition":
-                transitions += _DecisionReader(self.machine, conditions).read(body[index + 1 : end])
-            elif not is_part:
-                _note_gotos(self.machine, body[index:end], self.names)
-                conditions.change(body[index:end])
-            index = end
-        state = State(
+    def _note(self, nodes: Sequence[CppTree], text: str) -> None:
+        self._machine.notes.append((nodes[0].start, f"{text}: {_shown(nodes)}"))
+
+    def state(self, kind: CppTree, name: CppTree, body: CppTree) -> State:
+        called, texts, transitions = list[str](), list[str](), list[Decision]()
+        for is_action in (True, False):
+            index, nodes = 0, body.children
+            while index < len(nodes):
+                word = nodes[index].text
+                end = _statement_end(nodes, index + (word in ("action", "transition")))
+                inner = nodes[index + 1 : end]
+                if is_action and word == "action":
+                    inner = inner[0].children if inner and inner[0].text == "{" else inner
+                    called += self._calls(inner)
+                    texts.append(self._machine.source.slice(inner))
+                elif not is_action and word == "transition":
+                    transitions += self.read(inner)
+                elif not is_action and word != "action":
+                    self.skip(nodes[index:end])
+                    self._conditions.change(nodes[index:end])
+                index = end
+            # With several options, the last one that was called counts, which depends on conditions.
+            self._conditions.done = f"done({called[0]})" if len(set(called)) == 1 else ""
+        if kind.text == "aborted_state":
+            self._machine.ends.add(compact(name.children))
+        return State(
             name=compact(name.children),
             doc="Aborted state." if kind.text == "aborted_state" else "",
             final=kind.text == "target_state",
-            actions=actions,
+            actions=(
+                *(Call(alias=alias) for alias in dict.fromkeys(called)),
+                *(RunCode(code=Code(texts=(("cpp", text),))) for text in texts if text),
+            ),
             transitions=tuple(transitions),
         )
-        if kind.text == "aborted_state":
-            self.machine.ends.add(state.name)
-        self.states.append(self.machine.place_state(state, kind))
-        return state
 
-    def _actions(self, body: Sequence[CppNode]) -> tuple[list[str], tuple[Action, ...]]:
-        """The aliases of the options that the action blocks of a state call, and its actions."""
-        called, texts = list[str](), list[Action]()
-        for index, node in enumerate(body):
-            if node.text != "action":
-                continue
-            block = body[index + 1 : _statement_end(body, index + 1)]
-            inner = block[0].children if block and block[0].is_group("{") else block
-            called += self._calls(inner)
-            text = self.machine.source.slice(inner)
-            texts += [RunCode(code=Code(texts=(("cpp", text),)))] if text else []
-        aliases = list(dict.fromkeys(called))
-        return aliases, (*(Call(alias=alias) for alias in aliases), *texts)
-
-    def _calls(self, nodes: Sequence[CppNode], *, is_list: bool = False) -> Iterator[str]:
-        for index, node in enumerate(nodes):
-            is_member = index > 0 and nodes[index - 1].text in (".", "->", "::") and not is_list
-            is_call = is_list or (index + 1 < len(nodes) and nodes[index + 1].is_group("("))
-            name = node.text.strip('"') if is_list and node.kind == STRING else node.text
-            if is_call and not is_member and name in self.machine.components:
-                alias = self.machine.use(name, node)
+    def _calls(self, nodes: Sequence[CppTree], *, is_list: bool = False) -> Iterator[str]:
+        """The aliases of the options that statements call, or that `select_option` lists."""
+        for before, node, after in zip((None, *nodes), nodes, (*nodes[1:], None), strict=False):
+            is_call = (
+                after is not None and after.text == "(" and (before is None or before.text not in (".", "->", "::"))
+            )
+            name = node.text.strip('"')
+            if (is_list or is_call) and name in self._machine.components:
+                alias = self._machine.use(name, node)
                 yield from [alias] if alias else []
-            is_selection = index > 0 and nodes[index - 1].text == "select_option"
+            is_selection = before is not None and before.text == "select_option"
             found = list(self._calls(node.children, is_list=is_list or is_selection))
             if is_selection and not found:
-                self.machine.is_open = True
-                self.machine.note(node, f"the options of select_option are not named: {_shown(node.children)}")
+                self._note((node,), "the options are not named")
             yield from found
 
-
-class _DecisionReader:
-    """Reads the decision tree of a block."""
-
-    def __init__(self, machine: CppMachine, conditions: ConditionReader) -> None:
-        self._machine = machine
-        self._conditions = conditions
-
-    def read(self, nodes: Sequence[CppNode]) -> list[Decision]:
+    def read(self, nodes: Sequence[CppTree]) -> list[Decision]:
+        """Read the decision tree of a block."""
         return self._block(nodes)[0]
 
-    def _block(self, nodes: Sequence[CppNode]) -> tuple[list[Decision], bool]:
+    def _block(self, nodes: Sequence[CppTree]) -> tuple[list[Decision], bool]:
         """The decisions of statements, and whether they reach a `break`."""
-        found, index = list[Decision](), 0
-        while index < len(nodes):
+        found, broke, index = list[Decision](), False, 0
+        while index < len(nodes) and not broke:
             node, end = nodes[index], _statement_end(nodes, index)
-            statement, rest = nodes[index:end], nodes[end:]
-            inner, broke = list[Decision](), False
-            match node.text:
-                case "break":
-                    return found, True
-                case "{":
-                    inner, broke = self._block(node.children)
-                case "goto" if len(statement) > 1:
-                    inner = [self._machine.place(Transition(to=statement[1].text), node)]
-                case "return":
-                    self._machine.note(node, "return: the design stays in the state, and runs its action")
-                    inner = [self._machine.place(Stay(), node)]
-                case "if" if len(statement) > 2:
-                    inner, broke = self._if(statement, rest)
-                case "switch" if len(statement) > 2 and statement[2].is_group("{"):
-                    inner = self._switch(node, statement[1], statement[2].children)
-                case _:
-                    inner = self._other(statement)
-            found += inner
-            if broke:
+            statement, inner = nodes[index:end], list[Decision]()
+            if node.text == "break":
                 return found, True
+            if node.text == "{":
+                inner, broke = self._block(node.children)
+            elif node.text == "if" and len(statement) > 2:
+                inner, broke = self._if(statement, nodes[end:])
+            elif node.text == "switch" and len(statement) > 2:
+                inner = self._switch(node, statement[1], statement[2].children)
+            elif node.text == "goto" and len(statement) > 1:
+                inner = [self._machine.place(Transition(to=statement[1].text), node)]
+            elif node.text == "return":
+                self._note(statement, "the design runs the action of the state")
+                inner = [self._machine.place(Stay(), node)]
+            else:
+                inner = self._other(statement)
+            found += inner
             index = end
-        return found, False
+        return found, broke
 
-    def _if(self, nodes: Sequence[CppNode], rest: Sequence[CppNode]) -> tuple[list[Decision], bool]:
+    def _if(self, nodes: Sequence[CppTree], rest: Sequence[CppTree]) -> tuple[list[Decision], bool]:
         start = 1 + (nodes[1].text == "constexpr")
-        parts = split(nodes[start].children, ";") if nodes[start].is_group("(") else [nodes[start : start + 1]]
-        if len(parts) > 1:
-            self._conditions.change(parts[0] or nodes[:1])
-        condition = self._conditions.read(parts[-1])
-        end = _statement_end(nodes, start + 1)
-        then, then_broke = self._block(nodes[start + 1 : end])
-        other, other_broke = self._block(nodes[end + 1 :])
-        broke = then_broke or other_broke
-        if broke:
-            # What follows is only reached by the branch without `break`.
-            after, _ends = self._block(rest)
-            then += after if not then_broke else []
-            other += after if not other_broke else []
+        *first, tested = split(nodes[start].children, ";")
+        self._conditions.change(first[0] if first else ())
+        condition, end = self._conditions.read(tested), _statement_end(nodes, start + 1)
+        branches = [self._block(nodes[start + 1 : end]), self._block(nodes[end + 1 :])]
+        broke = any(each for _decisions, each in branches)
+        # After a `break`, what follows is only reached by the other branch.
+        after = self._block(rest)[0] if broke else []
+        then, other = ([*decisions, *([] if is_broken else after)] for decisions, is_broken in branches)
         return self._choose(nodes[0], condition, then, other), broke
 
-    def _choose(
-        self, node: CppNode, condition: Condition, then: list[Decision], other: list[Decision]
-    ) -> list[Decision]:
-        if not then and other:
-            condition, then, other = condition.negated(), other, []
+    def _choose(self, node: CppTree, test: ast.expr, then: list[Decision], other: list[Decision]) -> list[Decision]:
         if not then:
-            return []
-        guard = Guard(when=condition.text)
-        if len(then) == 1 and not isinstance(then[0], DecisionGroup) and then[0].guard.is_empty:
-            return [self._machine.place(replace(then[0], guard=guard), node), *other]
-        if _is_end(then[-1]):
-            return [self._machine.place(DecisionGroup(guard=guard, then=tuple(then)), node), *other]
-        return [self._machine.place(DecisionGroup(guard=guard, then=tuple(then), otherwise=tuple(other)), node)]
+            test, then, other = negate(test), other, []
+        guard = to_guard(test)
+        match then:
+            case []:
+                return []
+            case [(Transition() | Stay()) as only] if only.guard.is_empty:
+                return [self._machine.place(replace(only, guard=guard), node), *other]
+        is_ended = _is_end(then[-1])
+        group = DecisionGroup(guard=guard, then=tuple(then), otherwise=() if is_ended else tuple(other))
+        return [self._machine.place(group, node), *(other if is_ended else [])]
 
-    def _switch(self, node: CppNode, value: CppNode, body: Sequence[CppNode]) -> list[Decision]:
+    def _switch(self, node: CppTree, value: CppTree, body: Sequence[CppTree]) -> list[Decision]:
         """The cases as groups; a case runs into the next ones until `break`."""
-        cases, statements = list[tuple[tuple[CppNode, ...], int]](), list[CppNode]()
-        index = 0
+        cases, statements, index = dict[int, list[ast.expr | None]](), list[CppTree](), 0
         while index < len(body):
             if body[index].text in ("case", "default"):
                 end = next((n for n in range(index, len(body)) if body[n].text == ":"), len(body))
-                cases.append((tuple(body[index + 1 : end]), len(statements)))
+                label = body[index + 1 : end]
+                test = self._conditions.compare(value.children, "==", label) if label else None
+                cases.setdefault(len(statements), []).append(test)
                 index = end
             else:
                 statements.append(body[index])
             index += 1
-        tests = {label: self._conditions.equals(value.children, label) for label, _start in cases if label}
-        found: list[Decision] = []
-        for start in dict.fromkeys(start for _label, start in cases):
-            labels = [label for label, place in cases if place == start]
-            named = [tests[label] for label in labels if label]
-            if () in labels:
-                named = [join(list(tests.values()), "or").negated()] if tests else []
-                named += [tests[label] for label in labels if label]
-            condition = join(named, "or") if named else Condition("True")
+        named = [test for tests in cases.values() for test in tests if test]
+        found = list[Decision]()
+        for start, tests in cases.items():
+            other = negate(join(ast.Or(), named)) if named else ast.Constant(True)
             then, _broke = self._block(statements[start:])
-            found += self._choose(node, condition, then, [])
+            # What follows an unconditional `goto` belongs to the next cases.
+            length = next((number for number, each in enumerate(then, start=1) if _is_end(each)), len(then))
+            found += self._choose(node, join(ast.Or(), [test or other for test in tests]), then[:length], [])
         return found
 
-    def _other(self, nodes: Sequence[CppNode]) -> list[Decision]:
+    def _other(self, nodes: Sequence[CppTree]) -> list[Decision]:
         """A statement that is not understood; it may take each `goto` in it."""
         self._conditions.change(nodes)
         targets = list(dict.fromkeys(_find_gotos(nodes)))
-        is_macro = nodes[0].text.isupper() or nodes[0].text in (";", "static_assert")
-        if targets or not is_macro:
-            self._machine.note(nodes[0], f"the design does not contain this statement: {_shown(nodes)}")
-        return [
-            self._machine.place(
-                Transition(
-                    to=target, guard=Guard(when=self._conditions.unknown(nodes, f"{target}: {_shown(nodes)}").text)
-                ),
-                nodes[0],
-            )
-            for target in targets
-        ]
+        if targets or not (nodes[0].text.isupper() or nodes[0].text in (";", "static_assert")):
+            self._note(nodes, "not in the design")
+        tests = [self._conditions.flag(f"{target}: {_shown(nodes)}", str(nodes[0].start)) for target in targets]
+        found = [Transition(to=target, guard=to_guard(test)) for target, test in zip(targets, tests, strict=True)]
+        return [self._machine.place(each, nodes[0]) for each in found]
 
 
 def _is_end(decision: Decision) -> bool:
     return not isinstance(decision, DecisionGroup) and decision.guard.is_empty
 
 
-def _find_gotos(nodes: Sequence[CppNode]) -> Iterator[str]:
-    for index, node in enumerate(nodes):
+def _find_gotos(nodes: Sequence[CppTree]) -> Iterator[str]:
+    yield from (after.text for before, after in pairwise(nodes) if before.text == "goto")
+    for node in nodes:
         yield from _find_gotos(node.children)
-        if node.text == "goto" and index + 1 < len(nodes):
-            yield nodes[index + 1].text
 
 
-def _note_gotos(machine: CppMachine, nodes: Sequence[CppNode], states: set[str]) -> None:
-    if states & set(_find_gotos(nodes)):
-        machine.is_partial = True
-        machine.note(nodes[0], f"goto outside of a transition: {_shown(nodes)}")
-
-
-def _shown(nodes: Sequence[CppNode]) -> str:
+def _shown(nodes: Sequence[CppTree]) -> str:
     text = compact(nodes)
     return text if len(text) <= _MAX_SHOWN else f"{text[:_MAX_SHOWN]} …"
 
 
-def _statement_end(nodes: Sequence[CppNode], start: int) -> int:
+def _statement_end(nodes: Sequence[CppTree], start: int) -> int:
     """The index after the statement that starts at an index."""
-    if start >= len(nodes):
-        return len(nodes)
-    first = nodes[start].text
+    first, second, third = [node.text for node in nodes[start : start + 3]] + [""] * (3 - len(nodes[start : start + 3]))
     if first == "{":
         return start + 1
-    if first == "if" or first in _LOOPS:
-        place = start + 1 + (first == "if" and start + 1 < len(nodes) and nodes[start + 1].text == "constexpr")
-        end = _statement_end(nodes, place + 1)
+    # A macro without semicolon may be the condition of the statement after it.
+    is_macro = first.isupper() and second == "(" and (third == "{" or (third != "" and nodes[start + 2].kind == WORD))
+    if first in ("if", "for", "while", "switch", "catch") or is_macro:
+        end = _statement_end(nodes, start + 2 + (second == "constexpr"))
         has_else = first == "if" and end < len(nodes) and nodes[end].text == "else"
         return _statement_end(nodes, end + 1) if has_else else end
-    if first in ("do", "try"):
-        return _statement_end(nodes, _statement_end(nodes, start + 1))
-    is_macro = first.isupper() and start + 1 < len(nodes) and nodes[start + 1].is_group("(")
-    if is_macro and (start + 2 == len(nodes) or nodes[start + 2].is_word or nodes[start + 2].is_group("{")):
-        return start + 2 + (start + 2 < len(nodes) and not nodes[start + 2].is_word)
+    if first in ("do", "try", "else"):
+        end = _statement_end(nodes, start + 1)
+        return end if first == "else" else _statement_end(nodes, end)
     return next((index + 1 for index in range(start, len(nodes)) if nodes[index].text == ";"), len(nodes))

@@ -1,257 +1,184 @@
 """Translates C++ conditions to expressions of designs.
 
-`&&`, `||`, `!` and comparisons with numbers and enumerators are translated. What they join is not understood, and
-becomes an input of the design, with the C++ text as its description. Equal texts are the same input, unless a word in
-them was assigned or declared in between, or the text itself assigns.
+`&&`, `||`, `!` and comparisons with numbers and enumerators are translated. What they join is not understood: it
+becomes an input with the C++ text as description. Equal texts are the same input, unless a word in them was declared
+or assigned in between, or the text itself assigns. Expressions are Python trees, which print with few parentheses.
 """
 
+import ast
 import re
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
-from vicode.cpp_tokens import NUMBER
-from vicode.importers.cpp.tree import CppNode, compact, split, template_end, words
+from vicode.cpp_tokens import NUMBER, WORD
+from vicode.importers.cpp.tree import CppTree, compact, iter_plain, split, words
 from vicode.importers.design_names import DesignNames
-from vicode.model.design import Declaration
-from vicode.model.names import name_from_text
+from vicode.model.design import Declaration, Guard
 from vicode.model.project import WORLD, Enumeration, Interface
 
 ALIAS = "robot"
 TIMES = {"state_time": "state_time", "option_time": "component_time"}
-STATUS = frozenset({"action_done", "action_aborted", *TIMES})
+_STATUS = frozenset({"action_done", "action_aborted", *TIMES})
 _MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
-_ASSIGNING = frozenset({"=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "++", "--"})
-_LOWER = _ASSIGNING - {"++", "--"} | {"?", "&", "|", "^", ","}
-_NUMBER = re.compile(r"(0|[1-9][\d']*|(?:\d[\d']*)?\.\d*(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+)(_?[A-Za-z]\w*)?")
-_PLAIN_SUFFIXES = frozenset({"f", "l", "u", "ul", "lu", "ull", "z", "uz"})
+ASSIGNING = frozenset({"=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "++", "--"})
+_LOWER = ASSIGNING - {"++", "--"} | {"?", "&", "|", "^", ","}
+_NUMBER = re.compile(
+    r"(0|[1-9][\d']*|(?:\d[\d']*)?\.\d*(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+)(?:[fFlLuUzZ]{1,3}|_?([A-Za-z]\w*))?"
+)
 _MAX_NAME = 48
-_OR, _AND, _NOT, _ATOM = range(4)
 
 
-@dataclass(frozen=True, slots=True)
-class Condition:
-    """An expression of a design, and how strongly it binds."""
-
-    text: str
-    level: int = _ATOM
-
-    def within(self, level: int) -> str:
-        return self.text if self.level >= level else f"({self.text})"
-
-    def negated(self) -> "Condition":
-        if self.level == _NOT and self.text.startswith("not "):
-            return Condition(self.text.removeprefix("not "), _NOT)
-        return Condition(f"not {self.within(_NOT if ' ' not in self.text else _ATOM)}", _NOT)
+def negate(condition: ast.expr) -> ast.expr:
+    return condition.operand if isinstance(condition, ast.UnaryOp) else ast.UnaryOp(ast.Not(), condition)
 
 
-def join(conditions: Sequence[Condition], word: str) -> Condition:
-    """Join conditions by "and" or "or"."""
-    level = _AND if word == "and" else _OR
-    if len(conditions) == 1:
-        return conditions[0]
-    return Condition(f" {word} ".join(each.within(level + 1) for each in conditions), level)
+def join(operator: ast.boolop, conditions: list[ast.expr]) -> ast.expr:
+    return ast.BoolOp(operator, conditions) if len(conditions) > 1 else conditions[0]
+
+
+def to_guard(condition: ast.expr) -> Guard:
+    return Guard(when=ast.unparse(condition))
 
 
 @dataclass(slots=True, kw_only=True)
-class Inputs:
-    """The inputs of a machine.
+class Conditions:
+    """The conditions of a machine, and the inputs that they read.
 
     Attributes:
-        component: The name of the component that provides them.
+        component: The name of the component that provides the inputs.
         types: Allocates the names of enumerations.
         changing: Words whose values the machine changes itself.
         unfixed: The inputs that may change while the world stands still.
+        versions: Words that were declared or assigned in the block that is read, with the place of that.
+        done: What stands for `action_done`, "" if nothing does.
+        spellings: Other names of words.
     """
 
     machine: str
     component: str
     types: DesignNames
     changing: Collection[str] = ()
-    declarations: dict[tuple[str, ...], Declaration] = field(default_factory=dict)
-    enumerations: dict[tuple[str, ...], tuple[str, dict[str, str]]] = field(default_factory=dict)
     unfixed: set[str] = field(default_factory=set)
-    names: DesignNames = field(default_factory=DesignNames)
-
-    def interface(self) -> Interface:
-        return Interface(
-            component=self.component,
-            doc=f"What the conditions of {self.machine} read, with their C++ texts.",
-            implementation=WORLD,
-            outputs=tuple(self.declarations.values()),
-        )
-
-    def project_enumerations(self) -> list[Enumeration]:
-        """An element of an enumeration stands for all values that are not mentioned."""
-        found = []
-        for name, elements in self.enumerations.values():
-            other = DesignNames(taken=frozenset(elements.values())).allocate("other")
-            pairs = [(element, "") for element in elements.values()]
-            found.append(Enumeration(name=name, elements=((other, "any other value"), *pairs)))
-        return found
-
-    def add(self, key: tuple[str, ...], type_: str, text: str, stem: str = "", *, is_fixed: bool = True) -> str:
-        """The name of an input; it is declared on first use."""
-        if key not in self.declarations:
-            name = self.names.allocate(re.sub(r"\W+", "_", stem or text)[:_MAX_NAME])
-            self.declarations[key] = Declaration(name=name, type=type_, doc=text)
-            if not is_fixed:
-                self.unfixed.add(name)
-        return f"{ALIAS}.{self.declarations[key].name}"
-
-    def element(self, key: tuple[str, ...], text: str, element: str, *, is_fixed: bool = True) -> Condition:
-        """Whether an input equals an enumerator."""
-        type_name = f"{self.machine}_{name_from_text(re.sub(r'[^0-9A-Za-z]+', '_', text)[-_MAX_NAME:]) or 'value'}"
-        if key not in self.enumerations:
-            self.enumerations[key] = (self.types.allocate(type_name), {})
-        type_, elements = self.enumerations[key]
-        if element not in elements:
-            elements[element] = DesignNames(taken=frozenset(elements.values())).allocate(element)
-        name = self.add((*key, "enumeration"), type_, text, is_fixed=is_fixed)
-        return Condition(f"{name} == {type_}.{elements[element]}", _NOT)
-
-
-@dataclass(slots=True, kw_only=True)
-class ConditionReader:
-    """Translates the conditions of one block of a machine.
-
-    Attributes:
-        versions: Words that were declared or assigned so far, each with the place of that.
-        done: The condition for `action_done`, "" if it is not known.
-        atom: Returns the condition that a text stands for; None for others.
-    """
-
-    inputs: Inputs
     versions: dict[str, int] = field(default_factory=dict)
     done: str = ""
-    atom: Callable[[Sequence[CppNode]], Condition | None] = lambda _nodes: None
+    spellings: dict[str, str] = field(default_factory=dict)
+    _inputs: dict[tuple[str, ...], Declaration] = field(default_factory=dict)
+    _elements: dict[str, dict[str, str]] = field(default_factory=dict)
+    _names: DesignNames = field(default_factory=DesignNames)
 
-    def change(self, nodes: Sequence[CppNode]) -> None:
+    def interface(self) -> Interface | None:
+        doc = f"What the conditions of {self.machine} read, with their C++ texts."
+        outputs = tuple(self._inputs.values())
+        return Interface(component=self.component, doc=doc, implementation=WORLD, outputs=outputs) if outputs else None
+
+    def enumerations(self) -> list[Enumeration]:
+        """The first element of each stands for all values that are not mentioned."""
+        return [
+            Enumeration(name=name, elements=(("other_value", ""), *((element, "") for element in elements.values())))
+            for name, elements in self._elements.items()
+        ]
+
+    def change(self, nodes: Sequence[CppTree]) -> None:
         """Note that a statement gives new values to the words in it."""
-        self.versions.update(dict.fromkeys(words(nodes), nodes[0].start))
+        self.versions.update(dict.fromkeys(words(nodes), nodes[0].start if nodes else 0))
 
-    def read(self, nodes: Sequence[CppNode]) -> Condition:
-        if not nodes:
-            return self.unknown(nodes, "")
-        own = self.atom(nodes)
-        if own is not None:
-            return own
-        if len(nodes) == 1 and nodes[0].is_group("("):
+    def read(self, nodes: Sequence[CppTree]) -> ast.expr:
+        if len(nodes) == 1 and nodes[0].text == "(":
             return self.read(nodes[0].children)
-        if _LOWER & {node.text for node in nodes if node.kind != NUMBER}:
+        if not nodes or _LOWER & {node.text for node in nodes}:
             return self._bool(nodes)
-        for word, spellings in (("or", ("||", "or")), ("and", ("&&", "and"))):
-            for spelling in spellings:
-                parts = split(nodes, spelling)
-                if len(parts) > 1:
-                    return join([self.read(part) for part in parts], word)
-        places = _find_comparisons(nodes)
+        for sign, word, operator in (("||", "or", ast.Or()), ("&&", "and", ast.And())):
+            parts = max(split(nodes, sign), split(nodes, word), key=len)
+            if len(parts) > 1:
+                return join(operator, [self.read(part) for part in parts])
+        places = [index for index in iter_plain(nodes) if nodes[index].text in _MIRRORED]
         if len(places) == 1 and 0 < places[0] < len(nodes) - 1:
-            return self._comparison(nodes[: places[0]], nodes[places[0]].text, nodes[places[0] + 1 :])
-        if nodes[0].text in ("!", "not") and not places and not {"+", "-", "*", "/", "%"} & {n.text for n in nodes[2:]}:
-            return self.read(nodes[1:]).negated()
+            return self.compare(nodes[: places[0]], nodes[places[0]].text, nodes[places[0] + 1 :])
+        if nodes[0].text in ("!", "not") and not places and not {*"+-*/%"} & {node.text for node in nodes[2:]}:
+            return negate(self.read(nodes[1:]))
         return self._bool(nodes)
 
-    def unknown(self, nodes: Sequence[CppNode], text: str) -> Condition:
-        """A condition that nothing is known about, not even that it is the same the next time."""
-        start = nodes[0].start if nodes else len(self.inputs.declarations)
-        return Condition(self.inputs.add(("unknown", str(start), text), "bool", text, is_fixed=False))
-
-    def _bool(self, nodes: Sequence[CppNode]) -> Condition:
-        text = compact(nodes)
-        if text in ("true", "false"):
-            return Condition(text.capitalize())
-        if text in TIMES:
-            return Condition(f"{TIMES[text]} != 0", _NOT)
-        if text == "action_done" and self.done:
-            return Condition(self.done)
-        return Condition(self._input("bool", text, words(nodes), nodes))
-
-    def _input(self, type_: str, text: str, found: set[str], nodes: Sequence[CppNode], stem: str = "") -> str:
-        key, is_fixed = self._key(type_, text, found, nodes)
-        return self.inputs.add(key, type_, text, stem, is_fixed=is_fixed)
-
-    def _key(self, type_: str, text: str, found: set[str], nodes: Sequence[CppNode]) -> tuple[tuple[str, ...], bool]:
-        changed = sorted((word, self.versions[word]) for word in found if word in self.versions)
-        place = [f"{word} {start}" for word, start in changed]
-        if _assigns(nodes):
-            place.append(str(nodes[0].start))
-        is_fixed = not place and not found & STATUS and not found & set(self.inputs.changing)
-        return (type_, text, *place), is_fixed
-
-    def _comparison(self, left: Sequence[CppNode], sign: str, right: Sequence[CppNode]) -> Condition:
+    def compare(self, left: Sequence[CppTree], sign: str, right: Sequence[CppTree]) -> ast.expr:
         if _number(left) and not _number(right):
             left, sign, right = right, _MIRRORED[sign], left
-        number, (first, second) = _number(right), (compact(left), compact(right))
+        number, first, second = _number(right), compact(left), compact(right)
         if first in TIMES or (number and not _number(left)):
-            quantity = TIMES.get(first) or self._number_input(left, number[1] if number else "")
-            limit = number[0] if number else self._number_input(right, "")
-            return Condition(f"{quantity} {sign} {limit}", _NOT)
-        if sign not in ("==", "!="):
-            return self._order(left, sign, right)
-        if second in ("true", "false", "nullptr", "NULL"):
-            is_positive = (second == "true") == (sign == "==")
-            return self.read(left) if is_positive else self.read(left).negated()
-        if _is_enumerator(right):
-            key, is_fixed = self._key("enumeration", first, words(left), left)
-            equal = self.inputs.element(key, first, right[-1].text, is_fixed=is_fixed)
+            quantity = TIMES.get(first) or self._input("float", left, first, number[1] if number else "")
+            return _parse(f"{quantity} {sign} {number[0] if number else self._input('float', right, second, '')}")
+        if sign in ("==", "!=") and second in ("true", "false", "nullptr", "NULL"):
+            return self.read(left) if (second == "true") == (sign == "==") else negate(self.read(left))
+        if sign in ("==", "!=") and _is_enumerator(right):
+            equal = self.element(left, first, right[-1].text)
+        elif sign in ("==", "!="):
+            low, high = sorted((first, second))
+            equal = _parse(self._input("bool", (*left, *right), f"{low} == {high}"))
         else:
-            first, second = sorted((first, second))
-            both = (*left, *right)
-            text = f"{first} == {second}"
-            equal = Condition(self._input("bool", text, words(both), both, f"{first}_is_{second}"))
-        return equal if sign == "==" else equal.negated()
+            # All orders are written with `<`.
+            low, high = (second, first) if sign in (">", "<=") else (first, second)
+            equal = _parse(self._input("bool", (*left, *right), f"{low} < {high}"))
+        return negate(equal) if sign in ("!=", "<=", ">=") else equal
 
-    def _order(self, left: Sequence[CppNode], sign: str, right: Sequence[CppNode]) -> Condition:
-        """A comparison of two values, written with `<`."""
-        is_negated = sign in ("<=", ">=")
-        if sign in (">", "<="):
-            left, right = right, left
-        first, second, both = compact(left), compact(right), (*left, *right)
-        less = Condition(self._input("bool", f"{first} < {second}", words(both), both, f"{first}_below_{second}"))
-        return less.negated() if is_negated else less
+    def element(self, nodes: Sequence[CppTree], text: str, element: str) -> ast.expr:
+        """Whether an input has a value of an enumeration."""
+        name = self._input("", nodes, text)
+        (type_,) = (each.type for each in self._inputs.values() if f"{ALIAS}.{each.name}" == name)
+        elements = self._elements.setdefault(type_, {})
+        if element not in elements:
+            elements[element] = DesignNames(taken=frozenset({"other_value", *elements.values()})).allocate(element)
+        return _parse(f"{name} == {type_}.{elements[element]}")
 
-    def _number_input(self, nodes: Sequence[CppNode], unit: str) -> str:
-        key, is_fixed = self._key("float", compact(nodes), words(nodes), nodes)
-        return self.inputs.add(
-            (*key, unit), "float", compact(nodes) + (f" in {unit}" if unit else ""), compact(nodes), is_fixed=is_fixed
-        )
+    def flag(self, text: str, *place: str) -> ast.expr:
+        """A bool input; with a place, nothing is known about it, not even that it is the same the next time."""
+        return _parse(self._add("bool", text, ("flag", *place), is_fixed=not place))
 
-    def equals(self, nodes: Sequence[CppNode], label: Sequence[CppNode]) -> Condition:
-        """The condition of a `case`."""
-        return self._comparison(nodes, "==", label)
+    def _bool(self, nodes: Sequence[CppTree]) -> ast.expr:
+        text = compact(nodes)
+        known = {"true": "True", "false": "False", "action_done": self.done} | {
+            each: f"{TIMES[each]} != 0" for each in TIMES
+        }
+        return _parse(known.get(text) or self._input("bool", nodes, self.spellings.get(text, text)))
+
+    def _input(self, type_: str, nodes: Sequence[CppTree], text: str, unit: str = "") -> str:
+        """The name of an input that stands for a text; without type, it is an enumeration of its own."""
+        found = words(nodes)
+        place = [f"{word} {self.versions[word]}" for word in sorted(found & self.versions.keys())]
+        place += [str(nodes[0].start)] if _assigns(nodes) else []
+        is_fixed = not place and not found & _STATUS and not found & set(self.changing)
+        return self._add(type_, text, (unit, *place), is_fixed=is_fixed, unit=unit)
+
+    def _add(self, type_: str, text: str, key: tuple[str, ...], *, is_fixed: bool, unit: str = "") -> str:
+        key = (type_, text, *key)
+        if key not in self._inputs:
+            stem = re.sub(r"\W+", "_", text.replace("==", "is").replace("<", "below"))[:_MAX_NAME]
+            name, type_name = (
+                self._names.allocate(stem),
+                type_ or self.types.allocate(f"{self.machine}_{stem.strip('_')}"),
+            )
+            self._inputs[key] = Declaration(name=name, type=type_name, doc=text, unit=unit)
+            self.unfixed |= set() if is_fixed else {name}
+        return f"{ALIAS}.{self._inputs[key].name}"
 
 
-def _find_comparisons(nodes: Sequence[CppNode]) -> list[int]:
-    found, index = [], 0
-    while index < len(nodes):
-        end = template_end(nodes, index)
-        if end == index and nodes[index].text in _MIRRORED:
-            found.append(index)
-        index = end + 1
-    return found
+def _parse(text: str) -> ast.expr:
+    return ast.parse(text, mode="eval").body
 
 
-def _number(nodes: Sequence[CppNode]) -> tuple[str, str] | None:
+def _number(nodes: Sequence[CppTree]) -> tuple[str, str] | None:
     """The number in a text, as designs write it, and its unit."""
     sign = "-" if len(nodes) == 2 and nodes[0].text == "-" else ""
-    if not nodes or len(nodes) > 1 + bool(sign) or nodes[-1].kind != NUMBER:
+    is_number = len(nodes) == 1 + bool(sign) and nodes[-1].kind == NUMBER
+    found = _NUMBER.fullmatch(nodes[-1].text) if is_number else None
+    digits = found[1].replace("'", "") if found else ""
+    if found is None or not any(each.isdigit() for each in digits) or float(digits) > 2.0**53:
         return None
-    found = _NUMBER.fullmatch(nodes[-1].text)
-    if found is None:
-        return None
-    unit = (found[2] or "").lstrip("_")
-    digits = found[1].replace("'", "")
-    value = float(digits)
-    if value > 2.0**53:
-        return None
-    return sign + (digits if digits.isdigit() else repr(value)), "" if unit.lower() in _PLAIN_SUFFIXES else unit
+    return sign + (digits if digits.isdigit() else repr(float(digits))), found[2] or ""
 
 
-def _is_enumerator(nodes: Sequence[CppNode]) -> bool:
+def _is_enumerator(nodes: Sequence[CppTree]) -> bool:
     """Whether a text looks like an enumerator: qualified, or in capitals."""
-    is_name = all(node.is_word or node.text == "::" for node in nodes) and nodes[-1].is_word
+    is_name = nodes[-1].kind == WORD and all(node.kind == WORD or node.text == "::" for node in nodes)
     return is_name and (len(nodes) > 1 or (nodes[0].text.isupper() and len(nodes[0].text) > 1))
 
 
-def _assigns(nodes: Sequence[CppNode]) -> bool:
-    return any(node.text in _ASSIGNING or _assigns(node.children) for node in nodes)
+def _assigns(nodes: Sequence[CppTree]) -> bool:
+    return any(node.text in ASSIGNING or _assigns(node.children) for node in nodes)

@@ -2,13 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 from vicode.findings import DesignPath, SourceLocation
-from vicode.importers.cpp.conditions import ALIAS, Inputs
-from vicode.importers.cpp.tree import CppNode, CppSource
+from vicode.importers.cpp.conditions import ALIAS, Conditions
+from vicode.importers.cpp.tree import CppTree, CppSource
 from vicode.importers.design_names import DesignNames
-from vicode.model.design import Decision, Design, State, Use
+from vicode.model.design import Decision, DecisionGroup, Design, State, Stay, Transition, Use
 from vicode.model.traversal import iter_decisions
+
+_Placed = TypeVar("_Placed", Transition, Stay, DecisionGroup, State)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -16,41 +19,36 @@ class CppMachine:
     """A state machine of a file.
 
     Attributes:
+        node: Its name.
         components: The names of all machines of the behavior in C++, and as components.
-        start: The offset of its name.
         graph: Which components use which, of all machines that were read so far.
         ends: States that end it without success.
-        notes: What is not understood, by offset.
         is_partial: Whether transitions may be missing.
-        is_open: Whether it may use any other machine.
+        notes: What is not understood, by offset.
     """
 
     source: CppSource
     component: str
-    start: int
+    node: CppTree
     components: Mapping[str, str]
-    inputs: Inputs
+    conditions: Conditions
     graph: dict[str, set[str]]
     ends: set[str] = field(default_factory=set)
-    notes: list[tuple[int, str]] = field(default_factory=list)
     is_partial: bool = False
-    is_open: bool = False
+    notes: list[tuple[int, str]] = field(default_factory=list)
     design: Design = field(default_factory=lambda: Design(component=""))
-    _uses: dict[str, str] = field(default_factory=dict)
-    _aliases: DesignNames = field(default_factory=lambda: DesignNames(taken=frozenset({ALIAS})))
-    _decisions: list[tuple[Decision, int]] = field(default_factory=list)
-    _states: dict[str, int] = field(default_factory=dict)
+    _uses: dict[str, Use] = field(default_factory=dict)
+    _placed: list[tuple[Decision | State, int]] = field(default_factory=list)
 
-    def use(self, name: str, node: CppNode) -> str:
-        """The alias of another machine; "" if this one is not to use it, since machines cannot use each other in a cycle."""
+    def use(self, name: str, node: CppTree) -> str:
+        """The alias of another machine; "" if its use would close a cycle, which designs do not have."""
         component = self.components[name]
-        if component not in self._uses:
-            if self.component in self._find_used(component):
-                self.note(node, f"the use of {name} closes a cycle: it is left out")
-                return ""
-            self.graph.setdefault(self.component, set()).add(component)
-            self._uses[component] = self._aliases.allocate(component)
-        return self._uses[component]
+        if component not in self._uses and self.component in self._find_used(component):
+            self.notes.append((node.start, f"the use of {name} closes a cycle: it is left out"))
+            return ""
+        self.graph.setdefault(self.component, set()).add(component)
+        alias = DesignNames(frozenset({ALIAS})).allocate(component)
+        return self._uses.setdefault(component, Use(alias=alias, component=component)).alias
 
     def _find_used(self, component: str) -> set[str]:
         found, pending = {component}, [component]
@@ -61,26 +59,17 @@ class CppMachine:
         return found
 
     def uses(self) -> tuple[Use, ...]:
-        inputs = (Use(alias=ALIAS, component=self.inputs.component),) if self.inputs.declarations else ()
-        return (*inputs, *(Use(alias=alias, component=component) for component, alias in self._uses.items()))
+        inputs = (Use(alias=ALIAS, component=self.conditions.component),) if self.conditions.interface() else ()
+        return (*inputs, *self._uses.values())
 
-    def place(self, decision: Decision, node: CppNode) -> Decision:
-        self._decisions.append((decision, node.start))
-        return decision
-
-    def place_state(self, state: State, node: CppNode) -> State:
-        self._states.setdefault(state.name, node.start)
-        return state
-
-    def note(self, node: CppNode, text: str) -> None:
-        self.notes.append((node.start, text))
+    def place(self, placed: _Placed, node: CppTree) -> _Placed:
+        self._placed.append((placed, node.start))
+        return placed
 
     def locations(self) -> dict[DesignPath, SourceLocation]:
-        """The places of the machine, its states and decisions; the path of the machine is ("component",)."""
-        starts: dict[DesignPath, int] = {("component",): self.start}
-        starts |= {("states", name): start for name, start in self._states.items()}
-        by_id = {id(decision): start for decision, start in self._decisions}
-        starts |= {
-            each.path: by_id[id(each.decision)] for each in iter_decisions(self.design) if id(each.decision) in by_id
-        }
-        return {path: self.source.location(start) for path, start in starts.items()}
+        """The places of states, decisions, and of the machine itself as ("component",)."""
+        starts = {id(placed): start for placed, start in self._placed}
+        paths: dict[DesignPath, object] = {("states", state.name): state for state in self.design.states}
+        paths |= {each.path: each.decision for each in iter_decisions(self.design)}
+        found = {path: starts[id(each)] for path, each in paths.items() if id(each) in starts}
+        return {path: self.source.location(start) for path, start in {("component",): self.node.start, **found}.items()}

@@ -1,11 +1,11 @@
-"""C++ as a tree of brackets, with the place of each token. Comments and preprocessor lines are left out.
+"""C++ as a tree of brackets with the place of each token, without comments and preprocessor lines.
 
-Of `#if` … `#else`, only the first branch is read (the second one of `#if 0`), so that brackets stay balanced.
+Of `#if` … `#else`, only the first branch is read, of `#if 0` the second one: so brackets stay balanced.
 """
 
 import re
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from textwrap import dedent
@@ -15,7 +15,8 @@ from vicode.findings import Finding, SourceLocation, get_rule
 
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 _MAX_DEPTH = 100
-_DIRECTIVE = re.compile(r"\s*#\s*(if\w*|el\w+|endif)\s*(.*)")
+_DIRECTIVE = re.compile(r"\s*#\s*(if|el|endif)\w*\s*(.*)")
+_IN_TEMPLATES = frozenset({"<", ">", "::", ",", "*", "&"})
 
 
 class CppError(Exception):
@@ -27,56 +28,36 @@ class CppError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class CppNode:
+class CppTree:
     """A token, or brackets with what is in them; `text` is the token or the opening bracket."""
 
     text: str
     kind: str
     start: int
     end: int
-    children: tuple["CppNode", ...] = ()
-
-    @property
-    def is_word(self) -> bool:
-        return self.kind == WORD
-
-    def is_group(self, bracket: str) -> bool:
-        return self.kind == SIGN and self.text == bracket
+    children: tuple["CppTree", ...] = ()
 
 
 @dataclass(slots=True)
 class CppSource:
-    """A file.
-
-    Attributes:
-        unread: The offsets of the `#else` whose branches were not read.
-    """
+    """A file; `unread` are the offsets of the branches of the preprocessor that were not read."""
 
     path: Path
     text: str
-    nodes: tuple[CppNode, ...] = ()
+    nodes: tuple[CppTree, ...] = ()
     unread: list[int] = field(default_factory=list)
-    _lines: list[int] = field(default_factory=list)
+    lines: list[int] = field(default_factory=list)
 
-    def location(self, start: int, length: int = 1) -> SourceLocation:
-        line = self.line(start)
-        offset = self._lines[line - 1]
-        length = max(1, min(length, self.text.find("\n", start) % (len(self.text) + 1) - start))
-        return SourceLocation(file=str(self.path), line=line, column=start - offset + 1, length=length)
+    def location(self, start: int) -> SourceLocation:
+        self.lines = self.lines or [0, *(found.end() for found in re.finditer("\n", self.text))]
+        line = bisect_right(self.lines, start)
+        return SourceLocation(file=str(self.path), line=line, column=start - self.lines[line - 1] + 1)
 
-    def line(self, start: int) -> int:
-        if not self._lines:
-            self._lines += [0, *(found.end() for found in re.finditer("\n", self.text))]
-        return bisect_right(self._lines, start)
-
-    def slice(self, nodes: Sequence[CppNode]) -> str:
+    def slice(self, nodes: Sequence[CppTree]) -> str:
         """The text of neighboring nodes, without the indentation that all lines have."""
-        if not nodes:
-            return ""
-        start = self.text.rfind("\n", 0, nodes[0].start) + 1
-        is_first = not self.text[start : nodes[0].start].strip()
-        found = self.text[start if is_first else nodes[0].start : nodes[-1].end]
-        return "\n".join(line.rstrip() for line in dedent(found.expandtabs(4)).splitlines())
+        start, end = (nodes[0].start, nodes[-1].end) if nodes else (0, 0)
+        indentation = self.text[self.text.rfind("\n", 0, start) + 1 : start]
+        return dedent(("" if indentation.strip() else indentation) + self.text[start:end]).expandtabs(4)
 
 
 def read_source(path: Path, text: str) -> CppSource:
@@ -86,61 +67,58 @@ def read_source(path: Path, text: str) -> CppSource:
         CppError: Brackets do not match.
     """
     source = CppSource(path, text)
-    stack: list[tuple[CppToken | None, list[CppNode]]] = [(None, [])]
+    stack: list[tuple[CppToken, list[CppTree]]] = [(CppToken(SIGN, "", 0, 0), [])]
     for token in _iter_read(source):
-        if token.kind == SIGN and token.text in _CLOSING:
-            if len(stack) > _MAX_DEPTH:
-                raise CppError("brackets are nested too deeply", source.location(token.start))
+        if token.kind != SIGN or token.text not in "()[]{}":
+            stack[-1][1].append(CppTree(token.text, token.kind, token.start, token.end))
+        elif token.text in _CLOSING and len(stack) <= _MAX_DEPTH:
             stack.append((token, []))
-        elif token.kind == SIGN and token.text in ")]}":
+        elif _CLOSING.get(stack[-1][0].text) == token.text:
             opening, inside = stack.pop()
-            if opening is None or _CLOSING[opening.text] != token.text:
-                raise CppError(f"'{token.text}' closes nothing", source.location(token.start))
-            stack[-1][1].append(CppNode(opening.text, SIGN, opening.start, token.end, tuple(inside)))
+            stack[-1][1].append(CppTree(opening.text, SIGN, opening.start, token.end, tuple(inside)))
         else:
-            stack[-1][1].append(CppNode(token.text, token.kind, token.start, token.end))
-    opening, found = stack[-1]
-    if opening is not None:
-        raise CppError(f"'{opening.text}' is never closed", source.location(opening.start))
-    source.nodes = tuple(found)
+            problem = "is nested too deeply" if token.text in _CLOSING else "closes nothing"
+            raise CppError(f"'{token.text}' {problem}", source.location(token.start))
+    if len(stack) > 1:
+        raise CppError(f"'{stack[-1][0].text}' is never closed", source.location(stack[-1][0].start))
+    source.nodes = tuple(stack[0][1])
     return source
 
 
-def _iter_read(source: CppSource) -> "list[CppToken]":
-    """The tokens of the branches that are read."""
-    kept, branches = list[CppToken](), list[str]()
+def _iter_read(source: CppSource) -> Iterator[CppToken]:
+    branches = list[bool | None]()
     for token in iter_tokens(source.text):
-        found = _DIRECTIVE.match(token.text) if token.kind == DIRECTIVE else None
-        if found and found[1].startswith("if"):
-            branches.append("off" if found[2] in ("0", "false") else "on")
-        elif found and branches and found[1] == "endif":
-            branches.pop()
-        elif found and branches:
-            if branches[-1] == "on" and all(each == "on" for each in branches):
-                source.unread.append(token.start)
-            branches[-1] = "on" if branches[-1] == "off" else "done"
-        elif token.kind not in (COMMENT, DIRECTIVE) and all(each == "on" for each in branches):
-            kept.append(token)
-    return kept
+        if token.kind == DIRECTIVE and (found := _DIRECTIVE.match(token.text)):
+            if found[1] == "if":
+                branches.append(found[2] not in ("0", "false"))
+            elif branches:
+                was_read = branches.pop()
+                # None: a branch was read.
+                branches += [] if found[1] == "endif" else [True if was_read is False else None]
+                source.unread += [token.start] if branches and was_read and found[1] == "el" else []
+        elif token.kind not in (COMMENT, DIRECTIVE) and all(branches):
+            yield token
 
 
-def split(nodes: Sequence[CppNode], separator: str) -> list[tuple[CppNode, ...]]:
+def split(nodes: Sequence[CppTree], separator: str) -> list[tuple[CppTree, ...]]:
     """The parts between separators outside of brackets and template arguments; at least one."""
-    parts: list[list[CppNode]] = [[]]
+    places = [index for index in iter_plain(nodes) if nodes[index].text == separator]
+    return [tuple(nodes[a + 1 : b]) for a, b in zip([-1, *places], [*places, len(nodes)], strict=True)]
+
+
+def iter_plain(nodes: Sequence[CppTree]) -> Iterator[int]:
+    """The indices of nodes outside of template arguments."""
     index = 0
     while index < len(nodes):
         end = template_end(nodes, index)
-        if end == index and nodes[index].text == separator and nodes[index].kind in (SIGN, WORD):
-            parts.append([])
-        else:
-            parts[-1] += nodes[index : end + 1]
+        if end == index:
+            yield index
         index = end + 1
-    return [tuple(part) for part in parts]
 
 
-def template_end(nodes: Sequence[CppNode], index: int) -> int:
-    """The index of the `>` that closes the template arguments that start at `<`; the index itself for anything else."""
-    if nodes[index].text != "<" or not index or not nodes[index - 1].is_word:
+def template_end(nodes: Sequence[CppTree], index: int) -> int:
+    """The index of the `>` of the template arguments that start at an index; the index itself if none do."""
+    if nodes[index].text != "<" or not index or nodes[index - 1].kind != WORD:
         return index
     depth = 0
     for place in range(index, len(nodes)):
@@ -148,31 +126,21 @@ def template_end(nodes: Sequence[CppNode], index: int) -> int:
         depth += (text == "<") - (text == ">")
         if not depth:
             after = nodes[place + 1].text if place + 1 < len(nodes) else ""
-            return (
-                place
-                if after in ("(", "::", "{") or nodes[index - 1].text.endswith(("_cast", "state", "event"))
-                else index
-            )
-        if nodes[place].kind not in (WORD, NUMBER) and text not in ("<", ">", "::", ",", "*", "&"):
-            return index
+            return place if after in ("(", "::", "{") or nodes[index - 1].text in ("state", "event") else index
+        if nodes[place].kind not in (WORD, NUMBER) and text not in _IN_TEMPLATES:
+            break
     return index
 
 
-def words(nodes: Sequence[CppNode]) -> set[str]:
+def words(nodes: Sequence[CppTree]) -> set[str]:
     """All words in a text."""
-    found = {node.text for node in nodes if node.is_word}
-    return found.union(*(words(node.children) for node in nodes))
+    return {node.text for node in nodes if node.kind == WORD}.union(*(words(node.children) for node in nodes))
 
 
-def compact(nodes: Sequence[CppNode]) -> str:
-    """The tokens with spaces only where they are needed or usual: equal texts have equal tokens."""
+def compact(nodes: Sequence[CppTree]) -> str:
+    """A text with few spaces: equal tokens give equal texts."""
     text = ""
     for node in nodes:
         inside = f"{node.text}{compact(node.children)}{_CLOSING[node.text]}" if node.text in _CLOSING else node.text
-        is_wide = text[-1:].isalnum() and (inside[0].isalnum() or inside[0] == "_")
-        text += (
-            f" {inside} "
-            if node.kind == SIGN and len(node.text) == 2 and node.text not in ("::", "->", "++", "--")
-            else f"{' ' * is_wide}{inside}"
-        )
+        text += f" {inside}" if re.search(r"[\w,&|=]$", text) and re.match(r"[\w&|=!]", inside) else inside
     return text
