@@ -10,10 +10,10 @@ from vicode.cpp_tokens import COMMENT, iter_tokens
 from vicode.findings import DesignPath, Finding, SourceLocation
 from vicode.importers import ImportedDesign, ImportNote, ImportResult
 from vicode.importers.cpp.cabsl import iter_options, read_option
-from vicode.importers.cpp.conditions import ALIAS, Conditions
+from vicode.importers.cpp.conditions import ALIAS, Conditions, EnumTypes
 from vicode.importers.cpp.machine import CppMachine
 from vicode.importers.cpp.sml import TABLE, Table, find_macros, iter_tables, read_table
-from vicode.importers.cpp.tree import CppError, CppTree, CppSource, read_source
+from vicode.importers.cpp.tree import CppError, CppSource, CppTree, read_source
 from vicode.importers.design_names import DesignNames
 from vicode.model.project import Project
 
@@ -67,11 +67,12 @@ def import_cpp(texts: Mapping[Path, str], name: str) -> CppImport:
     components = {each: names.allocate(each) for each in dict.fromkeys(node.text for _source, node, _body in found)}
     macros = {macro: about for text in texts.values() for macro, about in find_macros(text).items()}
     machines: dict[str, CppMachine] = {}
-    for machine in _read(found, components, names, macros):
+    types = EnumTypes(names=names)
+    for machine in _read(found, components, types, macros):
         machines.setdefault(machine.component, machine)
     options = {node.text for _source, node, body in found if not isinstance(body, Table)}
     return CppImport(
-        result=_result(machines, name),
+        result=_result(machines, types, name),
         machines=machines,
         places={component: machine.locations() for component, machine in machines.items()},
         unused=tuple(components[each] for each in _find_unused(options, texts.values())),
@@ -80,12 +81,12 @@ def import_cpp(texts: Mapping[Path, str], name: str) -> CppImport:
 
 
 def _read(
-    found: Iterable[_Found], components: Mapping[str, str], names: DesignNames, macros: Mapping[str, tuple[str, str]]
+    found: Iterable[_Found], components: Mapping[str, str], types: EnumTypes, macros: Mapping[str, tuple[str, str]]
 ) -> Iterator[CppMachine]:
     graph: dict[str, set[str]] = {}
     for source, node, body in found:
         name = components[node.text]
-        conditions = Conditions(machine=name, component=names.allocate(f"{name}Inputs"), types=names)
+        conditions = Conditions(machine=name, component=types.names.allocate(f"{name}Inputs"), types=types)
         machine = CppMachine(
             source=source, component=name, node=node, components=components, conditions=conditions, graph=graph
         )
@@ -113,7 +114,7 @@ def _find_unused(options: set[str], texts: Iterable[str]) -> list[str]:
     return sorted(name for name in options if mentioned[name] <= declared[name])
 
 
-def _result(machines: Mapping[str, CppMachine], name: str) -> ImportResult:
+def _result(machines: Mapping[str, CppMachine], types: EnumTypes, name: str) -> ImportResult:
     # The regions of a table have the same inputs and notes.
     inputs = {each.conditions.component: each.conditions for each in machines.values()}.values()
     notes = {
@@ -124,7 +125,7 @@ def _result(machines: Mapping[str, CppMachine], name: str) -> ImportResult:
     project = Project(
         name=name,
         languages=("cpp",),
-        enumerations=tuple(each for conditions in inputs for each in conditions.enumerations()),
+        enumerations=tuple(types.declared()),
         components=tuple(each for conditions in inputs if (each := conditions.interface())),
         designs=tuple(machine.design for machine in machines.values()),
     )

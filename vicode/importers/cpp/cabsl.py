@@ -186,7 +186,7 @@ class _OptionReader:
         branches = [self._block(nodes[start + 1 : end]), self._block(nodes[end + 1 :])]
         broke = any(each for _decisions, each in branches)
         # After a `break`, what follows is only reached by the other branch.
-        after = self._block(rest)[0] if broke else []
+        after = _until_end(self._block(rest)[0]) if broke else []
         then, other = ([*decisions, *([] if is_broken else after)] for decisions, is_broken in branches)
         return self._choose(nodes[0], condition, then, other), broke
 
@@ -221,9 +221,8 @@ class _OptionReader:
         for start, tests in cases.items():
             other = negate(join(ast.Or(), named)) if named else ast.Constant(True)
             then, _broke = self._block(statements[start:])
-            # What follows an unconditional `goto` belongs to the next cases.
-            length = next((number for number, each in enumerate(then, start=1) if _is_end(each)), len(then))
-            found += self._choose(node, join(ast.Or(), [test or other for test in tests]), then[:length], [])
+            test = join(ast.Or(), [test or other for test in tests])
+            found += self._choose(node, test, _until_end(then), [])
         return found
 
     def _other(self, nodes: Sequence[CppTree]) -> list[Decision]:
@@ -239,6 +238,12 @@ class _OptionReader:
 
 def _is_end(decision: Decision) -> bool:
     return not isinstance(decision, DecisionGroup) and decision.guard.is_empty
+
+
+def _until_end(decisions: list[Decision]) -> list[Decision]:
+    """Decisions of a case up to an unconditional `goto`: what follows belongs to the next cases."""
+    length = next((number for number, each in enumerate(decisions, start=1) if _is_end(each)), len(decisions))
+    return decisions[:length]
 
 
 def _find_gotos(nodes: Sequence[CppTree]) -> Iterator[str]:

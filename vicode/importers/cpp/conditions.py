@@ -7,7 +7,7 @@ or assigned in between, or the text itself assigns. Expressions are Python trees
 
 import ast
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from vicode.cpp_tokens import NUMBER, WORD
@@ -23,13 +23,19 @@ _MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 ASSIGNING = frozenset({"=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "++", "--"})
 _LOWER = ASSIGNING - {"++", "--"} | {"?", "&", "|", "^", ","}
 _NUMBER = re.compile(
-    r"(0|[1-9][\d']*|(?:\d[\d']*)?\.\d*(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+)(?:[fFlLuUzZ]{1,3}|_?([A-Za-z]\w*))?"
+    r"(0(?![xXbB])|[1-9][\d']*|(?:\d[\d']*)?\.\d*(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+)(?:[fFlLuUzZ]{1,3}|_?([A-Za-z]\w*))?"
 )
 _MAX_NAME = 48
+_OTHER = "other_value"
 
 
 def negate(condition: ast.expr) -> ast.expr:
-    return condition.operand if isinstance(condition, ast.UnaryOp) else ast.UnaryOp(ast.Not(), condition)
+    match condition:
+        case ast.UnaryOp(ast.Not(), operand):
+            return operand
+        case ast.Compare(left, [ast.Eq()], values):
+            return ast.Compare(left, [ast.NotEq()], values)
+    return ast.UnaryOp(ast.Not(), condition)
 
 
 def join(operator: ast.boolop, conditions: list[ast.expr]) -> ast.expr:
@@ -41,12 +47,33 @@ def to_guard(condition: ast.expr) -> Guard:
 
 
 @dataclass(slots=True, kw_only=True)
+class EnumTypes:
+    """The enumerations of all machines: the name of each and its elements by their names in C++."""
+
+    names: DesignNames
+    _found: dict[str, tuple[str, dict[str, str]]] = field(default_factory=dict)
+
+    def element(self, type_: str, element: str) -> tuple[str, str]:
+        """The names of a type and of an element of it."""
+        if type_ not in self._found:
+            self._found[type_] = (self.names.allocate(type_), {})
+        name, elements = self._found[type_]
+        if element not in elements:
+            elements[element] = DesignNames(frozenset({_OTHER, *elements.values()})).allocate(element)
+        return name, elements[element]
+
+    def declared(self) -> Iterator[Enumeration]:
+        for name, elements in self._found.values():
+            pairs = [(_OTHER, "any value that no condition mentions"), *((each, "") for each in elements.values())]
+            yield Enumeration(name=name, elements=tuple(pairs))
+
+
+@dataclass(slots=True, kw_only=True)
 class Conditions:
     """The conditions of a machine, and the inputs that they read.
 
     Attributes:
         component: The name of the component that provides the inputs.
-        types: Allocates the names of enumerations.
         changing: Words whose values the machine changes itself.
         unfixed: The inputs that may change while the world stands still.
         versions: Words that were declared or assigned in the block that is read, with the place of that.
@@ -56,27 +83,19 @@ class Conditions:
 
     machine: str
     component: str
-    types: DesignNames
+    types: EnumTypes
     changing: Collection[str] = ()
     unfixed: set[str] = field(default_factory=set)
     versions: dict[str, int] = field(default_factory=dict)
     done: str = ""
     spellings: dict[str, str] = field(default_factory=dict)
     _inputs: dict[tuple[str, ...], Declaration] = field(default_factory=dict)
-    _elements: dict[str, dict[str, str]] = field(default_factory=dict)
     _names: DesignNames = field(default_factory=DesignNames)
 
     def interface(self) -> Interface | None:
         doc = f"What the conditions of {self.machine} read, with their C++ texts."
         outputs = tuple(self._inputs.values())
         return Interface(component=self.component, doc=doc, implementation=WORLD, outputs=outputs) if outputs else None
-
-    def enumerations(self) -> list[Enumeration]:
-        """The first element of each stands for all values that are not mentioned."""
-        return [
-            Enumeration(name=name, elements=(("other_value", ""), *((element, "") for element in elements.values())))
-            for name, elements in self._elements.items()
-        ]
 
     def change(self, nodes: Sequence[CppTree]) -> None:
         """Note that a statement gives new values to the words in it."""
@@ -108,7 +127,8 @@ class Conditions:
         if sign in ("==", "!=") and second in ("true", "false", "nullptr", "NULL"):
             return self.read(left) if (second == "true") == (sign == "==") else negate(self.read(left))
         if sign in ("==", "!=") and _is_enumerator(right):
-            equal = self.element(left, first, right[-1].text)
+            type_ = right[-3].text if len(right) > 2 else f"{self.machine}_{_stem(first)}"
+            equal = self.element(left, first, type_, right[-1].text)
         elif sign in ("==", "!="):
             low, high = sorted((first, second))
             equal = _parse(self._input("bool", (*left, *right), f"{low} == {high}"))
@@ -118,14 +138,10 @@ class Conditions:
             equal = _parse(self._input("bool", (*left, *right), f"{low} < {high}"))
         return negate(equal) if sign in ("!=", "<=", ">=") else equal
 
-    def element(self, nodes: Sequence[CppTree], text: str, element: str) -> ast.expr:
+    def element(self, nodes: Sequence[CppTree], text: str, type_: str, element: str) -> ast.expr:
         """Whether an input has a value of an enumeration."""
-        name = self._input("", nodes, text)
-        (type_,) = (each.type for each in self._inputs.values() if f"{ALIAS}.{each.name}" == name)
-        elements = self._elements.setdefault(type_, {})
-        if element not in elements:
-            elements[element] = DesignNames(taken=frozenset({"other_value", *elements.values()})).allocate(element)
-        return _parse(f"{name} == {type_}.{elements[element]}")
+        name, value = self.types.element(type_, element)
+        return _parse(f"{self._input(name, nodes, text)} == {name}.{value}")
 
     def flag(self, text: str, *place: str) -> ast.expr:
         """A bool input; with a place, nothing is known about it, not even that it is the same the next time."""
@@ -139,7 +155,7 @@ class Conditions:
         return _parse(known.get(text) or self._input("bool", nodes, self.spellings.get(text, text)))
 
     def _input(self, type_: str, nodes: Sequence[CppTree], text: str, unit: str = "") -> str:
-        """The name of an input that stands for a text; without type, it is an enumeration of its own."""
+        """The name of an input that stands for a text."""
         found = words(nodes)
         place = [f"{word} {self.versions[word]}" for word in sorted(found & self.versions.keys())]
         place += [str(nodes[0].start)] if _assigns(nodes) else []
@@ -149,14 +165,14 @@ class Conditions:
     def _add(self, type_: str, text: str, key: tuple[str, ...], *, is_fixed: bool, unit: str = "") -> str:
         key = (type_, text, *key)
         if key not in self._inputs:
-            stem = re.sub(r"\W+", "_", text.replace("==", "is").replace("<", "below"))[:_MAX_NAME]
-            name, type_name = (
-                self._names.allocate(stem),
-                type_ or self.types.allocate(f"{self.machine}_{stem.strip('_')}"),
-            )
-            self._inputs[key] = Declaration(name=name, type=type_name, doc=text, unit=unit)
+            name = self._names.allocate(_stem(text))
+            self._inputs[key] = Declaration(name=name, type=type_, doc=text, unit=unit)
             self.unfixed |= set() if is_fixed else {name}
         return f"{ALIAS}.{self._inputs[key].name}"
+
+
+def _stem(text: str) -> str:
+    return re.sub(r"\W+", "_", text.replace(" == ", "_is_").replace(" < ", "_below_"))[:_MAX_NAME].strip("_")
 
 
 def _parse(text: str) -> ast.expr:

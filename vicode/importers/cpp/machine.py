@@ -6,12 +6,12 @@ from typing import TypeVar
 
 from vicode.findings import DesignPath, SourceLocation
 from vicode.importers.cpp.conditions import ALIAS, Conditions
-from vicode.importers.cpp.tree import CppTree, CppSource
+from vicode.importers.cpp.tree import CppSource, CppTree
 from vicode.importers.design_names import DesignNames
-from vicode.model.design import Decision, DecisionGroup, Design, State, Stay, Transition, Use
+from vicode.model.design import Decision, Design, State, Use
 from vicode.model.traversal import iter_decisions
 
-_Placed = TypeVar("_Placed", Transition, Stay, DecisionGroup, State)
+_Placed = TypeVar("_Placed", bound=Decision | State)
 
 
 @dataclass(slots=True, kw_only=True)

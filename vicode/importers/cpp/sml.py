@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from vicode.cpp_tokens import STRING, WORD
 from vicode.importers.cpp.conditions import join, to_guard
 from vicode.importers.cpp.machine import CppMachine
-from vicode.importers.cpp.tree import CppTree, compact, split, template_end
+from vicode.importers.cpp.tree import CppTree, compact, split
 from vicode.model.design import Code, Decision, Design, Guard, RunCode, State, Stay, Transition
 from vicode.model.names import is_valid_state_name
 
@@ -124,7 +124,12 @@ class _TableReader:
         targets = [self._name(each) for each in (*first, *last)]
         is_event = not events or (event is not None and event[0] not in ("", "state"))
         are_states = all(each is not None and each[0] == "state" for each in (start, *targets))
-        if start is None or not is_event or not are_states or max(map(len, (targets, actions, events, guards))) > 1:
+        if (
+            start is None
+            or not is_event
+            or not are_states
+            or max(len(targets), len(actions), len(events), len(guards)) > 1
+        ):
             self._machine.is_partial = True
             self._note(nodes, "not a row that is understood")
             return None
@@ -190,7 +195,7 @@ class _TableReader:
         return (
             self._machine.conditions.flag(name)
             if len(events) == 1
-            else self._machine.conditions.element((), "event", name)
+            else self._machine.conditions.element((), "event", f"{self._machine.component}Event", name)
         )
 
 

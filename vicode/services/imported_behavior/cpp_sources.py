@@ -9,6 +9,7 @@ from vicode.check.behavior import check_behavior
 from vicode.findings import DesignPath, Finding, FindingSubject, get_rule, sort_findings
 from vicode.importers.cpp import ALIAS, CPP_SUFFIXES, CppImport, contains_machines, import_cpp
 from vicode.model.design import Call, Design
+from vicode.model.project import Project
 from vicode.model.traversal import find_decision
 from vicode.services.imported_behavior.behavior_check import locate_finding
 from vicode.store import find_projects
@@ -53,7 +54,7 @@ def _read(file: Path) -> str:
 def find_in_cpp(imported: CppImport) -> tuple[Finding, ...]:
     """The findings about machines, located in the C++ files, without those that the import causes."""
     project = imported.result.project
-    plain = replace(project, designs=tuple(_without_code(design) for design in project.designs))
+    plain = without_code(project)
     found = [each for each in check_behavior(plain) if each.rule.code in _CODES and _is_meant(each, imported)]
     for name in imported.unused:
         subject = FindingSubject(component=name, path=("component",))
@@ -62,8 +63,12 @@ def find_in_cpp(imported: CppImport) -> tuple[Finding, ...]:
     return sort_findings([*imported.errors, *(locate_finding(each, imported.places) for each in found)])
 
 
-def _without_code(design: Design) -> Design:
-    """A design without C++ texts, which have no meaning for it."""
+def without_code(project: Project) -> Project:
+    """A project without C++ texts, which have no meaning for designs."""
+    return replace(project, designs=tuple(_keep_calls(design) for design in project.designs))
+
+
+def _keep_calls(design: Design) -> Design:
     calls = {state.name: tuple(each for each in state.actions if isinstance(each, Call)) for state in design.states}
     states = (replace(state, enter=(), leave=(), actions=calls[state.name]) for state in design.states)
     return replace(design, states=tuple(states))
