@@ -171,16 +171,19 @@ def sml_main(count: int) -> str:
 
 
 def sml_machines(seed: int, count: int) -> Iterator[str]:
-    """Classes `M0` … with random tables of four states and two events."""
+    """Classes `M0` … with random tables of four states, two events, and a row without event."""
     chooser = random.Random(seed)
     for number in range(count):
         rows = [f'*"s0"_s + event<go> / hop = "s{chooser.randint(1, 3)}"_s']
-        for _ in range(9):
+        if number % 2:
+            rows.append('"s3"_s = "s0"_s')
+        for _ in range(14):
             source, target = chooser.randint(0, 3), chooser.randint(0, 3)
             guard = chooser.choice(["", "[first]", "[!first]", "[first && !second]", "[!(first || second)]"])
             does = chooser.choice(["", " / hop", " / [] { int X = 1; (void)X; }"])
             leads = chooser.choice(["", f' = "s{target}"_s', f' = "s{target}"_s'])
             event = chooser.choice(["go", "halt"])
+            does = does if does or leads else " / hop"
             rows.append(f'"s{source}"_s + event<{event}> {guard}{does}{leads}')
-        table = "\n    , ".join(rows)
+        table = "\n    , ".join(dict.fromkeys(rows))
         yield f"struct M{number} {{ auto operator()() const {{\n  return make_transition_table(\n      {table}); }} }};\n"
