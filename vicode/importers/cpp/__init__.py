@@ -20,7 +20,7 @@ from vicode.model.project import Project
 __all__ = ["ALIAS", "CPP_SUFFIXES", "CppImport", "contains_machines", "import_cpp"]
 
 CPP_SUFFIXES = frozenset({".h", ".hh", ".hpp", ".hxx", ".c", ".cc", ".cpp", ".cxx", ".inl", ".ipp"})
-_MACHINE = re.compile(rf"\boption\s*\(|\b{TABLE}\s*\(")
+_MACHINE = re.compile(rf"\boption\s*[({{]|\b{TABLE}\s*\(")
 _DECLARATION = re.compile(r"\boption\s*\(\s*(?:\(\s*\w+\s*\)\s*)?(\w+)")
 _Found = tuple[CppSource, CppTree, tuple[CppTree, CppTree] | Table]
 

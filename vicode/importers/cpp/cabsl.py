@@ -12,7 +12,7 @@ from itertools import pairwise
 from vicode.cpp_tokens import WORD
 from vicode.importers.cpp.conditions import ASSIGNING, Conditions, join, negate, to_guard
 from vicode.importers.cpp.machine import CppMachine
-from vicode.importers.cpp.tree import CppTree, compact, split, words
+from vicode.importers.cpp.tree import CppTree, class_name, compact, split, words
 from vicode.model.design import (
     Call,
     Code,
@@ -30,15 +30,17 @@ _STATES = frozenset({"initial_state", "state", "target_state", "aborted_state"})
 _MAX_SHOWN = 60
 
 
-def iter_options(nodes: Sequence[CppTree]) -> Iterator[tuple[CppTree, CppTree, CppTree]]:
-    """Yield the name, the head and the body of each option that has a body."""
+def iter_options(nodes: Sequence[CppTree], owner: CppTree | None = None) -> Iterator[tuple[CppTree, CppTree, CppTree]]:
+    """Yield the name, the head and the body of each option that has a body; without a name, it has that of its class."""
     for index, node in enumerate(nodes):
         head, body = (*nodes[index + 1 : index + 3], node, node)[:2]
-        name = next((each for each in head.children if each.kind == WORD), None)
-        if node.text == "option" and head.text == "(" and name and body.text == "{" and words(body.children) & _STATES:
+        if head.text == "{":
+            head, body = replace(head, children=()), head
+        name = next((each for each in head.children if each.kind == WORD), owner)
+        if node.text == "option" and head.text in "({" and name and words(body.children) & _STATES:
             yield name, head, body
         elif node.text == "{":
-            yield from iter_options(node.children)
+            yield from iter_options(node.children, class_name(nodes, index) or owner)
 
 
 def read_option(machine: CppMachine, head: CppTree, body: CppTree) -> None:

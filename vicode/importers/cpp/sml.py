@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from vicode.cpp_tokens import STRING, WORD
 from vicode.importers.cpp.conditions import join, to_guard
 from vicode.importers.cpp.machine import CppMachine
-from vicode.importers.cpp.tree import CppTree, compact, split
+from vicode.importers.cpp.tree import CppTree, class_name, compact, split
 from vicode.model.design import Code, Decision, Design, Guard, RunCode, State, Stay, Transition
 from vicode.model.names import is_valid_state_name
 
@@ -66,18 +66,7 @@ def iter_tables(nodes: Sequence[CppTree], name: CppTree | None = None) -> Iterat
         following = nodes[index + 1] if index + 1 < len(nodes) else node
         if node.text == TABLE and following.text == "(" and following.children and name is not None:
             yield Table(name, tuple(row for row in split(following.children, ",") if row), nodes)
-        start = max((n + 1 for n in range(index) if nodes[n].text in (";", "{")), default=0)
-        yield from iter_tables(node.children, (node.text == "{" and _class_name(nodes[start:index])) or name)
-
-
-def _class_name(nodes: Sequence[CppTree]) -> CppTree | None:
-    """The name of the class whose body or `operator()` follows."""
-    for before, node in zip(nodes, nodes[1:], strict=False):
-        if before.text in ("struct", "class") and node.kind == WORD:
-            return node
-        if node.text == "::" and any(each.text == "operator" for each in nodes):
-            return before
-    return None
+        yield from iter_tables(node.children, class_name(nodes, index) or name)
 
 
 def read_table(machine: CppMachine, table: Table, macros: Mapping[str, _Name]) -> Iterator[CppMachine]:

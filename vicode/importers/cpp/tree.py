@@ -7,6 +7,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 from textwrap import dedent
 
@@ -130,6 +131,18 @@ def template_end(nodes: Sequence[CppTree], index: int) -> int:
         if nodes[place].kind not in (WORD, NUMBER) and text not in _IN_TEMPLATES:
             break
     return index
+
+
+def class_name(nodes: Sequence[CppTree], index: int) -> CppTree | None:
+    """The name of the class whose body, or whose `operator()`, is the node at an index; None for other nodes."""
+    start = max((place + 1 for place in range(index) if nodes[place].text in (";", "{")), default=0)
+    head = nodes[start:index] if nodes[index].text == "{" else ()
+    for before, node in pairwise(head):
+        if before.text in ("struct", "class") and node.kind == WORD:
+            return node
+        if node.text == "::" and any(each.text == "operator" for each in head):
+            return before
+    return None
 
 
 def words(nodes: Sequence[CppTree]) -> set[str]:

@@ -58,7 +58,8 @@ def find_in_cpp(imported: CppImport) -> tuple[Finding, ...]:
     found = [each for each in check_behavior(plain) if each.rule.code in _CODES and _is_meant(each, imported)]
     for name in imported.unused:
         subject = FindingSubject(component=name, path=("component",))
-        message, fix = f"nothing in these files calls {name}", "call it, or delete it"
+        message = f"nothing in these files calls {name}"
+        fix = "call it or delete it, unless a configuration file names it"
         found.append(Finding(rule=get_rule("P214"), message=message, fix=fix, subject=subject))
     return sort_findings([*imported.errors, *(locate_finding(each, imported.places) for each in found)])
 
