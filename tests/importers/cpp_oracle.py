@@ -1,4 +1,4 @@
-"""Runs random state machines as C++ programs, with small definitions of CABSL and boost::sml written for these tests."""
+"""Runs random state machines as C++ programs, with small definitions of CABSL and boost::sml."""
 
 import random
 import subprocess
@@ -14,7 +14,8 @@ struct Field { int flags[4]; double numbers[2]; Mode mode;
   bool seen(int n) const { return flags[n]; } double x(int n) const { return numbers[n]; } };
 static Field theField;
 static int now, before = -1, subType;
-struct Context { int state = 0, type = 0, sub = 0, start = 0, entered = 0, last = -2; bool moved = false; const char* shown = "";
+struct Context { int state = 0, type = 0, sub = 0, start = 0, entered = 0, last = -2; bool moved = false;
+  const char* shown = "";
   void begin() { if(last != before && last != now) { start = entered = now; state = type = sub = 0; } moved = false; }
   void enter(int to, int kind) { moved = true; if(state != to) { state = to; entered = now; type = kind; } }
   void end() { last = now; sub = subType; subType = type; } };
@@ -50,7 +51,8 @@ struct halt { static const char* name() { return "halt"; } };
 struct Event { std::string name; Guard guard; Event operator[](Guard g) const { return {name, g}; }
   template<class A> Event operator/(A) const { return *this; } };
 struct State;
-struct Row { std::string source, event, target; Guard guard; bool initial = false; Row operator=(const State& to) const; };
+struct Row { std::string source, event, target; Guard guard; bool initial = false;
+  Row operator=(const State& to) const; };
 struct State { std::string name; bool initial = false; Guard guard = {};
   State operator*() const { return {name, true, guard}; } State operator[](Guard g) const { return {name, initial, g}; }
   Row operator+(Event e) const { return {name, e.name, "", e.guard, initial}; }
@@ -186,4 +188,5 @@ def sml_machines(seed: int, count: int) -> Iterator[str]:
             does = does if does or leads else " / hop"
             rows.append(f'"s{source}"_s + event<{event}> {guard}{does}{leads}')
         table = "\n    , ".join(dict.fromkeys(rows))
-        yield f"struct M{number} {{ auto operator()() const {{\n  return make_transition_table(\n      {table}); }} }};\n"
+        body = f"return make_transition_table(\n      {table});"
+        yield f"struct M{number} {{ auto operator()() const {{\n  {body} }} }};\n"

@@ -171,7 +171,8 @@ def test_conditions_are_translated(condition: str, guard: str) -> None:
 
 def test_inputs_have_the_texts_and_units_of_the_source() -> None:
     imported = read(
-        "option(Walk) { initial_state(a) { transition { if(theBall . seen( 300 ) && angle > 10_deg) goto b; } } state(b) {} }"
+        "option(Walk) { initial_state(a) { transition {\n"
+        "if(theBall . seen( 300 ) && angle > 10_deg) goto b; } } state(b) {} }"
     )
     (interface,) = imported.result.project.components
     assert [(each.doc, each.type, each.unit) for each in interface.outputs] == [
@@ -314,7 +315,9 @@ struct Shoot {
       process(this));
   }
 };
-class Walk final : public Base { auto operator()() const { return sml::make_transition_table(*"go"_s + event<tick> = X); } };
+class Walk final : public Base {
+  auto operator()() const { return sml::make_transition_table(*"go"_s + event<tick> = X); }
+};
 """
 
 

@@ -7,21 +7,22 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from vicode.cpp_tokens import COMMENT, iter_tokens
-from vicode.findings import DesignPath, Finding, SourceLocation
+from vicode.findings import Finding
 from vicode.importers import ImportedDesign, ImportNote, ImportResult
 from vicode.importers.cpp.cabsl import iter_options, read_option
-from vicode.importers.cpp.conditions import ALIAS, Conditions, EnumTypes
+from vicode.importers.cpp.conditions import ALIAS, Conditions
 from vicode.importers.cpp.machine import CppMachine
 from vicode.importers.cpp.sml import TABLE, Table, find_macros, iter_tables, read_table
 from vicode.importers.cpp.tree import CppError, CppSource, CppTree, read_source
 from vicode.importers.design_names import DesignNames
-from vicode.model.project import Project
+from vicode.model.project import Enumeration, Project
 
 __all__ = ["ALIAS", "CPP_SUFFIXES", "CppImport", "contains_machines", "import_cpp"]
 
 CPP_SUFFIXES = frozenset({".h", ".hh", ".hpp", ".hxx", ".c", ".cc", ".cpp", ".cxx", ".inl", ".ipp"})
 _MACHINE = re.compile(rf"\boption\s*[({{]|\b{TABLE}\s*\(")
 _DECLARATION = re.compile(r"\boption\s*\(\s*(?:\(\s*\w+\s*\)\s*)?(\w+)")
+_Types = dict[str, tuple[str, list[str]]]
 _Found = tuple[CppSource, CppTree, tuple[CppTree, CppTree] | Table]
 
 
@@ -30,14 +31,12 @@ class CppImport:
     """The machines of C++ files as a project.
 
     Attributes:
-        places: The places of the design and of its states and decisions, by component.
         unused: Options that nothing mentions; none if options are chosen at run time.
         errors: Files that cannot be read.
     """
 
     result: ImportResult
     machines: Mapping[str, CppMachine]
-    places: Mapping[str, Mapping[DesignPath, SourceLocation]]
     unused: tuple[str, ...]
     errors: tuple[Finding, ...]
 
@@ -63,30 +62,32 @@ def import_cpp(texts: Mapping[Path, str], name: str) -> CppImport:
             continue
         found += ((source, each[0], each[1:]) for each in iter_options(source.nodes))
         found += ((source, each.name, each) for each in iter_tables(source.nodes))
-    names = DesignNames()
+    names, types = DesignNames(), _Types()
     components = {each: names.allocate(each) for each in dict.fromkeys(node.text for _source, node, _body in found)}
     macros = {macro: about for text in texts.values() for macro, about in find_macros(text).items()}
     machines: dict[str, CppMachine] = {}
-    types = EnumTypes(names=names)
-    for machine in _read(found, components, types, macros):
+    for machine in _read(found, components, macros, names, types):
         machines.setdefault(machine.component, machine)
     options = {node.text for _source, node, body in found if not isinstance(body, Table)}
     return CppImport(
         result=_result(machines, types, name),
         machines=machines,
-        places={component: machine.locations() for component, machine in machines.items()},
         unused=tuple(components[each] for each in _find_unused(options, texts.values())),
         errors=tuple(errors),
     )
 
 
 def _read(
-    found: Iterable[_Found], components: Mapping[str, str], types: EnumTypes, macros: Mapping[str, tuple[str, str]]
+    found: Iterable[_Found],
+    components: Mapping[str, str],
+    macros: Mapping[str, tuple[str, str]],
+    names: DesignNames,
+    types: _Types,
 ) -> Iterator[CppMachine]:
     graph: dict[str, set[str]] = {}
     for source, node, body in found:
         name = components[node.text]
-        conditions = Conditions(machine=name, component=types.names.allocate(f"{name}Inputs"), types=types)
+        conditions = Conditions(machine=name, component=names.allocate(f"{name}Inputs"), names=names, types=types)
         machine = CppMachine(
             source=source, component=name, node=node, components=components, conditions=conditions, graph=graph
         )
@@ -114,7 +115,7 @@ def _find_unused(options: set[str], texts: Iterable[str]) -> list[str]:
     return sorted(name for name in options if mentioned[name] <= declared[name])
 
 
-def _result(machines: Mapping[str, CppMachine], types: EnumTypes, name: str) -> ImportResult:
+def _result(machines: Mapping[str, CppMachine], types: _Types, name: str) -> ImportResult:
     # The regions of a table have the same inputs and notes.
     inputs = {each.conditions.component: each.conditions for each in machines.values()}.values()
     notes = {
@@ -125,7 +126,10 @@ def _result(machines: Mapping[str, CppMachine], types: EnumTypes, name: str) -> 
     project = Project(
         name=name,
         languages=("cpp",),
-        enumerations=tuple(types.declared()),
+        enumerations=tuple(
+            Enumeration(name=each, elements=tuple((element, "") for element in elements))
+            for each, elements in types.values()
+        ),
         components=tuple(each for conditions in inputs if (each := conditions.interface())),
         designs=tuple(machine.design for machine in machines.values()),
     )

@@ -1,7 +1,7 @@
 """Reads options of CABSL, the C-based agent behavior specification language.
 
-An option is a design with the same rules: the first `goto` of the common transition, else of the active state, is taken,
-then the action block runs. The design calls the options that an action block may call, and keeps its C++ text.
+An option is a design with the same rules: the first `goto` of the common transition, else of the active state, is
+taken, then the action block runs. The design calls the options that an action block may call, and keeps its C++ text.
 """
 
 import ast
@@ -27,11 +27,12 @@ from vicode.model.design import (
 )
 
 _STATES = frozenset({"initial_state", "state", "target_state", "aborted_state"})
+_PARTS = frozenset({"common_transition", "transition", "action"})
 _MAX_SHOWN = 60
 
 
 def iter_options(nodes: Sequence[CppTree], owner: CppTree | None = None) -> Iterator[tuple[CppTree, CppTree, CppTree]]:
-    """Yield the name, the head and the body of each option that has a body; without a name, it has that of its class."""
+    """Yield the name, the head and the body of each option that has one; without a name, it has that of its class."""
     for index, node in enumerate(nodes):
         head, body = (*nodes[index + 1 : index + 3], node, node)[:2]
         if head.text == "{":
@@ -50,21 +51,17 @@ def read_option(machine: CppMachine, head: CppTree, body: CppTree) -> None:
     declared = {each[-1].text for group in variables for each in split(group.children, ",") if each}
     machine.conditions.changing = declared | set(_find_assigned(body.children))
     reader, initial, common, states = _OptionReader(machine, body.children), "", list[Decision](), list[State]()
-    index, nodes = 0, body.children
-    while index < len(nodes):
-        end = _statement_end(nodes, index)
-        if nodes[index].text == "common_transition":
-            end = _statement_end(nodes, index + 1)
-            common += reader.read(nodes[index + 1 : end])
-        elif nodes[index].text in _STATES and len(nodes) > index + 2 and nodes[index + 2].text == "{":
-            end = index + 3
+    for part in _iter_statements(body.children):
+        kind = part[0].text
+        if kind == "common_transition":
+            common += reader.read(part[1:])
+        elif kind in _STATES and len(part) > 2:
             shared = dict(machine.conditions.versions)
-            states.append(machine.place(reader.state(*nodes[index:end]), nodes[index]))
-            initial = initial or (states[-1].name if nodes[index].text == "initial_state" else "")
+            states.append(machine.place(reader.state(*part), part[0]))
+            initial = initial or (states[-1].name if kind == "initial_state" else "")
             machine.conditions.versions, machine.conditions.done = shared, ""
         else:
-            reader.skip(nodes[index:end])
-        index = end
+            reader.skip(part)
     machine.design = Design(
         component=machine.component,
         time_unit="ms",
@@ -104,24 +101,20 @@ class _OptionReader:
 
     def state(self, kind: CppTree, name: CppTree, body: CppTree) -> State:
         called, texts, transitions = list[str](), list[str](), list[Decision]()
-        for is_action in (True, False):
-            index, nodes = 0, body.children
-            while index < len(nodes):
-                word = nodes[index].text
-                end = _statement_end(nodes, index + (word in ("action", "transition")))
-                inner = nodes[index + 1 : end]
-                if is_action and word == "action":
-                    inner = inner[0].children if inner and inner[0].text == "{" else inner
-                    called += self._calls(inner)
-                    texts.append(self._machine.source.slice(inner))
-                elif not is_action and word == "transition":
-                    transitions += self.read(inner)
-                elif not is_action and word != "action":
-                    self.skip(nodes[index:end])
-                    self._conditions.change(nodes[index:end])
-                index = end
-            # With several options, the last one that was called counts, which depends on conditions.
-            self._conditions.done = f"done({called[0]})" if len(set(called)) == 1 else ""
+        parts = list(_iter_statements(body.children))
+        for inner in (part[1:] for part in parts if part[0].text == "action"):
+            block = inner[0].children if inner and inner[0].text == "{" else inner
+            self.skip(block)
+            called += self._calls(block)
+            texts.append(self._machine.source.slice(block))
+        # With several options, the last one that was called counts, which depends on conditions.
+        self._conditions.done = f"done({called[0]})" if len(set(called)) == 1 else ""
+        for part in parts:
+            if part[0].text == "transition":
+                transitions += self.read(part[1:])
+            elif part[0].text != "action":
+                self.skip(part)
+                self._conditions.change(part)
         if kind.text == "aborted_state":
             self._machine.ends.add(compact(name.children))
         return State(
@@ -138,9 +131,8 @@ class _OptionReader:
     def _calls(self, nodes: Sequence[CppTree], *, is_list: bool = False) -> Iterator[str]:
         """The aliases of the options that statements call, or that `select_option` lists."""
         for before, node, after in zip((None, *nodes), nodes, (*nodes[1:], None), strict=False):
-            is_call = (
-                after is not None and after.text == "(" and (before is None or before.text not in (".", "->", "::"))
-            )
+            is_member = before is not None and before.text in (".", "->", "::")
+            is_call = after is not None and after.text == "(" and not is_member
             name = node.text.strip('"')
             if (is_list or is_call) and name in self._machine.components:
                 alias = self._machine.use(name, node)
@@ -160,7 +152,7 @@ class _OptionReader:
         found, broke, index = list[Decision](), False, 0
         while index < len(nodes) and not broke:
             node, end = nodes[index], _statement_end(nodes, index)
-            statement, inner = nodes[index:end], list[Decision]()
+            statement, index, inner = nodes[index:end], end, list[Decision]()
             if node.text == "break":
                 return found, True
             if node.text == "{":
@@ -177,7 +169,6 @@ class _OptionReader:
             else:
                 inner = self._other(statement)
             found += inner
-            index = end
         return found, broke
 
     def _if(self, nodes: Sequence[CppTree], rest: Sequence[CppTree]) -> tuple[list[Decision], bool]:
@@ -257,6 +248,16 @@ def _find_gotos(nodes: Sequence[CppTree]) -> Iterator[str]:
 def _shown(nodes: Sequence[CppTree]) -> str:
     text = compact(nodes)
     return text if len(text) <= _MAX_SHOWN else f"{text[:_MAX_SHOWN]} …"
+
+
+def _iter_statements(nodes: Sequence[CppTree]) -> Iterator[Sequence[CppTree]]:
+    """The statements of a block; words of CABSL belong to the statement after them."""
+    index = 0
+    while index < len(nodes):
+        is_state = nodes[index].text in _STATES and [node.text for node in nodes[index + 1 : index + 3]] == ["(", "{"]
+        end = index + 3 if is_state else _statement_end(nodes, index + (nodes[index].text in _PARTS))
+        yield nodes[index:end]
+        index = end
 
 
 def _statement_end(nodes: Sequence[CppTree], start: int) -> int:

@@ -7,14 +7,14 @@ or assigned in between, or the text itself assigns. Expressions are Python trees
 
 import ast
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
 from vicode.cpp_tokens import NUMBER, WORD
 from vicode.importers.cpp.tree import CppTree, compact, iter_plain, split, words
-from vicode.importers.design_names import DesignNames
+from vicode.importers.design_names import DesignNames, to_design_name
 from vicode.model.design import Declaration, Guard
-from vicode.model.project import WORLD, Enumeration, Interface
+from vicode.model.project import WORLD, Interface
 
 ALIAS = "robot"
 TIMES = {"state_time": "state_time", "option_time": "component_time"}
@@ -26,7 +26,8 @@ _NUMBER = re.compile(
     r"(0(?![xXbB])|[1-9][\d']*|(?:\d[\d']*)?\.\d*(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+)(?:[fFlLuUzZ]{1,3}|_?([A-Za-z]\w*))?"
 )
 _MAX_NAME = 48
-_OTHER = "other_value"
+OTHER_VALUE = "other_value"
+"""The element of each enumeration that stands for all values that no condition mentions."""
 
 
 def negate(condition: ast.expr) -> ast.expr:
@@ -47,33 +48,13 @@ def to_guard(condition: ast.expr) -> Guard:
 
 
 @dataclass(slots=True, kw_only=True)
-class EnumTypes:
-    """The enumerations of all machines: the name of each and its elements by their names in C++."""
-
-    names: DesignNames
-    _found: dict[str, tuple[str, dict[str, str]]] = field(default_factory=dict)
-
-    def element(self, type_: str, element: str) -> tuple[str, str]:
-        """The names of a type and of an element of it."""
-        if type_ not in self._found:
-            self._found[type_] = (self.names.allocate(type_), {})
-        name, elements = self._found[type_]
-        if element not in elements:
-            elements[element] = DesignNames(frozenset({_OTHER, *elements.values()})).allocate(element)
-        return name, elements[element]
-
-    def declared(self) -> Iterator[Enumeration]:
-        for name, elements in self._found.values():
-            pairs = [(_OTHER, "any value that no condition mentions"), *((each, "") for each in elements.values())]
-            yield Enumeration(name=name, elements=tuple(pairs))
-
-
-@dataclass(slots=True, kw_only=True)
 class Conditions:
     """The conditions of a machine, and the inputs that they read.
 
     Attributes:
         component: The name of the component that provides the inputs.
+        names: Allocates names of the project.
+        types: The enumerations of the project by their names in C++: the name, and the elements.
         changing: Words whose values the machine changes itself.
         unfixed: The inputs that may change while the world stands still.
         versions: Words that were declared or assigned in the block that is read, with the place of that.
@@ -83,14 +64,15 @@ class Conditions:
 
     machine: str
     component: str
-    types: EnumTypes
+    names: DesignNames
+    types: dict[str, tuple[str, list[str]]]
     changing: Collection[str] = ()
     unfixed: set[str] = field(default_factory=set)
     versions: dict[str, int] = field(default_factory=dict)
     done: str = ""
     spellings: dict[str, str] = field(default_factory=dict)
     _inputs: dict[tuple[str, ...], Declaration] = field(default_factory=dict)
-    _names: DesignNames = field(default_factory=DesignNames)
+    _input_names: DesignNames = field(default_factory=DesignNames)
 
     def interface(self) -> Interface | None:
         doc = f"What the conditions of {self.machine} read, with their C++ texts."
@@ -140,7 +122,10 @@ class Conditions:
 
     def element(self, nodes: Sequence[CppTree], text: str, type_: str, element: str) -> ast.expr:
         """Whether an input has a value of an enumeration."""
-        name, value = self.types.element(type_, element)
+        if type_ not in self.types:
+            self.types[type_] = (self.names.allocate(type_), [OTHER_VALUE])
+        (name, elements), value = self.types[type_], to_design_name(element)
+        elements += [] if value in elements else [value]
         return _parse(f"{self._input(name, nodes, text)} == {name}.{value}")
 
     def flag(self, text: str, *place: str) -> ast.expr:
@@ -149,9 +134,8 @@ class Conditions:
 
     def _bool(self, nodes: Sequence[CppTree]) -> ast.expr:
         text = compact(nodes)
-        known = {"true": "True", "false": "False", "action_done": self.done} | {
-            each: f"{TIMES[each]} != 0" for each in TIMES
-        }
+        known = {"true": "True", "false": "False", "action_done": self.done}
+        known |= {time: f"{name} != 0" for time, name in TIMES.items()}
         return _parse(known.get(text) or self._input("bool", nodes, self.spellings.get(text, text)))
 
     def _input(self, type_: str, nodes: Sequence[CppTree], text: str, unit: str = "") -> str:
@@ -165,7 +149,7 @@ class Conditions:
     def _add(self, type_: str, text: str, key: tuple[str, ...], *, is_fixed: bool, unit: str = "") -> str:
         key = (type_, text, *key)
         if key not in self._inputs:
-            name = self._names.allocate(_stem(text))
+            name = self._input_names.allocate(_stem(text))
             self._inputs[key] = Declaration(name=name, type=type_, doc=text, unit=unit)
             self.unfixed |= set() if is_fixed else {name}
         return f"{ALIAS}.{self._inputs[key].name}"

@@ -43,20 +43,15 @@ class CppMachine:
     def use(self, name: str, node: CppTree) -> str:
         """The alias of another machine; "" if its use would close a cycle, which designs do not have."""
         component = self.components[name]
-        if component not in self._uses and self.component in self._find_used(component):
+        if self._is_used_by(component):
             self.notes.append((node.start, f"the use of {name} closes a cycle: it is left out"))
             return ""
         self.graph.setdefault(self.component, set()).add(component)
         alias = DesignNames(frozenset({ALIAS})).allocate(component)
         return self._uses.setdefault(component, Use(alias=alias, component=component)).alias
 
-    def _find_used(self, component: str) -> set[str]:
-        found, pending = {component}, [component]
-        while pending:
-            new = self.graph.get(pending.pop(), set()) - found
-            found |= new
-            pending += new
-        return found
+    def _is_used_by(self, component: str) -> bool:
+        return component == self.component or any(map(self._is_used_by, self.graph.get(component, ())))
 
     def uses(self) -> tuple[Use, ...]:
         inputs = (Use(alias=ALIAS, component=self.conditions.component),) if self.conditions.interface() else ()

@@ -121,7 +121,7 @@ def _load_cpp_input(path: Path, files: Sequence[Path]) -> LoadedSiteInput:
             path=machine.source.path.resolve().relative_to(folder).as_posix(),
             text=machine.source.text,
             language="cpp",
-            line_numbers={place: location.line for place, location in imported.places[component].items()},
+            line_numbers={place: location.line for place, location in machine.locations().items()},
         )
         for component, machine in imported.machines.items()
     }

@@ -53,26 +53,25 @@ def _read(file: Path) -> str:
 
 def find_in_cpp(imported: CppImport) -> tuple[Finding, ...]:
     """The findings about machines, located in the C++ files, without those that the import causes."""
-    project = imported.result.project
-    plain = without_code(project)
+    plain = without_code(imported.result.project)
     found = [each for each in check_behavior(plain) if each.rule.code in _CODES and _is_meant(each, imported)]
+    places = {component: machine.locations() for component, machine in imported.machines.items()}
     for name in imported.unused:
         subject = FindingSubject(component=name, path=("component",))
         message = f"nothing in these files calls {name}"
         fix = "call it or delete it, unless a configuration file names it"
         found.append(Finding(rule=get_rule("P214"), message=message, fix=fix, subject=subject))
-    return sort_findings([*imported.errors, *(locate_finding(each, imported.places) for each in found)])
+    return sort_findings([*imported.errors, *(locate_finding(each, places) for each in found)])
 
 
 def without_code(project: Project) -> Project:
     """A project without C++ texts, which have no meaning for designs."""
-    return replace(project, designs=tuple(_keep_calls(design) for design in project.designs))
-
-
-def _keep_calls(design: Design) -> Design:
-    calls = {state.name: tuple(each for each in state.actions if isinstance(each, Call)) for state in design.states}
-    states = (replace(state, enter=(), leave=(), actions=calls[state.name]) for state in design.states)
-    return replace(design, states=tuple(states))
+    designs = []
+    for design in project.designs:
+        calls = {state.name: tuple(each for each in state.actions if isinstance(each, Call)) for state in design.states}
+        states = (replace(state, enter=(), leave=(), actions=calls[state.name]) for state in design.states)
+        designs.append(replace(design, states=tuple(states)))
+    return replace(project, designs=tuple(designs))
 
 
 def _is_meant(finding: Finding, imported: CppImport) -> bool:
