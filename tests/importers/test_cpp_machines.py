@@ -274,6 +274,13 @@ def test_an_option_calls_the_options_of_its_action_blocks() -> None:
     assert imported.unused == ("Unused",)
 
 
+def test_an_option_that_is_declared_twice_is_read_once() -> None:
+    texts = {Path(f"{name}.h"): f"option(Walk) {{ initial_state({name}) {{}} }}" for name in ("one", "two")}
+    imported = import_cpp(texts, "behavior")
+    assert [design.initial for design in imported.result.project.designs] == ["one"]
+    assert [note.text for note in imported.result.notes] == ["two.h declares it, too: not in the design"]
+
+
 def test_the_first_branch_of_the_preprocessor_is_read() -> None:
     text = """option(Walk) {
   initial_state(a) { transition {
@@ -371,6 +378,11 @@ def test_brackets_that_do_not_match_are_an_error_with_a_place(text: str, line: i
     assert error.location is not None
     assert (error.rule.code, error.location.line, error.location.column) == ("S804", line, column)
     assert error.message == words
+
+
+def test_what_is_nested_too_deeply_is_an_error() -> None:
+    (error,) = read("option(Walk) { initial_state(a) { transition { if(" + "!" * 5000 + "x) goto a; } } }").errors
+    assert error.message == "'Walk' is nested too deeply"
 
 
 PIECES = re.findall(r"\w+|\s+|[^\w\s]", PLAY + TABLE)

@@ -182,7 +182,7 @@ _RECORDS = (
     ("S802", "not-in-designs", Severity.ERROR, "element of SCXML that designs do not support"),
     ("S803", "bad-scxml", Severity.ERROR, "unknown name or expression outside of the portable subset in SCXML"),
     # C++ sources with state machines
-    ("S804", "unbalanced-brackets", Severity.ERROR, "C++ file with brackets that do not match"),
+    ("S804", "unbalanced-brackets", Severity.ERROR, "brackets of a C++ file that do not match"),
 )
 
 RULES = {

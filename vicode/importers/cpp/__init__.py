@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,7 +10,7 @@ from vicode.cpp_tokens import COMMENT, iter_tokens
 from vicode.findings import Finding
 from vicode.importers import ImportedDesign, ImportNote, ImportResult
 from vicode.importers.cpp.cabsl import iter_options, read_option
-from vicode.importers.cpp.conditions import ALIAS, Conditions
+from vicode.importers.cpp.conditions import ALIAS, CppConditions
 from vicode.importers.cpp.machine import CppMachine
 from vicode.importers.cpp.sml import TABLE, Table, find_macros, iter_tables, read_table
 from vicode.importers.cpp.tree import CppError, CppSource, CppTree, read_source
@@ -66,8 +66,23 @@ def import_cpp(texts: Mapping[Path, str], name: str) -> CppImport:
     components = {each: names.allocate(each) for each in dict.fromkeys(node.text for _source, node, _body in found)}
     macros = {macro: about for text in texts.values() for macro, about in find_macros(text).items()}
     machines: dict[str, CppMachine] = {}
-    for machine in _read(found, components, macros, names, types):
-        machines.setdefault(machine.component, machine)
+    graph: dict[str, set[str]] = {}
+    for source, node, body in found:
+        own = components[node.text]
+        if own in machines:
+            machines[own].notes.append(
+                (machines[own].node.start, f"{source.path.name} declares it, too: not in the design")
+            )
+            continue
+        conditions = CppConditions(machine=own, component=names.allocate(f"{own}Inputs"), names=names, types=types)
+        machine = CppMachine(
+            source=source, component=own, node=node, components=components, conditions=conditions, graph=graph
+        )
+        try:
+            for each in read_table(machine, body, macros) if isinstance(body, Table) else read_option(machine, *body):
+                machines.setdefault(each.component, each)
+        except RecursionError:
+            errors.append(CppError(f"'{node.text}' is nested too deeply", source.location(node.start)).finding)
     options = {node.text for _source, node, body in found if not isinstance(body, Table)}
     return CppImport(
         result=_result(machines, types, name),
@@ -75,31 +90,6 @@ def import_cpp(texts: Mapping[Path, str], name: str) -> CppImport:
         unused=tuple(components[each] for each in _find_unused(options, texts.values())),
         errors=tuple(errors),
     )
-
-
-def _read(
-    found: Iterable[_Found],
-    components: Mapping[str, str],
-    macros: Mapping[str, tuple[str, str]],
-    names: DesignNames,
-    types: _Types,
-) -> Iterator[CppMachine]:
-    graph: dict[str, set[str]] = {}
-    for source, node, body in found:
-        name = components[node.text]
-        conditions = Conditions(machine=name, component=names.allocate(f"{name}Inputs"), names=names, types=types)
-        machine = CppMachine(
-            source=source, component=name, node=node, components=components, conditions=conditions, graph=graph
-        )
-        head = body.function if isinstance(body, Table) else body
-        unread = [each for each in source.unread if head[0].start < each < head[-1].end]
-        machine.is_partial = bool(unread)
-        machine.notes += ((each, "this branch is not read") for each in unread)
-        if isinstance(body, Table):
-            yield from read_table(machine, body, macros)
-        else:
-            read_option(machine, *body)
-            yield machine
 
 
 def _find_unused(options: set[str], texts: Iterable[str]) -> list[str]:

@@ -10,7 +10,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from vicode.cpp_tokens import WORD
-from vicode.importers.cpp.conditions import ASSIGNING, Conditions, join, negate, to_guard
+from vicode.importers.cpp.conditions import ASSIGNING, CppConditions, join, negate, to_guard
 from vicode.importers.cpp.machine import CppMachine
 from vicode.importers.cpp.tree import CppTree, class_name, compact, split, words
 from vicode.model.design import (
@@ -44,8 +44,9 @@ def iter_options(nodes: Sequence[CppTree], owner: CppTree | None = None) -> Iter
             yield from iter_options(node.children, class_name(nodes, index) or owner)
 
 
-def read_option(machine: CppMachine, head: CppTree, body: CppTree) -> None:
-    """Read an option into the design of a machine."""
+def read_option(machine: CppMachine, head: CppTree, body: CppTree) -> tuple[CppMachine]:
+    """Read an option into the design of a machine, which is returned."""
+    machine.note_unread(body.start, body.end)
     # Declared variables stand last, after their types and initial values.
     variables = [part[1] for part in split(head.children, ",") if len(part) == 2 and part[0].text == "vars"]
     declared = {each[-1].text for group in variables for each in split(group.children, ",") if each}
@@ -70,6 +71,7 @@ def read_option(machine: CppMachine, head: CppTree, body: CppTree) -> None:
         common=CommonSection(transitions=tuple(common)),
         states=tuple(states),
     )
+    return (machine,)
 
 
 def _find_assigned(nodes: Sequence[CppTree]) -> Iterator[str]:
@@ -87,7 +89,7 @@ def _find_assigned(nodes: Sequence[CppTree]) -> Iterator[str]:
 class _OptionReader:
     def __init__(self, machine: CppMachine, body: Sequence[CppTree]) -> None:
         self._machine = machine
-        self._conditions: Conditions = machine.conditions
+        self._conditions: CppConditions = machine.conditions
         self._states = {compact(name.children) for kind, name in pairwise(body) if kind.text in _STATES}
 
     def skip(self, nodes: Sequence[CppTree]) -> None:

@@ -23,7 +23,7 @@ _MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 ASSIGNING = frozenset({"=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "++", "--"})
 _LOWER = ASSIGNING - {"++", "--"} | {"?", "&", "|", "^", ","}
 _NUMBER = re.compile(
-    r"(0(?![xXbB])|[1-9][\d']*|(?:\d[\d']*)?\.\d*(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+)(?:[fFlLuUzZ]{1,3}|_?([A-Za-z]\w*))?"
+    r"(-?(?:0(?![xXbB\d])|[1-9]\d*|(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+))(?:[fFlLuUzZ]{1,3}|_?([A-Za-z]\w*))?"
 )
 _MAX_NAME = 48
 OTHER_VALUE = "other_value"
@@ -48,7 +48,7 @@ def to_guard(condition: ast.expr) -> Guard:
 
 
 @dataclass(slots=True, kw_only=True)
-class Conditions:
+class CppConditions:
     """The conditions of a machine, and the inputs that they read.
 
     Attributes:
@@ -165,13 +165,11 @@ def _parse(text: str) -> ast.expr:
 
 def _number(nodes: Sequence[CppTree]) -> tuple[str, str] | None:
     """The number in a text, as designs write it, and its unit."""
-    sign = "-" if len(nodes) == 2 and nodes[0].text == "-" else ""
-    is_number = len(nodes) == 1 + bool(sign) and nodes[-1].kind == NUMBER
-    found = _NUMBER.fullmatch(nodes[-1].text) if is_number else None
-    digits = found[1].replace("'", "") if found else ""
-    if found is None or not any(each.isdigit() for each in digits) or float(digits) > 2.0**53:
+    is_number = 0 < len(nodes) < 3 and nodes[-1].kind == NUMBER
+    found = _NUMBER.fullmatch(compact(nodes).replace("'", "")) if is_number else None
+    if found is None or abs(float(found[1])) > 2.0**53:
         return None
-    return sign + (digits if digits.isdigit() else repr(float(digits))), found[2] or ""
+    return found[1] if found[1].lstrip("-").isdigit() else repr(float(found[1])), found[2] or ""
 
 
 def _is_enumerator(nodes: Sequence[CppTree]) -> bool:

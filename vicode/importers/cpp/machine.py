@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 from vicode.findings import DesignPath, SourceLocation
-from vicode.importers.cpp.conditions import ALIAS, Conditions
+from vicode.importers.cpp.conditions import ALIAS, CppConditions
 from vicode.importers.cpp.tree import CppSource, CppTree
 from vicode.importers.design_names import DesignNames
 from vicode.model.design import Decision, Design, State, Use
@@ -31,7 +31,7 @@ class CppMachine:
     component: str
     node: CppTree
     components: Mapping[str, str]
-    conditions: Conditions
+    conditions: CppConditions
     graph: dict[str, set[str]]
     ends: set[str] = field(default_factory=set)
     is_partial: bool = False
@@ -49,6 +49,12 @@ class CppMachine:
         self.graph.setdefault(self.component, set()).add(component)
         alias = DesignNames(frozenset({ALIAS})).allocate(component)
         return self._uses.setdefault(component, Use(alias=alias, component=component)).alias
+
+    def note_unread(self, start: int, end: int) -> None:
+        """Note the branches of the preprocessor in a part of the file that are not read."""
+        unread = [each for each in self.source.unread if start < each < end]
+        self.is_partial = bool(unread)
+        self.notes += ((each, "this branch is not read") for each in unread)
 
     def _is_used_by(self, component: str) -> bool:
         return component == self.component or any(map(self._is_used_by, self.graph.get(component, ())))

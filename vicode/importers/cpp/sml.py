@@ -71,6 +71,7 @@ def iter_tables(nodes: Sequence[CppTree], name: CppTree | None = None) -> Iterat
 
 def read_table(machine: CppMachine, table: Table, macros: Mapping[str, _Name]) -> Iterator[CppMachine]:
     """Read a table; yields a machine for each of its regions."""
+    machine.note_unread(table.function[0].start, table.function[-1].end)
     reader = _TableReader(machine, dict(_find_declared(table.function, macros)))
     rows = [row for nodes in table.rows if (row := reader.read(nodes)) is not None]
     if not any(row.target == _TERMINATED != row.source for row in rows):

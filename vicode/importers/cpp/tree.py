@@ -135,8 +135,10 @@ def template_end(nodes: Sequence[CppTree], index: int) -> int:
 
 def class_name(nodes: Sequence[CppTree], index: int) -> CppTree | None:
     """The name of the class whose body, or whose `operator()`, is the node at an index; None for other nodes."""
-    start = max((place + 1 for place in range(index) if nodes[place].text in (";", "{")), default=0)
-    head = nodes[start:index] if nodes[index].text == "{" else ()
+    if nodes[index].text != "{":
+        return None
+    start = next((place + 1 for place in range(index - 1, -1, -1) if nodes[place].text in (";", "{")), 0)
+    head = nodes[start:index]
     for before, node in pairwise(head):
         if before.text in ("struct", "class") and node.kind == WORD:
             return node
