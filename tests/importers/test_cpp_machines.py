@@ -180,6 +180,14 @@ def test_an_option_calls_the_options_of_its_action_blocks() -> None:
     assert imported.unused == ("Unused",)
 
 
+@pytest.mark.parametrize("state", ["state(b) done = true;", "state(b c) { }", "state() { }", "state b { }"])
+def test_a_state_that_is_not_understood_is_listed(state: str) -> None:
+    text = f"option(Walk) {{ initial_state(a) {{}}\n{state} }}"
+    assert [line for line, _text in notes_of(text)] == [2]
+    assert read(text).machines["Walk"].is_partial
+    assert [each.name for each in design_of(text).states] == ["a"]
+
+
 def test_an_option_that_is_declared_twice_is_read_once() -> None:
     texts = {Path(f"{name}.h"): f"option(Walk) {{ initial_state({name}) {{}} }}" for name in ("one", "two")}
     imported = import_cpp(texts, "behavior")

@@ -56,7 +56,7 @@ def read_option(machine: CppMachine, head: CppTree, body: CppTree) -> tuple[CppM
         kind = part[0].text
         if kind == "common_transition":
             common += reader.read(part[1:])
-        elif kind in _STATES and len(part) > 2:
+        elif _is_state(part):
             shared = dict(machine.conditions.versions)
             states.append(machine.place(reader.state(*part), part[0]))
             initial = initial or (states[-1].name if kind == "initial_state" else "")
@@ -94,9 +94,9 @@ class _OptionReader:
 
     def skip(self, nodes: Sequence[CppTree]) -> None:
         """Skip a statement outside of transitions."""
-        if self._states & set(_find_gotos(nodes)):
+        if {node.text for node in nodes[:1]} & _STATES or self._states & set(_find_gotos(nodes)):
             self._machine.is_partial = True
-            self._note(nodes, "goto outside of a transition")
+            self._note(nodes, "a state or goto that is not understood")
 
     def _note(self, nodes: Sequence[CppTree], text: str) -> None:
         self._machine.notes.append((nodes[0].start, f"{text}: {_shown(nodes)}"))
@@ -252,12 +252,20 @@ def _shown(nodes: Sequence[CppTree]) -> str:
     return text if len(text) <= _MAX_SHOWN else f"{text[:_MAX_SHOWN]} …"
 
 
+def _is_state(nodes: Sequence[CppTree]) -> bool:
+    texts, name = [node.text for node in nodes], nodes[1].children if len(nodes) > 1 else ()
+    return texts[0] in _STATES and texts[1:] == ["(", "{"] and len(name) == 1 and name[0].kind == WORD
+
+
 def _iter_statements(nodes: Sequence[CppTree]) -> Iterator[Sequence[CppTree]]:
     """The statements of a block; words of CABSL belong to the statement after them."""
     index = 0
     while index < len(nodes):
-        is_state = nodes[index].text in _STATES and [node.text for node in nodes[index + 1 : index + 3]] == ["(", "{"]
-        end = index + 3 if is_state else _statement_end(nodes, index + (nodes[index].text in _PARTS))
+        end = (
+            index + 3
+            if _is_state(nodes[index : index + 3])
+            else _statement_end(nodes, index + (nodes[index].text in _PARTS))
+        )
         yield nodes[index:end]
         index = end
 
