@@ -69,6 +69,7 @@ def test_findings_have_the_place_in_the_source(sources: Path, capsys: pytest.Cap
     ("text", "expected"),
     [
         ("state(b) { transition { goto c; } }", [("D402", 2)]),
+        ("state(b) { transition { if(y) { if(z) goto c; } if(x) goto a; } }", [("D402", 2)]),
         ("state(b) { }", [("D422", 2)]),
         ("aborted_state(b) { }", []),
         ("target_state(b) { }", []),

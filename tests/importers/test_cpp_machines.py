@@ -180,7 +180,9 @@ def test_an_option_calls_the_options_of_its_action_blocks() -> None:
     assert imported.unused == ("Unused",)
 
 
-@pytest.mark.parametrize("state", ["state(b) done = true;", "state(b c) { }", "state() { }", "state b { }"])
+@pytest.mark.parametrize(
+    "state", ["state(b) done = true;", "state(b c) { }", "state() { }", "state b { }", "state(a) {}"]
+)
 def test_a_state_that_is_not_understood_is_listed(state: str) -> None:
     text = f"option(Walk) {{ initial_state(a) {{}}\n{state} }}"
     assert [line for line, _text in notes_of(text)] == [2]

@@ -56,7 +56,7 @@ def read_option(machine: CppMachine, head: CppTree, body: CppTree) -> tuple[CppM
         kind = part[0].text
         if kind == "common_transition":
             common += reader.read(part[1:])
-        elif _is_state(part):
+        elif _is_state(part) and compact(part[1].children) not in {each.name for each in states}:
             shared = dict(machine.conditions.versions)
             states.append(machine.place(reader.state(*part), part[0]))
             initial = initial or (states[-1].name if kind == "initial_state" else "")
