@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from vicode.importers.cpp import CppImport, import_cpp
 from vicode.model.design import Call, Design, RunCode, Stay, Transition
 from vicode.model.traversal import iter_decisions
+from vicode.services.imported_behavior.cpp_sources import find_in_cpp
+from vicode.services.imported_behavior.design_files import format_files
 
 
 def read(text: str, file: str = "behavior.cpp") -> CppImport:
@@ -313,6 +315,8 @@ def test_any_text_is_read_or_an_error(data: st.DataObject) -> None:
         pieces[start:end] = data.draw(st.lists(st.sampled_from(PIECES), max_size=4))
     imported = read("".join(pieces))
     assert imported.machines or imported.errors or not imported.result.project.designs
-    for error in imported.errors:
-        assert error.location is not None
-        assert error.location.line > 0
+    for finding in find_in_cpp(imported):
+        assert finding.location is not None
+        assert finding.location.line > 0
+    for text in format_files(imported.result).values():
+        assert text
