@@ -18,7 +18,7 @@ _COMMAND = re.compile(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", re.MULTILINE)
 def play(page: str, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> tuple[str, str]:
     """Play a page in the current folder; return its text, and the text with what was printed."""
     text = played = (ROOT / "docs" / page).read_text(encoding="utf-8")
-    for block in code_blocks(ROOT / "docs" / page, "yaml", "python", "csv", "xabsl", "console"):
+    for block in code_blocks(ROOT / "docs" / page, "yaml", "python", "csv", "xabsl", "cpp", "console"):
         if block.language != "console":
             _write(block)
             continue

@@ -7,7 +7,7 @@ import pytest
 from tests.manual.code_blocks import PAGES, ROOT, code_blocks
 from tests.manual.sessions import commands_of, play
 
-SESSIONS = ("tutorial.md", "coming-from-xabsl.md")
+SESSIONS = ("tutorial.md", "coming-from-xabsl.md", "coming-from-cpp.md")
 
 
 @pytest.mark.parametrize("page", SESSIONS)

@@ -1,10 +1,12 @@
-"""Check designs and report problems."""
+"""Check designs, or state machines in C++ sources, and report problems."""
 
 import argparse
 from collections.abc import Iterator
+from pathlib import Path
 
 from vicode.cli.console import add_format_arguments, print_findings, print_formatted
 from vicode.findings import Finding, Severity, count_findings
+from vicode.services.imported_behavior.cpp_sources import find_cpp_files, find_in_cpp, load_cpp
 from vicode.services.project_loader import LoadedProject, load_projects
 
 
@@ -14,7 +16,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PATH",
         nargs="*",
         default=["."],
-        help="design file, project folder, or folder of projects (default: the current folder)",
+        help="design file, project folder, folder of projects, or C++ files or folders with state machines "
+        "(default: the current folder)",
     )
     add_format_arguments(parser)
     parser.add_argument(
@@ -36,11 +39,17 @@ def _patches(project: LoadedProject) -> Iterator[Finding]:
 
 def run(args: argparse.Namespace) -> int:
     """Print findings; return 1 for errors and, with --strict, for warnings."""
-    projects = load_projects(args.paths, with_warnings=True, deep=args.deep)
-    findings = tuple(finding for project in projects for finding in (*project.findings, *_patches(project)))
+    files = [file for path in args.paths for file in find_cpp_files(Path(path))]
+    if files:
+        machines = load_cpp(files, "behavior")
+        findings, designs, what = find_in_cpp(machines), len(machines.machines), "state machine"
+    else:
+        projects = load_projects(args.paths, with_warnings=True, deep=args.deep)
+        findings = tuple(finding for project in projects for finding in (*project.findings, *_patches(project)))
+        designs = sum(len(project.selected_designs) + len(project.open_project.broken_files) for project in projects)
+        what = "design"
     if not print_formatted(findings, args):
         print_findings(findings)
-        designs = sum(len(project.selected_designs) + len(project.open_project.broken_files) for project in projects)
-        print(f"{count_findings(findings)} in {designs} design{'s' * (designs != 1)}")
+        print(f"{count_findings(findings)} in {designs} {what}{'s' * (designs != 1)}")
     counted = {Severity.ERROR, Severity.WARNING} if args.strict else {Severity.ERROR}
     return int(any(finding.severity in counted for finding in findings))

@@ -1,4 +1,4 @@
-"""Import an XABSL behavior as a project of designs, or merge its changes into them; or import an SCXML file."""
+"""Import an XABSL behavior as a project of designs, or merge its changes into them; or import SCXML, or C++ sources."""
 
 import argparse
 import os
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from vicode.cli.source_encoding import add_encoding_argument
 from vicode.cli.xabsl_behavior import print_behavior_findings, print_encoding_doubts
 from vicode.findings import count_findings
+from vicode.services.project_loader import XABSL_SUFFIXES
 from vicode.services.xabsl_encoding import project_encoding
 
 if TYPE_CHECKING:
@@ -20,7 +21,12 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("agents", metavar="FILE", type=Path, help="XABSL file with the agents, or an SCXML file")
+    parser.add_argument(
+        "agents",
+        metavar="PATH",
+        type=Path,
+        help="XABSL file with the agents, SCXML file, or C++ file or folder with options of CABSL or boost::sml tables",
+    )
     parser.add_argument(
         "--out", metavar="DIR", type=Path, required=True, help="project folder to create, such as designs/NAME"
     )
@@ -38,6 +44,8 @@ def run(args: argparse.Namespace) -> int:
         return _import_scxml(args)
     if args.event_queue:
         raise OSError("--event-queue is an option of SCXML files")
+    if args.agents.is_dir() or args.agents.suffix not in XABSL_SUFFIXES:
+        return _import_cpp(args)
     from vicode.findings import Severity
     from vicode.importers import import_behavior, render_robot_class
     from vicode.services.imported_behavior.design_files import design_paths, format_files, with_layout, write_files
@@ -69,16 +77,35 @@ def run(args: argparse.Namespace) -> int:
     if not robot.exists():
         write_files(args.out, {robot.name: render_robot_class(imported.project)})
     print(_summary(imported, args.out))
-    _print_notes(imported, args.agents.parent)
+    _print_notes(imported, args.agents.parent, "XABSL files")
     return 0
 
 
-def _print_notes(imported: "ImportResult", folder: Path) -> None:
+def _print_notes(imported: "ImportResult", folder: Path, sources: str) -> None:
     if imported.notes:
-        print(f"the designs cannot express {_count(len(imported.notes), 'detail')} of the XABSL files:")
+        print(f"the designs cannot express {_count(len(imported.notes), 'detail')} of the {sources}:")
     for note in imported.notes:
-        path = Path(os.path.relpath(note.file, folder.resolve()))
+        path = Path(os.path.relpath(note.file.resolve(), folder.resolve()))
         print(f"  {path.as_posix()}:{note.line}: {note.text}")
+
+
+def _import_cpp(args: argparse.Namespace) -> int:
+    """Write the machines of C++ sources; return 1 if a file cannot be read, or files would be overwritten."""
+    from vicode.cli.console import print_findings
+    from vicode.services.imported_behavior.cpp_sources import load_cpp
+    from vicode.services.imported_behavior.design_files import format_files, with_layout, write_files
+    from vicode.store.documents import default_project_name
+
+    converted = load_cpp([args.agents], args.name or default_project_name(args.out.resolve().name))
+    print_findings(converted.errors, to_stderr=True)
+    imported = replace(converted.result, project=with_layout(converted.result.project))
+    texts = format_files(imported)
+    if _would_overwrite(args, texts):
+        return 1
+    write_files(args.out, texts)
+    print(_summary(imported, args.out))
+    _print_notes(imported, Path(), "C++ files")
+    return int(bool(converted.errors))
 
 
 def _import_scxml(args: argparse.Namespace) -> int:

@@ -181,6 +181,8 @@ _RECORDS = (
     ("S801", "not-scxml", Severity.ERROR, "file that is not SCXML"),
     ("S802", "not-in-designs", Severity.ERROR, "element of SCXML that designs do not support"),
     ("S803", "bad-scxml", Severity.ERROR, "unknown name or expression outside of the portable subset in SCXML"),
+    # C++ sources with state machines
+    ("S804", "unbalanced-brackets", Severity.ERROR, "brackets of a C++ file that do not match"),
 )
 
 RULES = {

@@ -62,7 +62,8 @@ class Machine:
 
     def state(self, name: str) -> State:
         state = self.design.state(name) if self.design else None
-        assert state is not None
+        if state is None:
+            raise NotInterpretableError(f"{self.interface.component} has no state '{name}'")
         return state
 
     def argument_types(self, output: str) -> Mapping[str, str]:

@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
+from vicode.cpp_tokens import iter_tokens, iter_words, number_value
 from vicode.regions import has_header, strip_bodies
 from vicode.sync.code_items import HEADER, IMPORT, CodeItem, ModulePart, imported_names, split_items, split_parts
-from vicode.sync.cpp_tokens import iter_tokens, iter_words, number_value
 
 
 def is_same_code(a: str, b: str, comment: str = "#") -> bool:

@@ -21,6 +21,7 @@ from vicode.findings import Finding, Severity
 from vicode.importers import ImportResult, import_behavior
 from vicode.model.design import Design
 from vicode.services.display_paths import with_display_paths
+from vicode.services.imported_behavior.cpp_sources import find_cpp_files, find_in_cpp, load_cpp
 from vicode.services.project_loader import DESIGN_SUFFIXES, XABSL_SUFFIXES, LoadedProject, load_projects
 from vicode.services.xabsl_encoding import find_encoding
 from vicode.store import find_projects
@@ -65,6 +66,8 @@ def load_site_inputs(paths: Sequence[Path], encoding: str = "") -> tuple[LoadedS
     for path in dict.fromkeys(_find_behavior(each) or each for each in paths):
         if path.suffix in XABSL_SUFFIXES:
             readings.append(_load_behavior_input(path, encoding))
+        elif files := find_cpp_files(path):
+            readings.append(_load_cpp_input(path, files))
         elif path.is_file() and path.suffix not in DESIGN_SUFFIXES:
             raise OSError(
                 f"{path} is neither a design nor an XABSL behavior; "
@@ -107,6 +110,36 @@ def _project_site_input(opened: LoadedProject) -> SiteInput:
     part = replace(project, designs=tuple(each for each in project.designs if each.component in meant))
     faulty = {language: opened.components_with_errors(language) for language in project.languages}
     return make_site_input(opened.open_project, part, opened.findings, faulty)
+
+
+def _load_cpp_input(path: Path, files: Sequence[Path]) -> LoadedSiteInput:
+    """Load the state machines of C++ files, with their sources."""
+    folder = path.resolve() if path.is_dir() else path.resolve().parent
+    imported = load_cpp(files, default_project_name(folder.name))
+    sources = {
+        component: SourceText(
+            path=machine.source.path.resolve().relative_to(folder).as_posix(),
+            text=machine.source.text,
+            language="cpp",
+            line_numbers={place: location.line for place, location in machine.locations().items()},
+        )
+        for component, machine in imported.machines.items()
+    }
+    found = (
+        ComponentFinding(
+            component=each.subject.component, line=each.location.line if each.location else 0, finding=each
+        )
+        for each in find_in_cpp(imported)
+        if each.subject
+    )
+    return LoadedSiteInput(
+        name=folder.name,
+        site_input=SiteInput(project=imported.result.project, findings=tuple(found), sources=sources),
+        read_errors=imported.errors,
+        is_incomplete=bool(imported.errors),
+        folders=tuple(sorted({file.resolve().parent for file in files})),
+        root=folder,
+    )
 
 
 def _load_behavior_input(agents: Path, encoding: str) -> LoadedSiteInput:

@@ -23,7 +23,7 @@ def find_in_behavior(source: ProgramSource, compiled: CompileResult) -> tuple[Fi
         made.component: {path: source.files[made.file].tokens.location(token) for token, path in reversed(made.anchors)}
         for made in imported.designs
     }
-    return sort_findings(_locate(each, places) for each in found if each.rule.code in _CODES or _is_proved(each))
+    return sort_findings(locate_finding(each, places) for each in found if each.rule.code in _CODES or _is_proved(each))
 
 
 def _is_proved(finding: Finding) -> bool:
@@ -31,7 +31,8 @@ def _is_proved(finding: Finding) -> bool:
     return finding.rule.code in ("D421", "D422") and "can be taken" in finding.message
 
 
-def _locate(finding: Finding, places: Mapping[str, Mapping[DesignPath, SourceLocation]]) -> Finding:
+def locate_finding(finding: Finding, places: Mapping[str, Mapping[DesignPath, SourceLocation]]) -> Finding:
+    """A finding with its places in the sources of an import, by component."""
     notes = tuple(
         replace(note, location=_find_place(note.subject, places)) if note.subject else note for note in finding.notes
     )

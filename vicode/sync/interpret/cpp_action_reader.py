@@ -6,9 +6,9 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import SequenceMatcher
 
+from vicode.cpp_tokens import COMMENT, DIRECTIVE, STRING, WORD, CppToken
 from vicode.model.design import Action, Assign, Call, Code, RunCode
 from vicode.model.edits import unique_name
-from vicode.sync.cpp_tokens import COMMENT, DIRECTIVE, STRING, WORD, CppToken
 from vicode.sync.interpret.cpp_expression_reader import CppExpressionReader, UnreadableError
 from vicode.sync.interpret.cpp_expressions import CppNode, parse_statement, path_of
 from vicode.sync.interpret.cpp_plain_forms import PlainForm, PlainForms, called_action

@@ -7,8 +7,8 @@ was read.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from vicode.cpp_tokens import COMMENT, CppToken
 from vicode.generators.cpp.symbols import CppSymbols
-from vicode.sync.cpp_tokens import COMMENT, CppToken
 from vicode.sync.interpret.cpp_plain_forms import PlainForm, PlainForms, comment_words, is_mark, with_actions
 from vicode.sync.interpret.cpp_source import CppItem, group_by_function, split_items
 from vicode.sync.interpret.cpp_state_blocks import StateBlocks, split_states

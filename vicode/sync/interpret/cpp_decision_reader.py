@@ -4,9 +4,9 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
 
+from vicode.cpp_tokens import CppToken
 from vicode.model.design import Decision, DecisionGroup, Guard, Stay, Transition
 from vicode.model.disabled import strip_disabled_decision
-from vicode.sync.cpp_tokens import CppToken
 from vicode.sync.interpret.cpp_expression_reader import (
     CppExpressionReader,
     UnreadableError,

@@ -5,10 +5,10 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from vicode.cpp_tokens import CppToken, number_value
 from vicode.generators.cpp.symbols import CppSymbols
 from vicode.model.design import Guard
 from vicode.model.expressions import FLOAT, INT
-from vicode.sync.cpp_tokens import CppToken, number_value
 from vicode.sync.interpret.cpp_expressions import CppNode, parse_expression, path_of
 from vicode.sync.interpret.cpp_plain_forms import PlainForms
 from vicode.sync.interpret.expression_merge import merge_expression

@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from vicode.sync.cpp_tokens import COMMENT, NUMBER, STRING, WORD, CppToken
+from vicode.cpp_tokens import COMMENT, NUMBER, STRING, WORD, CppToken
 
 _WORDS = {"and": "&&", "or": "||", "not": "!", "not_eq": "!="}
 _LEVELS = {

@@ -4,6 +4,7 @@ import textwrap
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from vicode.cpp_tokens import NUMBER, STRING, CppToken, iter_tokens, number_value
 from vicode.generators import list_regions
 from vicode.generators.cpp import CppCode
 from vicode.languages import LANGUAGES
@@ -15,7 +16,6 @@ from vicode.model.project import Project
 from vicode.model.traversal import iter_actions, iter_decisions
 from vicode.regions import find_regions
 from vicode.sync.apply_regions import set_code
-from vicode.sync.cpp_tokens import NUMBER, STRING, CppToken, iter_tokens, number_value
 from vicode.sync.interpret.cpp_action_reader import CppActionReader, find_unknown_words
 from vicode.sync.interpret.cpp_comparison import CppComparison, CppFile
 from vicode.sync.interpret.cpp_decision_reader import CppDecisionReader

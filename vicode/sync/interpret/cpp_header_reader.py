@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
 
+from vicode.cpp_tokens import iter_tokens
 from vicode.generators.cpp import CppCode
 from vicode.model.design import Code, Declaration, Design
 from vicode.model.edits import set_declarations
-from vicode.sync.cpp_tokens import iter_tokens
 from vicode.sync.interpret.cpp_expression_reader import CppExpressionReader, UnreadableError
 from vicode.sync.interpret.cpp_expressions import CppNode, parse_expression
 from vicode.sync.interpret.cpp_plain_forms import is_mark

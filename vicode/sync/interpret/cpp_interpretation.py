@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from vicode.check import find_design_errors
+from vicode.cpp_tokens import DIRECTIVE
 from vicode.generators import UnsoundDesignError
 from vicode.generators.cpp import CppCode, cpp_generator
 from vicode.model.design import Design
 from vicode.model.diff import diff_designs
 from vicode.model.merge import merge_lines
 from vicode.model.project import Project
-from vicode.sync.cpp_tokens import DIRECTIVE
 from vicode.sync.interpret.cpp_comparison import CppComparison, CppFile, is_same_cpp_program
 from vicode.sync.interpret.cpp_expression_reader import UnreadableError
 from vicode.sync.interpret.cpp_function_reader import CppFunctionReader

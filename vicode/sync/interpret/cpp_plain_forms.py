@@ -8,9 +8,9 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from vicode.cpp_tokens import COMMENT, CppToken, iter_tokens, number_value
 from vicode.generators.cpp.symbols import CppSymbols
 from vicode.model.expressions import BOOL, FLOAT, INT
-from vicode.sync.cpp_tokens import COMMENT, CppToken, iter_tokens, number_value
 from vicode.sync.interpret.cpp_expressions import CppNode, parse_expression, parse_statement, path_of
 from vicode.sync.interpret.cpp_source import (
     CppComment,

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 
-from vicode.sync.cpp_tokens import COMMENT, DIRECTIVE, WORD, CppToken, iter_tokens
+from vicode.cpp_tokens import COMMENT, DIRECTIVE, WORD, CppToken, iter_tokens
 
 Tokens = Sequence[CppToken]
 PAIRS = {"(": ")", "{": "}", "[": "]"}

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from vicode.sync.cpp_tokens import COMMENT, CppToken
+from vicode.cpp_tokens import COMMENT, CppToken
 from vicode.sync.interpret.cpp_source import PAIRS, CppComment, Tokens, always_ends, matching, split_statements
 
 
