@@ -1,6 +1,6 @@
 """Graphs of the components of a project: which component uses or steps which."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -28,7 +28,8 @@ class ComponentGraph:
     def _digraph(self) -> "nx.DiGraph[str]":
         import networkx as nx  # noqa: PLC0415 - see the class
 
-        return nx.DiGraph(self.successors)
+        edges: dict[str, Iterable[str]] = {**self.successors}
+        return nx.DiGraph(edges)
 
     def _search(self, start: str) -> Mapping[str, str]:
         """Each node that can be reached, with the node before it on a shortest path; kept, as each is asked often."""
