@@ -49,7 +49,7 @@ def drive_turtle(folder: Path) -> None:
             break
         time.sleep(PERIOD_S)
     write_bag(folder / "bag", recorded)
-    print(f"{position:.2f}", speed)
+    sys.stdout.write(f"{position:.2f} {speed}\n")
 
 
 if __name__ == "__main__":

@@ -168,8 +168,9 @@ class BaseRoot:
         step_main()
 
     def hold(self) -> None:
-        """Stop what components command, and call `hold` of the world, if it has one: the robot stops moving
-        until a later iteration commands it again.
+        """Stop what components command, and call `hold` of the world, if it has one.
+
+        The robot stops moving until a later iteration commands it again.
 
         An exception in it is printed once and not raised, because the caller stops for another reason.
         """

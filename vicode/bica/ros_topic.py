@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Mapping
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 from . import ros_session
+from .clock import SimulatedClock
 from .component import Component
 from .errors import NetworkError, describe_exception, print_error
 from .ros_messages import FieldError, MessageField, find_field, message_fields
@@ -75,6 +77,8 @@ class TopicComponent(Component):
         except FieldError as error:
             raise NetworkError(f"{topic}: {error}") from error
         session = ros_session.open_session()
+        if isinstance(root.clock, SimulatedClock) and not os.environ.get(ros_session.BAG):
+            raise NetworkError(f"{topic}: topics need --real-time: other programs do not wait for simulated time")
         self._reader = session.reader(topic, type_) if outputs else None
         self._write = session.writer(topic, type_) if parameters else None
         self._received_ns: int | None = None
