@@ -32,7 +32,7 @@ PROJECT = Project(
         Interface(
             component="Drive",
             implementation="field.drive:Drive",
-            parameters=(Declaration(name="speed", type="float", initial="0"),),
+            parameters=(Declaration(name="speed", initial="0.0"),),
         ),
     ),
     designs=(

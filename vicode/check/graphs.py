@@ -28,7 +28,8 @@ class ComponentGraph:
     def _digraph(self) -> "nx.DiGraph[str]":
         import networkx as nx  # noqa: PLC0415 - see the class
 
-        return nx.DiGraph(dict(self.successors))
+        edges: dict[str, Iterable[str]] = dict(self.successors)
+        return nx.DiGraph(edges)
 
     def _search(self, start: str) -> Mapping[str, str]:
         """Each node that can be reached, with the node before it on a shortest path; kept, as each is asked often."""

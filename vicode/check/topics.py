@@ -1,13 +1,13 @@
 """Checks the topics of ROS 2 in profiles."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from vicode.bica.errors import NetworkError
 from vicode.bica.ros_messages import FieldError, MessageField, find_field, message_fields
 from vicode.findings import DesignPath, did_you_mean
 from vicode.model.design import Declaration
-from vicode.model.expressions import BOOL, FLOAT, INT
+from vicode.model.expressions import BOOL, FLOAT, INT, build_scope
 from vicode.model.project import Interface, Project, TopicReference
 
 _TOPIC = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*\Z", re.ASCII)
@@ -33,9 +33,10 @@ def find_bad_topics(project: Project, choice: TopicReference) -> Iterator[Proble
     yield from _find_unassigned(interface, choice)
     try:
         message_fields(choice.type)
+        type_of = build_scope(project, None).type_of
         for section in ("outputs", "parameters"):
             for name, source in getattr(choice, section):
-                yield from _find_bad_field(interface, choice, (section, name), source)
+                yield from _find_bad_field(interface, choice, (section, name), source, type_of=type_of)
     except FieldError as error:
         yield ("type",), str(error), did_you_mean(error.name, error.known, "use a type such as std_msgs/msg/String")
     except NetworkError:
@@ -52,7 +53,12 @@ def _find_unassigned(interface: Interface, choice: TopicReference) -> Iterator[P
 
 
 def _find_bad_field(
-    interface: Interface, choice: TopicReference, place: tuple[str, str], source: str
+    interface: Interface,
+    choice: TopicReference,
+    place: tuple[str, str],
+    source: str,
+    *,
+    type_of: Callable[[Declaration], str],
 ) -> Iterator[Problem]:
     section, name = place
     declared: tuple[Declaration, ...] = getattr(interface, section)
@@ -72,8 +78,8 @@ def _find_bad_field(
         return
     if section == "parameters" and field.fold:
         yield place, f"'{source}' cannot be published", "use a field that is no array"
-    elif not _fits(declaration.type, field, section):
-        yield place, f"'{name}' is {declaration.type}, '{source}' is {field.kind}", "use a field of the same type"
+    elif not _fits(type_ := type_of(declaration), field, section):
+        yield place, f"'{name}' is {type_}, '{source}' is {field.kind}", "use a field of the same type"
 
 
 def _fits(type_: str, field: MessageField, section: str) -> bool:
