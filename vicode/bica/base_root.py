@@ -219,6 +219,7 @@ class BaseRoot:
 
     @property
     def observers(self) -> tuple[RootObserver, ...]:
+        """The observers, in the order in which they were added."""
         return tuple(self._observers)
 
     def _attach_features(self) -> None:
