@@ -40,6 +40,8 @@ PACKAGE_OF_LIBRARY = {
     "ruff": "services/lint",
     "starlette": "editor",
     "watchfiles": "services/file_changes",
+    "rosbags": "bica/ros_messages",
+    "cyclonedds": "bica/ros_session",
     "yaml": "store",
     "zenoh": "bica/net_session",
 }
@@ -242,8 +244,10 @@ def test_only_one_package_imports_a_library(library: str) -> None:
 def test_the_runtime_has_no_dependencies() -> None:
     runtime = [path for path in PACKAGE if path.startswith("vicode/bica/")]
     foreign = {path: _describe_module(path).libraries - set(sys.stdlib_module_names) for path in runtime}
-    # It is optional, and imported when a robot connects.
+    # They are optional, and imported when a robot connects.
     foreign["vicode/bica/net_session.py"] -= {"zenoh"}
+    foreign["vicode/bica/ros_messages.py"] -= {"rosbags"}
+    foreign["vicode/bica/ros_session.py"] -= {"cyclonedds"}
     offenders = [f"{path} imports {', '.join(sorted(names))}" for path, names in foreign.items() if names]
     _assert_none(offenders, "vicode/bica is deployed alone: use only the standard library and relative imports")
 

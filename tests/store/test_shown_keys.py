@@ -124,13 +124,17 @@ NOT_SHOWN: Mapping[Callable[[Project], object], Mapping[str, str]] = {
         **dict.fromkeys(("Stay.*", "DecisionGroup.*"), "labels show guards only; other decisions are not drawn"),
         **dict.fromkeys(("Design.*", "Declaration.*", "*Property.*"), "the form of the design shows them"),
         **dict.fromkeys(("Project.*", "Enumeration.*", "Interface.*", "Agent.*"), "the diagram is that of a design"),
-        **dict.fromkeys(("Profile.*", "ProfileClass.*", "RemoteReference.*", "BridgeSettings.*"), _FOR_RUNS),
+        **dict.fromkeys(
+            ("Profile.*", "ProfileClass.*", "RemoteReference.*", "TopicReference.*", "BridgeSettings.*"), _FOR_RUNS
+        ),
     },
     write_forms: {
         "*.id": "written by the editor",
         **dict.fromkeys(("*.at", "*.label_at"), "moved in the diagram"),
         **dict.fromkeys(("Project.clock", "Project.generated", "Project.xabsl_encoding", "Project.profiles"), _IN_FILE),
-        **dict.fromkeys(("Profile.*", "ProfileClass.*", "RemoteReference.*", "BridgeSettings.*"), _IN_FILE),
+        **dict.fromkeys(
+            ("Profile.*", "ProfileClass.*", "RemoteReference.*", "TopicReference.*", "BridgeSettings.*"), _IN_FILE
+        ),
     },
     write_site: {
         "*.id": "written by the editor",
@@ -138,7 +142,9 @@ NOT_SHOWN: Mapping[Callable[[Project], object], Mapping[str, str]] = {
         **dict.fromkeys(("Agent.xabsl_name", "Enumeration.xabsl_elements"), "of interest to the XABSL engine only"),
         **dict.fromkeys(("Project.world", "Project.clock", "Project.profiles"), _FOR_RUNS),
         **dict.fromkeys(("Project.generated", "Project.xabsl_encoding"), "of interest to generators only"),
-        **dict.fromkeys(("Profile.*", "ProfileClass.*", "RemoteReference.*", "BridgeSettings.*"), _FOR_RUNS),
+        **dict.fromkeys(
+            ("Profile.*", "ProfileClass.*", "RemoteReference.*", "TopicReference.*", "BridgeSettings.*"), _FOR_RUNS
+        ),
     },
 }
 """The fields that are not shown, as patterns, with the reason."""

@@ -39,6 +39,7 @@ from vicode.model.project import (
     ProfileClass,
     Project,
     RemoteReference,
+    TopicReference,
 )
 
 AWKWARD_NAMES = ("on", "off", "no", "yes", "null", "true", "1e3", "007", "code", "doc", "elements", "default", "python")
@@ -224,6 +225,7 @@ agents = st.builds(
     doc=st.just("") | texts,
     xabsl_name=st.just("") | texts,
 )
+_field_names = st.dictionaries(names, texts, max_size=2).map(lambda entries: tuple(entries.items()))
 profiles = st.builds(
     Profile,
     name=names,
@@ -231,7 +233,17 @@ profiles = st.builds(
     clock=st.sampled_from(["", "world"]),
     components=_unique(
         st.builds(ProfileClass, component=names, implementation=texts)
-        | st.builds(RemoteReference, component=names, remote=texts, reliable=st.booleans(), max_age=frequencies),
+        | st.builds(RemoteReference, component=names, remote=texts, reliable=st.booleans(), max_age=frequencies)
+        | st.builds(
+            TopicReference,
+            component=names,
+            topic=texts,
+            type=texts,
+            outputs=_field_names,
+            parameters=_field_names,
+            frame=texts,
+            max_age=frequencies,
+        ),
         "component",
         2,
     ),

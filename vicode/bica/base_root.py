@@ -81,6 +81,8 @@ class BaseRoot:
         """Whether a record could not be written."""
         self._is_time_stopped = self._is_closed = False
         self._hold_failures: set[str] = set()
+        self.holders: list[Callable[[], None]] = []
+        """What components do when the robot is held; they never raise."""
         self._closing = ExitStack()
         self._closing.callback(self._close_world)
         try:
@@ -166,10 +168,14 @@ class BaseRoot:
         step_main()
 
     def hold(self) -> None:
-        """Call `hold` of the world, if it has one: the robot stops moving until a later iteration commands it again.
+        """Stop what components command, and call `hold` of the world, if it has one.
+
+        The robot stops moving until a later iteration commands it again.
 
         An exception in it is printed once and not raised, because the caller stops for another reason.
         """
+        for holder in self.holders:
+            holder()
         hold = getattr(self.world, "hold", None)
         if callable(hold):
             try:
@@ -202,6 +208,19 @@ class BaseRoot:
             raise self.stop_error
         elif self.errors[record.place] == 1:
             print_error(f"{record} (reported once; repetitions are only counted)")
+
+    def observe(self, observer: RootObserver) -> None:
+        """Let an observer see the iterations from now on, or from the first one during construction."""
+        if hasattr(self, "_step_main"):
+            self._add_observer(observer)
+        else:
+            self._observers.append(observer)
+            self._error_listeners.append(observer.add_error)
+
+    @property
+    def observers(self) -> tuple[RootObserver, ...]:
+        """The observers, in the order in which they were added."""
+        return tuple(self._observers)
 
     def _attach_features(self) -> None:
         """Attach what a subclass offers; called once the root can be stepped."""

@@ -37,7 +37,7 @@ def watch_root(
         OSError: The address is in use or invalid, or shared with another token or permission to control, or the root
             is watched already.
     """
-    if control and not without_hold and not callable(getattr(root.world, "hold", None)):
+    if control and not without_hold and not (root.holders or callable(getattr(root.world, "hold", None))):
         owner = (
             "the robot has no world" if root.world is None else f"the world {type(root.world).__name__} has no hold()"
         )

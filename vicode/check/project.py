@@ -16,6 +16,7 @@ from vicode.check.identifiers import (
     validate_identifier,
     with_article,
 )
+from vicode.check.topics import find_bad_topics
 from vicode.check.typed_expressions import (
     TypedExpression,
     analyze_expression,
@@ -27,7 +28,7 @@ from vicode.languages import GENERATED_LANGUAGES
 from vicode.model.design import Declaration
 from vicode.model.expressions import BOOL, Scope, build_interface_scope, build_scope, constant_scopes
 from vicode.model.names import package_name
-from vicode.model.project import INTERNAL, MISSING, WORLD, Project, RemoteReference
+from vicode.model.project import INTERNAL, MISSING, WORLD, Elsewhere, Project, TopicReference
 
 _CLASS_IN_MODULE = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*\Z", re.ASCII)
 _ROBOT_AND_COMPONENT = re.compile(r"[A-Za-z0-9][\w.-]{0,63}/[A-Za-z]\w{0,63}\Z", re.ASCII)
@@ -45,7 +46,7 @@ def find_bad_profiles(project: Project) -> Iterator[Finding]:
             yield _make_finding("P213", (*path, "clock"), "the world sets the pace, but the profile has none", fix)
         for choice in profile.components:
             place = (*path, "components", choice.component)
-            if isinstance(choice, RemoteReference):
+            if isinstance(choice, Elsewhere):
                 yield from _find_bad_remote(project, choice, place)
             elif choice.component not in names:
                 fix = did_you_mean(choice.component, names, "declare it in 'components'")
@@ -56,23 +57,26 @@ def find_bad_profiles(project: Project) -> Iterator[Finding]:
                 yield _make_finding("P213", place, f"'{choice.implementation}' is not of the form module:Class", fix)
 
 
-def _find_bad_remote(project: Project, choice: RemoteReference, place: DesignPath) -> Iterator[Finding]:
+def _find_bad_remote(project: Project, choice: Elsewhere, place: DesignPath) -> Iterator[Finding]:
     interface = project.interface(choice.component)
     if interface is None:
         if choice.component not in dict(project.unreadable):
             fix = did_you_mean(choice.component, project.interfaces(), "declare it in 'components'")
             yield _make_finding("P213", place, f"unknown component '{choice.component}'", fix, is_key=True)
         return
-    if not _ROBOT_AND_COMPONENT.match(choice.remote):
+    if isinstance(choice, TopicReference):
+        yield from (_make_finding("P213", (*place, *path), *text) for path, *text in find_bad_topics(project, choice))
+    elif not _ROBOT_AND_COMPONENT.match(choice.remote):
         fix = f"name the robot and its component, such as striker/{choice.component}"
         yield _make_finding("P213", (*place, "remote"), f"'{choice.remote}' is not of the form robot/component", fix)
     if choice.max_age is not None and not 0 < choice.max_age < float("inf"):
         fix = "use a number above 0, or remove 'max_age'"
         yield _make_finding("P213", (*place, "max_age"), f"{choice.max_age:g} s is not a valid age", fix)
+    source = "a topic does not have" if isinstance(choice, TopicReference) else "another robot does not share"
     for output in interface.readable:
         if output.arguments is not None or output in interface.variables:
             kind = "a variable" if output in interface.variables else "an output with arguments"
-            message = f"'{output.name}' of '{choice.component}' is {kind}, which another robot does not share"
+            message = f"'{output.name}' of '{choice.component}' is {kind}, which {source}"
             fix = "use outputs without arguments and parameters"
             yield _make_finding("P213", place, message, fix, is_key=True)
 

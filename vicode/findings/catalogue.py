@@ -65,7 +65,7 @@ _RECORDS = (
         "P213",
         "bad-profile",
         Severity.ERROR,
-        "profile of an unknown component, class not in the form module:Class, or bad remote component",
+        "profile of an unknown component, class not in the form module:Class, or bad remote component or topic",
     ),
     ("P214", "inactive-component", Severity.NOTE, "design that no agent activates"),
     ("P215", "undecided-team", Severity.NOTE, "team of robots with too many configurations to search"),

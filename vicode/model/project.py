@@ -5,11 +5,11 @@ from dataclasses import dataclass, field, replace
 
 from vicode.model.design import Declaration, Design
 
-WORLD, INTERNAL, MISSING, REMOTE = "world", "internal", "", "remote"
+WORLD, INTERNAL, MISSING, REMOTE, TOPIC = "world", "internal", "", "remote", "topic"
 """Generated implementations: WORLD delegates to the world, INTERNAL stores shared variables.
 
 The class of a component that is not implemented yet (MISSING) stores outputs and parameters. That of a component which
-a profile assigns to another robot (REMOTE) exchanges them with it.
+a profile assigns to another robot (REMOTE) exchanges them with it, and one of a topic (TOPIC) reads or publishes them.
 """
 
 
@@ -57,11 +57,36 @@ class RemoteReference:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class TopicReference:
+    """A topic of ROS 2 in the place of a component: `outputs` are read from it, or `parameters` are published.
+
+    Attributes:
+        type: The message type, such as "sensor_msgs/msg/LaserScan".
+        outputs: Pairs of output and field, such as ("nearest", "min(ranges)").
+        parameters: Pairs of parameter and field.
+        frame: The frame_id of published messages.
+        max_age: Seconds after which outputs are too old; None for the default.
+    """
+
+    component: str
+    topic: str
+    type: str = ""
+    outputs: tuple[tuple[str, str], ...] = ()
+    parameters: tuple[tuple[str, str], ...] = ()
+    frame: str = ""
+    max_age: float | None = None
+
+
+Elsewhere = RemoteReference | TopicReference
+"""What does the work of a component outside the program."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Interface:
     """The interface of a component, declared in project.yaml or derived from a design.
 
-    `implementation` is "module:Class" or, for generated classes, WORLD, INTERNAL, MISSING, or REMOTE with `remote`;
-    empty for a design. Other components can read `outputs` and `variables`, and set `variables`. `assume` is a
+    `implementation` is "module:Class" or, for generated classes, WORLD, INTERNAL, MISSING, or with `remote` REMOTE or
+    TOPIC; empty for a design. Other components can read `outputs` and `variables`, and set `variables`. `assume` is a
     condition on them that the analysis takes for granted.
     """
 
@@ -75,7 +100,7 @@ class Interface:
     outputs: tuple[Declaration, ...] = ()
     variables: tuple[Declaration, ...] = ()
     assume: str = ""
-    remote: RemoteReference | None = None
+    remote: Elsewhere | None = None
 
     @property
     def is_generated(self) -> bool:
@@ -115,7 +140,7 @@ class Profile:
     name: str
     world: str = ""
     clock: str = ""
-    components: tuple[ProfileClass | RemoteReference, ...] = ()
+    components: tuple[ProfileClass | Elsewhere, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -185,7 +210,7 @@ def select_profile(project: Project, name: str) -> Project:
     if profile is None:
         raise KeyError(name)
     choices = {choice.component: choice for choice in profile.components}
-    remote = {name for name, choice in choices.items() if isinstance(choice, RemoteReference)}
+    remote = {name for name, choice in choices.items() if isinstance(choice, Elsewhere)}
     designs = (derive_interface(design) for design in project.designs if design.component in remote)
     return replace(
         project,
@@ -197,12 +222,14 @@ def select_profile(project: Project, name: str) -> Project:
     )
 
 
-def _choose(interface: Interface, choice: ProfileClass | RemoteReference | None) -> Interface:
+def _choose(interface: Interface, choice: ProfileClass | Elsewhere | None) -> Interface:
     match choice:
         case ProfileClass(implementation=implementation):
             return replace(interface, implementation=implementation)
         case RemoteReference():
             return replace(interface, implementation=REMOTE, remote=choice)
+        case TopicReference():
+            return replace(interface, implementation=TOPIC, remote=choice)
         case None:
             return interface
 

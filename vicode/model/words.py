@@ -41,6 +41,7 @@ _WORDS = {
     "Project.xabsl_encoding": "encoding of XABSL files",
     "RemoteReference.max_age": "longest age",
     "RemoteReference.remote": "remote component",
+    "TopicReference.max_age": "longest age",
     "Transition.to": "target",
 }
 """Words for fields of all records, or of one record."""

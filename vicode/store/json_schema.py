@@ -115,7 +115,7 @@ def _record_schema(record: RecordSchema, definitions: JsonSchema) -> JsonSchema:
     if record.one_of:
         mapping |= {"type": "object", "oneOf": [{"required": [name]} for name in record.one_of]}
     if record.dependent_keys:
-        mapping["dependentRequired"] = {name: [needed] for name, needed in record.dependent_keys}
+        mapping["dependentRequired"] = {key: needed for key, *needed in record.dependent_keys if len(needed) == 1}
     if not record.shorthand_key:
         return {"description": record.description, **mapping}
     key = record.find_key(record.shorthand_key)

@@ -9,6 +9,7 @@ from vicode.model.project import (
     ProfileClass,
     Project,
     RemoteReference,
+    TopicReference,
 )
 from vicode.store.format import (
     ARGUMENT,
@@ -96,19 +97,29 @@ AGENT = RecordSchema(
         XABSL_NAME_KEY,
     ),
 )
+_FIELDS = MapSchema(description="a mapping of names to fields", value_schema=TEXT, flow_width=FLOW_WIDTH)
 CHOICE = RecordSchema(
     name="profile_component",
-    description="a class as module:Class, or 'remote'",
-    variants={"implementation": ProfileClass, "remote": RemoteReference},
-    missing_message=("the component gets no other class", "add 'implementation' or 'remote'"),
-    dependent_keys=(("reliable", "remote"), ("max_age", "remote")),
+    description="a class as module:Class, 'remote', or 'topic'",
+    variants={"implementation": ProfileClass, "remote": RemoteReference, "topic": TopicReference},
+    missing_message=("the component gets no other class", "add 'implementation', 'remote' or 'topic'"),
+    dependent_keys=(
+        ("reliable", "remote"),
+        ("max_age", "remote", "topic"),
+        *((key, "topic") for key in ("type", "outputs", "parameters", "frame")),
+    ),
     shorthand_key="implementation",
     flow_width=FLOW_WIDTH,
     keys=(
         KeySchema("implementation", TEXT, "class as module:Class", keeps_empty=True),
         KeySchema("remote", TEXT, "the component of another process or robot, as robot/component", keeps_empty=True),
         KeySchema("reliable", FLAG, "`true`: each message counts; default: only the newest", default=False),
-        KeySchema("max_age", FREQUENCY, "seconds after which outputs are too old; default: 1"),
+        KeySchema("topic", TEXT, "a topic of ROS 2, such as /scan (docs/ros2.md)", keeps_empty=True),
+        KeySchema("type", TEXT, "with `topic`: its type, such as sensor_msgs/msg/LaserScan"),
+        KeySchema("outputs", _FIELDS, "with `topic`: the field of each output, such as `min(ranges)`"),
+        KeySchema("parameters", _FIELDS, "with `topic`: the field of each parameter, such as linear.x"),
+        KeySchema("frame", TEXT, "with `topic`: frame_id of published messages"),
+        KeySchema("max_age", FREQUENCY, "`remote`, `topic`: seconds after which outputs are too old; default: 1"),
     ),
 )
 PROFILE = RecordSchema(

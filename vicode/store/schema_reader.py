@@ -265,9 +265,10 @@ class SchemaReader:
             message = f"'{given[0]}' and '{extra}' cannot be combined"
             self._report_conflict(children[extra].key_node or node, message, extra, path)
         values = {str(name): child.value for name, child in children.items() if name not in given[1:]}
-        for name, needed in schema.dependent_keys:
-            if name in values and needed not in values and given:
-                message = f"'{name}' requires '{needed}', found '{given[0]}'"
+        for name, *needed in schema.dependent_keys:
+            if name in values and not any(each in values for each in needed) and given:
+                required = " or ".join(f"'{each}'" for each in needed)
+                message = f"'{name}' requires {required}, found '{given[0]}'"
                 self._report_conflict(children[name].key_node or node, message, name, path)
                 del values[name]
         if given and values.get(given[0]) is None:

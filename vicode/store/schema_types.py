@@ -120,7 +120,7 @@ class RecordSchema:
         variants: Class of the model by the key that selects it; exactly one of these keys must be given.
         nested: Classes by the fields of the model that hold them.
         missing_message: Message and fix if none of the `variants` is given.
-        dependent_keys: Pairs of a key and the key that it requires.
+        dependent_keys: Keys, each followed by the keys of which it requires one.
         synonyms: Terms of other tools and the corresponding key.
         flow_width: Maximum line length for flow style, 0 for block style.
     """
@@ -134,7 +134,7 @@ class RecordSchema:
     shorthand_key: str = ""
     shorthand_words: Mapping[str, str] = field(default_factory=dict)
     missing_message: tuple[str, str] = ("", "")
-    dependent_keys: tuple[tuple[str, str], ...] = ()
+    dependent_keys: tuple[tuple[str, ...], ...] = ()
     synonyms: Mapping[str, str] = field(default_factory=dict)
     flow_width: int = 0
 

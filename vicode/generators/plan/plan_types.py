@@ -7,7 +7,7 @@ from vicode.findings import DesignPath
 from vicode.generators.plan.int_ranges import IntRanges
 from vicode.model.design import Code, Design
 from vicode.model.expressions import Expr
-from vicode.model.project import WORLD, Enumeration, Project, RemoteReference
+from vicode.model.project import WORLD, Elsewhere, Enumeration, Project
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,7 +52,7 @@ class InterfacePlan:
     """A generated component without a design.
 
     Attributes:
-        implementation: WORLD, INTERNAL, MISSING or REMOTE.
+        implementation: WORLD, INTERNAL, MISSING, REMOTE or TOPIC.
         is_behavior: It is a basic behavior: each step passes its parameters to a method of the world.
     """
 
@@ -65,7 +65,7 @@ class InterfacePlan:
     outputs: tuple[ValuePlan, ...]
     functions: tuple[FunctionPlan, ...]
     variables: tuple[ValuePlan, ...]
-    remote: RemoteReference | None = None
+    remote: Elsewhere | None = None
 
     @property
     def stored_values(self) -> tuple[ValuePlan, ...]:

@@ -15,7 +15,7 @@ from vicode.generators.python.text import declaration_description, docstring, qu
 from vicode.generators.python.views import InterfaceClassView, InterfacesModuleView, MethodView
 from vicode.model.expressions import BOOL, FLOAT, INT
 from vicode.model.names import python_attribute_name, snake_case
-from vicode.model.project import INTERNAL, MISSING, REMOTE, WORLD, RemoteReference
+from vicode.model.project import INTERNAL, MISSING, REMOTE, TOPIC, WORLD, Elsewhere, TopicReference
 
 _MARGIN = " " * BODY_INDENT
 
@@ -83,7 +83,8 @@ class _InterfaceWriter:
         values = [value for value in self.plan.stored_values if value.name not in set_already]
         if not values and remote is None:
             return
-        lines = [f"{_MARGIN}super().__init__({', '.join(['root', *_remote_arguments(remote)])})"]
+        arguments: list[Doc] = ["root", *_remote_arguments(remote)]
+        lines = render_doc(call_doc("super().__init__", arguments), BODY_INDENT)
         for value in values:
             lines += format_statement(
                 f"self.{value.name} = ", self.expression_printer.stored_doc(value.initial), indent=BODY_INDENT
@@ -151,15 +152,25 @@ REMOTE_VALUES = ("data_age", "is_alive")
 
 
 def _base_class(plan: InterfacePlan) -> tuple[str, str]:
+    if isinstance(plan.remote, TopicReference):
+        return f"{RUNTIME}.ros_topic", "TopicComponent"
     return (f"{RUNTIME}.remote", "RemoteComponent") if plan.remote is not None else (RUNTIME, "Component")
 
 
-def _remote_arguments(remote: RemoteReference | None) -> Iterator[str]:
+def _remote_arguments(remote: Elsewhere | None) -> Iterator[str]:
     if remote is None:
         return
-    yield quoted(remote.remote)
-    if remote.reliable:
-        yield "reliable=True"
+    if isinstance(remote, TopicReference):
+        yield from (quoted(remote.topic), quoted(remote.type))
+        for name, fields in (("outputs", remote.outputs), ("parameters", remote.parameters)):
+            if fields:
+                yield f"{name}={{{', '.join(f'{quoted(key)}: {quoted(field)}' for key, field in fields)}}}"
+        if remote.frame:
+            yield f"frame={quoted(remote.frame)}"
+    else:
+        yield quoted(remote.remote)
+        if remote.reliable:
+            yield "reliable=True"
     if remote.max_age is not None:
         yield f"max_age={float(remote.max_age)!r}"
 
@@ -168,6 +179,7 @@ _DOCS = {
     WORLD: "Provided by the world.",
     INTERNAL: "Shared variables.",
     REMOTE: "A component of another robot.",
+    TOPIC: "A topic of ROS 2.",
     MISSING: "Not implemented yet: the robot program sets the outputs.",
 }
 _EMPTY_WORK = MethodView(

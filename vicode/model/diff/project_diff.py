@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from vicode.findings import DesignPath
 from vicode.model.diff.changes import Change, ChangeKind
 from vicode.model.diff.item_diff import diff_declarations, diff_fields, diff_keyed, diff_values
-from vicode.model.project import Enumeration, Interface, Profile, ProfileClass, Project, RemoteReference
+from vicode.model.project import Elsewhere, Enumeration, Interface, Profile, ProfileClass, Project, TopicReference
 from vicode.model.words import describe_value
 
 _SECTIONS = ("parameters", "outputs", "variables")
@@ -104,12 +104,18 @@ def _diff_profile(path: DesignPath, old: Profile, new: Profile) -> Iterator[Chan
     )
 
 
-def _describe_replacement(replacement: ProfileClass | RemoteReference) -> str:
-    return replacement.implementation if isinstance(replacement, ProfileClass) else replacement.remote
+def _describe_replacement(replacement: ProfileClass | Elsewhere) -> str:
+    match replacement:
+        case ProfileClass():
+            return replacement.implementation
+        case TopicReference():
+            return f"{replacement.topic} ({replacement.type})"
+        case _:
+            return replacement.remote
 
 
 def _diff_replacement(
-    path: DesignPath, profile: str, old: ProfileClass | RemoteReference, new: ProfileClass | RemoteReference
+    path: DesignPath, profile: str, old: ProfileClass | Elsewhere, new: ProfileClass | Elsewhere
 ) -> Iterator[Change]:
     subject = f"profile {profile}, component {new.component}"
     if type(old) is not type(new):

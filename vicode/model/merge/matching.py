@@ -8,7 +8,7 @@ from typing import Any
 from vicode.matching import Match, match_equal
 from vicode.model.decisions import retarget
 from vicode.model.design import Call, Declaration, Design, DiagramFrame, DiagramNote, State, Transition, Use
-from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, RemoteReference
+from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, RemoteReference, TopicReference
 
 Matches = dict[int, int]
 """Maps indices of the old list to indices of the new list."""
@@ -33,8 +33,8 @@ def item_key(item: Any) -> Hashable:
             return alias
         case Enumeration(name=name) | Agent(name=name) | Profile(name=name):
             return name
-        case Interface(component=component) | ProfileClass(component=component) | RemoteReference(component=component):
-            return component
+        case Interface() | ProfileClass() | RemoteReference() | TopicReference():
+            return item.component
         case (name, _text):
             return str(name)
         case _:
