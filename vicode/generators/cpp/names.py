@@ -9,7 +9,7 @@ from vicode.generators.plan import ComponentPlan, PackagePlan, ProjectPlan, Valu
 from vicode.languages import LANGUAGES
 from vicode.model.names import python_attribute_name
 
-RESERVED_MODULES = frozenset({*LANGUAGES["cpp"].keywords, "bica", "components", "declarations", "interfaces", "world"})
+RESERVED_MODULES = frozenset({*LANGUAGES["cpp"].keywords, "bica", "components", "declarations", "interfaces", "live", "world"})
 """File names that no design may use."""
 
 _KEYWORDS = LANGUAGES["cpp"].keywords
@@ -20,6 +20,7 @@ _MEMBERS = frozenset(
         "State",
         "act",
         "act_common",
+        "action_done_of",
         "already",
         "attempt",
         "begin_observed_step",
@@ -28,11 +29,13 @@ _MEMBERS = frozenset(
         "called",
         "change_state",
         "change_to",
+        "conflict_of",
         "count_step",
         "decide",
         "decide_common",
         "end_observed_step",
         "enter",
+        "enter_state",
         "entered_ns",
         "errors",
         "forget_calls",
