@@ -333,7 +333,7 @@ private:
 
 // JSON
 
-inline std::string quoted(const char* text) {
+inline std::string json_text(const char* text) {
     std::string result = "\"";
     for (const char* at = text; *at != '\0';) {
         const auto byte = static_cast<unsigned char>(*at);
@@ -355,7 +355,7 @@ inline std::string quoted(const char* text) {
     return result.append("\"");
 }
 
-inline std::string quoted(const std::string& text) { return quoted(text.c_str()); }
+inline std::string json_text(const std::string& text) { return json_text(text.c_str()); }
 
 /// The shortest text of a number that reads as the same number, whatever the locale of the program is.
 inline std::string number_text(double value) {
@@ -385,10 +385,10 @@ inline std::string value_text(const LiveValue& value) {
         case LiveValue::Kind::element:
             break;
     }
-    return quoted(std::string(value.type) + "." + value.element);
+    return json_text(std::string(value.type) + "." + value.element);
 }
 
-inline std::string or_null(const char* text) { return text != nullptr ? quoted(text) : "null"; }
+inline std::string or_null(const char* text) { return text != nullptr ? json_text(text) : "null"; }
 
 /// Writes one iteration as docs/traces.md describes it; without the closing bracket.
 class Writer {
@@ -405,19 +405,19 @@ public:
         text_ += "],\"errors\":[";
         for (const Error& error : iteration_.errors) {
             separate();
-            text_ += "{\"component\":" + quoted(error.component->name()) + ",\"state\":" + quoted(error.state) + ",\"message\":" + quoted(error.message.data()) + "}";
+            text_ += "{\"component\":" + json_text(error.component->name()) + ",\"state\":" + json_text(error.state) + ",\"message\":" + json_text(error.message.data()) + "}";
         }
         text_ += "],\"still_done\":[";
         for (const Component* component : iteration_.still_done) {
             separate();
-            text_ += quoted(component->name());
+            text_ += json_text(component->name());
         }
         text_ += "]";
         if (has_values_ && !iteration_.inputs.empty()) {
             text_ += ",\"inputs\":{";
             for (const Span& span : iteration_.inputs) {
                 separate();
-                text_ += quoted(span.component->name()) + ":";
+                text_ += json_text(span.component->name()) + ":";
                 write_values(span);
             }
             text_ += "}";
@@ -433,9 +433,9 @@ private:
     }
     void write_step(const Step& step) {
         const char* link = step.is_modulated ? "modulates" : "requires";
-        text_ += "{\"component\":" + quoted(step.values.component->name()) + ",\"by\":" + or_null(step.by != nullptr ? step.by->name() : nullptr);
-        text_ += ",\"link\":" + quoted(step.by == nullptr ? "root" : link) + ",\"worked\":" + (step.worked ? "true" : "false");
-        text_ += ",\"state\":" + quoted(step.state) + ",\"state_time_ns\":" + std::to_string(step.state_time_ns);
+        text_ += "{\"component\":" + json_text(step.values.component->name()) + ",\"by\":" + or_null(step.by != nullptr ? step.by->name() : nullptr);
+        text_ += ",\"link\":" + json_text(step.by == nullptr ? "root" : link) + ",\"worked\":" + (step.worked ? "true" : "false");
+        text_ += ",\"state\":" + json_text(step.state) + ",\"state_time_ns\":" + std::to_string(step.state_time_ns);
         text_ += ",\"changed_from\":" + or_null(step.changed_from) + ",\"transition\":" + or_null(step.transition) + ",\"parameters\":";
         write_values(step.parameters);
         text_ += std::string(",\"done\":") + (step.done ? "true" : "false");
@@ -458,7 +458,7 @@ private:
         text_ += "{";
         for (std::size_t index = span.begin; index < span.end; ++index) {
             separate();
-            text_ += quoted(iteration_.values[index].name) + ":" + value_text(iteration_.values[index]);
+            text_ += json_text(iteration_.values[index].name) + ":" + value_text(iteration_.values[index]);
         }
         text_ += "}";
     }
@@ -1883,17 +1883,17 @@ private:
 
     std::string describe() const {
         std::string text = std::string("{\"vicode-live\":1,\"control\":") + (robot_.options.control ? "true" : "false");
-        text += ",\"robots\":[{\"name\":" + quoted(name_) + ",\"root\":" + quoted(robot_.main_name) + ",\"language\":\"cpp\",\"components\":{";
+        text += ",\"robots\":[{\"name\":" + json_text(name_) + ",\"root\":" + json_text(robot_.main_name) + ",\"language\":\"cpp\",\"components\":{";
         for (const LiveComponent& each : robot_.project.components) {
-            text += (text.back() == '{' ? "" : ",") + quoted(each.component->name()) + ":{\"design\":" + quoted(each.design) + ",\"code\":" + quoted(each.code) + ",\"states\":[";
+            text += (text.back() == '{' ? "" : ",") + json_text(each.component->name()) + ":{\"design\":" + json_text(each.design) + ",\"code\":" + json_text(each.code) + ",\"states\":[";
             for (const char* state : each.states) {
-                text += (text.back() == '[' ? "" : ",") + quoted(state);
+                text += (text.back() == '[' ? "" : ",") + json_text(state);
             }
             text += "],\"frequency_hz\":" + (each.frequency_hz == 0.0 ? "null" : number_text(each.frequency_hz)) + "}";
         }
         text += "},\"shared\":{";
         for (const auto& [file, code] : robot_.project.shared) {
-            text += (text.back() == '{' ? "" : ",") + quoted(file) + ":" + quoted(code);
+            text += (text.back() == '{' ? "" : ",") + json_text(file) + ":" + json_text(code);
         }
         return text + "}}]}\n";
     }
@@ -1941,7 +1941,7 @@ private:
         }
     }
     void answer(Viewer& viewer, const std::string& id, const char* kind, const std::string& words) {
-        send(viewer, "{\"answer\":" + id + ",\"robot\":" + quoted(name_) + (*kind == '\0' ? "" : std::string(",\"") + kind + "\":" + quoted(words)) + "}\n");
+        send(viewer, "{\"answer\":" + id + ",\"robot\":" + json_text(name_) + (*kind == '\0' ? "" : std::string(",\"") + kind + "\":" + json_text(words)) + "}\n");
     }
 
     void deliver() {
@@ -1974,13 +1974,13 @@ private:
         std::string& text = is_shown ? with_values_ : without_values_;
         const Head& head = newest_->head;
         if (text.empty()) {
-            text = Writer(*newest_, is_shown, true).write() + ",\"robot\":" + quoted(name_) + ",\"paused\":" + (head.is_paused ? "true" : "false") + ",\"errors_total\":" + std::to_string(head.errors_total);
+            text = Writer(*newest_, is_shown, true).write() + ",\"robot\":" + json_text(name_) + ",\"paused\":" + (head.is_paused ? "true" : "false") + ",\"errors_total\":" + std::to_string(head.errors_total);
         }
         std::string changes;
         for (const Change& each : changes_) {
             if (each.number > viewer.seen_change) {
                 changes += (changes.empty() ? "" : ",") + std::string("{\"number\":") + std::to_string(each.number) + ",\"iteration\":" + std::to_string(each.iteration) + ",\"time_ns\":" + std::to_string(each.time_ns);
-                changes += ",\"component\":" + quoted(each.component) + ",\"source\":" + quoted(each.source) + ",\"target\":" + quoted(each.target) + ",\"transition\":" + or_null(each.transition) + "}";
+                changes += ",\"component\":" + json_text(each.component) + ",\"source\":" + json_text(each.source) + ",\"target\":" + json_text(each.target) + ",\"transition\":" + or_null(each.transition) + "}";
             }
         }
         viewer.seen_change = changes_.empty() ? viewer.seen_change : changes_.back().number;

@@ -76,7 +76,7 @@ class _LiveWriter:
 
     def _interface(self, item: Interface, member: str) -> LiveComponentView:
         planned = plan_interface(self._plan.project, item)
-        stored = [] if planned.implementation == WORLD else list(planned.readable)
+        stored = [] if planned.implementation == WORLD else [*planned.outputs, *planned.variables]
         hidden = {value.name for value in stored}
         parameters = (value for value in planned.parameters if value.name not in hidden)
         lines = (
