@@ -210,7 +210,9 @@ def _robot(plain: Mapping[str, Any]) -> RobotDescription:
     }
     shared = {str(name): str(code) for name, code in plain.get("shared", {}).items()}
     language = "cpp" if plain.get("language") == "cpp" else "python"
-    return RobotDescription(name=str(plain["name"]), root=str(plain["root"]), language=language, components=components, shared=shared)
+    return RobotDescription(
+        name=str(plain["name"]), root=str(plain["root"]), language=language, components=components, shared=shared
+    )
 
 
 async def _open(address: RobotAddress) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:

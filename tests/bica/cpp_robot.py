@@ -67,3 +67,10 @@ def cpp_control(cpp_robot: CppRobot) -> Viewer:
     viewer = Viewer(cpp_robot)
     viewer.get(lambda line: "iteration" in line)
     return viewer
+
+
+@pytest.fixture(params=["python", "cpp"])
+def any_control(request: pytest.FixtureRequest) -> Viewer:
+    """A viewer that controls a robot in each language; the one in Python is stepped by the viewer."""
+    viewer: Viewer = request.getfixturevalue("control" if request.param == "python" else "cpp_control")
+    return viewer

@@ -71,7 +71,9 @@ def test_a_breakpoint_pauses_steps_go_on_and_time_stands_still(cpp_robot: CppRob
     lines = [line]
     for _step in range(3):
         cpp_control.ask(do="step")
-        lines.append(cpp_control.get(lambda each, last=lines[-1]: each.get("paused") and each["iteration"] > last["iteration"]))
+        lines.append(
+            cpp_control.get(lambda each, last=lines[-1]: each.get("paused") and each["iteration"] > last["iteration"])
+        )
     for before, after in pairwise(lines):
         assert after["iteration"] == before["iteration"] + 1
         assert after["time_ns"] == before["time_ns"] + 20_000_000
@@ -149,7 +151,9 @@ def test_a_wrong_token_ends_the_connection(cpp_robot: CppRobot, token: Any) -> N
 
 def test_a_robot_without_hold_or_with_a_bad_address_says_so(cpp_program: Path) -> None:
     for address in ("nowhere", "unix:/no/folder/robot.sock"):
-        ended = subprocess.run([cpp_program, "--watch", address], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+        ended = subprocess.run(
+            [cpp_program, "--watch", address], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL
+        )
         assert (ended.returncode, ended.stderr.startswith(f"error: cannot be watched at {address}: ")) == (2, True)
 
 
@@ -159,7 +163,12 @@ def test_the_thread_of_the_robot_allocates_nothing(cpp_program: Path, tmp_path: 
     control.ask(do="break", places=LIT)
     control.ask(do="set", component="Eyes", name="distance", value=0, hold=True)
     control.get(lambda line: line.get("paused"))
-    for request in ({"do": "step"}, {"do": "enter", "component": "Lamp", "state": "Dark"}, {"do": "break", "places": []}, {"do": "resume"}):
+    for request in (
+        {"do": "step"},
+        {"do": "enter", "component": "Lamp", "state": "Dark"},
+        {"do": "break", "places": []},
+        {"do": "resume"},
+    ):
         assert "done" in control.ask(**request)
     control.socket.close()
     Viewer(robot).get(is_iteration)
@@ -179,8 +188,13 @@ def test_a_record_is_replayed(cpp_program: Path, tmp_path: Path) -> None:
     trace = open_trace(tmp_path / "run.jsonl")
     numbers = [each.iteration for each in trace.iterations()]
     assert numbers == list(range(1, len(numbers) + 1))
-    for command in (["replay", "run.jsonl", "--design", str(LAMP)], ["trace", "check", "run.jsonl", "--design", str(LAMP)]):
-        ended = subprocess.run([sys.executable, "-m", "vicode", *command], cwd=tmp_path, capture_output=True, text=True, check=False)
+    for command in (
+        ["replay", "run.jsonl", "--design", str(LAMP)],
+        ["trace", "check", "run.jsonl", "--design", str(LAMP)],
+    ):
+        ended = subprocess.run(
+            [sys.executable, "-m", "vicode", *command], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
         assert ended.returncode == 0, ended.stdout + ended.stderr
 
 

@@ -43,7 +43,11 @@ class LiveView:
 def build_live(plan: ProjectPlan, names: GlobalNames, texts: Mapping[str, str]) -> LiveView:
     """The table of a project; `texts` are the other files of its package by name."""
     writer = _LiveWriter(plan, names.inside({"component", "components", "project", "shown"}), texts)
-    shared = (f'project.shared.emplace_back("{name}", {quoted(_hash(texts[name]))});' for name in SHARED_FILES if name in texts)
+    shared = (
+        f'project.shared.emplace_back("{name}", {quoted(_hash(texts[name]))});'
+        for name in SHARED_FILES
+        if name in texts
+    )
     tunable = {each.name for each in plan.project.constants if each.tunable}
     constants = (each for each in plan.constants if each.name in tunable)
     return LiveView(
@@ -80,7 +84,9 @@ class _LiveWriter:
         hidden = {value.name for value in stored}
         parameters = (value for value in planned.parameters if value.name not in hidden)
         lines = (
-            *self.add_fields("shown.fields", parameters, lambda value: f"component.parameters.{member_name(value.name)}"),
+            *self.add_fields(
+                "shown.fields", parameters, lambda value: f"component.parameters.{member_name(value.name)}"
+            ),
             *self.add_fields("shown.fields", stored, _member),
         )
         arguments = ('""', '""', format_number(float(item.frequency_hz or 0)))

@@ -9,7 +9,9 @@ from vicode.generators.plan import ComponentPlan, PackagePlan, ProjectPlan, Valu
 from vicode.languages import LANGUAGES
 from vicode.model.names import python_attribute_name
 
-RESERVED_MODULES = frozenset({*LANGUAGES["cpp"].keywords, "bica", "components", "declarations", "interfaces", "live", "world"})
+RESERVED_MODULES = frozenset(
+    {*LANGUAGES["cpp"].keywords, "bica", "components", "declarations", "interfaces", "live", "world"}
+)
 """File names that no design may use."""
 
 _KEYWORDS = LANGUAGES["cpp"].keywords

@@ -171,7 +171,9 @@ def _constants(plan: ProjectPlan, printer: ExpressionPrinter) -> Iterator[str]:
         depends = {node.name for node in walk(constant.initial) if isinstance(node, Variable)} & variable
         variable |= {constant.name} if constant.name in tunable or depends else set()
         is_tunable = constant.name in tunable
-        yield from _constant(constant, printer, "BICA_TUNABLE" if is_tunable else "BICA_FROM_TUNABLE" if depends else "")
+        yield from _constant(
+            constant, printer, "BICA_TUNABLE" if is_tunable else "BICA_FROM_TUNABLE" if depends else ""
+        )
 
 
 def _constant(constant: ValuePlan, printer: ExpressionPrinter, live: str) -> Iterator[str]:
