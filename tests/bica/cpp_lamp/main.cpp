@@ -14,7 +14,9 @@ bica::Nanoseconds now_ns = 0;
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 
 void* operator new(std::size_t size) {
-    allocations += is_counting ? 1 : 0;
+    if (is_counting) {
+        ++allocations;
+    }
     void* memory = std::malloc(size);
     if (memory == nullptr) {
         throw std::bad_alloc();

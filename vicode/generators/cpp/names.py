@@ -219,7 +219,7 @@ class GlobalNames:
         for name in plan.project.interfaces():
             classes[name] = escape(name, taken | _members(plan, name) | set(classes.values()))
         names = {}
-        taken = _GLOBAL_NAMES | _PRIVATE | _MEMBERS | set(classes.values())
+        taken |= _MEMBERS | set(classes.values())
         for declared in [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]:
             names[declared] = escape(declared, taken)
             taken |= {names[declared]}
@@ -250,7 +250,7 @@ def _members(plan: ProjectPlan, component: str) -> set[str]:
     declared = (*interface.parameters, *interface.readable) if interface else ()
     own = (*(value for _section, value in design.declarations()), *declared) if design else declared
     aliases = (use.alias for use in design.uses) if design else ()
-    return {member_name(name) for name in (*(value.name for value in own), *aliases)} | _MEMBERS
+    return {member_name(name) for name in (*(value.name for value in own), *aliases)} | _MEMBERS | {"work"}
 
 
 _TYPES = {"bool": "bool", "int": "std::int64_t", "float": "bica::Real"}
