@@ -83,7 +83,7 @@
 #else
 #define BICA_FLOAT_TAG
 #endif
-// With BICA_LIVE, tunable constants are variables that viewers of a robot may change (bica_live.hpp).
+// With BICA_LIVE, tunable constants are variables that viewers of a robot may change.
 #if defined(BICA_LIVE)
 #define BICA_LIVE_TAG _live
 #define BICA_TUNABLE inline
