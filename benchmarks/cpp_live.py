@@ -35,7 +35,7 @@ int main(int count, char** words) {
     bica::LiveOptions options(count, words);
     std::unique_ptr<bica::Live> live;
     if (count > 1) {
-        live = std::make_unique<bica::Live>(root, components.machine, bench::live_project(components), options);
+        live = std::make_unique<bica::Live>(root, components.measured, bench::live_project(components), options);
     }
     std::mt19937_64 chance(1);
     std::uniform_real_distribution<double> draw(0.0, 1.0);
@@ -53,7 +53,7 @@ int main(int count, char** words) {
             components.senses.a = inputs[first];
             components.senses.b = inputs[first + 1];
             components.senses.c = inputs[first + 2];
-            root.step(components.machine, now += 20'000'000);
+            root.step(components.measured, now += 20'000'000);
         }
         std::printf("%g\\n", (thread_ns() - begin) / ticks);
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -87,7 +87,7 @@ def main() -> None:
 
 
 def build(folder: Path, ticks: int) -> Path:
-    for file in generate(make_project(make_machine(6, 2), senses="", counts=True), languages=["cpp"]):
+    for file in generate(make_project(make_machine(6, 2, acts=False), senses="", counts=True), languages=["cpp"]):
         target = folder / file.path
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(file.text, encoding="utf-8")
