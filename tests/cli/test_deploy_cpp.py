@@ -129,7 +129,7 @@ def test_a_project_without_a_program_is_refused(robot_program: Path, capsys: pyt
 
 
 def test_a_program_with_the_live_view_is_built_for_it(robot_program: Path) -> None:
-    main = MAIN.replace("rig/sensor.hpp", "lamps/live.hpp\"\n#include \"rig/sensor.hpp")
+    main = MAIN.replace("rig/sensor.hpp", 'lamps/live.hpp"\n#include "rig/sensor.hpp')
     live = "    bica::Live live(root, components.lamp, lamps::live_project(components), {count, arguments});\n    for"
     (robot_program / "main.cpp").write_text(main.replace("    for", live))
     assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot", "--language", "cpp") == 0
