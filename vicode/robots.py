@@ -50,10 +50,14 @@ class ComponentDescription:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotDescription:
-    """A robot and the components of its root, by name; `shared` are hashes of modules that designs share, by file."""
+    """A robot and the components of its root, by name; `shared` are hashes of modules that designs share, by file.
+
+    `language` is that of the files.
+    """
 
     name: str
     root: str
+    language: str = "python"
     components: Mapping[str, ComponentDescription] = field(default_factory=dict)
     shared: Mapping[str, str] = field(default_factory=dict)
 
@@ -205,7 +209,10 @@ def _robot(plain: Mapping[str, Any]) -> RobotDescription:
         for name, each in plain["components"].items()
     }
     shared = {str(name): str(code) for name, code in plain.get("shared", {}).items()}
-    return RobotDescription(name=str(plain["name"]), root=str(plain["root"]), components=components, shared=shared)
+    language = "cpp" if plain.get("language") == "cpp" else "python"
+    return RobotDescription(
+        name=str(plain["name"]), root=str(plain["root"]), language=language, components=components, shared=shared
+    )
 
 
 async def _open(address: RobotAddress) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:

@@ -82,19 +82,29 @@
 #else
 #define BICA_FLOAT_TAG
 #endif
+// With BICA_LIVE, tunable constants are variables that viewers of a robot may change.
+#if defined(BICA_LIVE)
+#define BICA_LIVE_TAG _live
+#define BICA_TUNABLE inline
+#define BICA_FROM_TUNABLE inline const
+#else
+#define BICA_LIVE_TAG
+#define BICA_TUNABLE inline constexpr
+#define BICA_FROM_TUNABLE inline constexpr
+#endif
 #if defined(__cpp_exceptions)
 #define BICA_EXCEPTIONS_TAG
 #else
 #define BICA_EXCEPTIONS_TAG _no_exceptions
 #endif
-#if defined(BICA_HOST) && !defined(BICA_NO_NAMES) && !defined(BICA_FLOAT) && defined(__cpp_exceptions)
+#if defined(BICA_HOST) && !defined(BICA_NO_NAMES) && !defined(BICA_FLOAT) && !defined(BICA_LIVE) && defined(__cpp_exceptions)
 #define BICA_OPEN
 #define BICA_CLOSE
 #else
-#define BICA_JOIN(host, names, numbers, exceptions) built##host##names##numbers##exceptions
-#define BICA_CONFIGURATION(host, names, numbers, exceptions) BICA_JOIN(host, names, numbers, exceptions)
+#define BICA_JOIN(host, names, numbers, live, exceptions) built##host##names##numbers##live##exceptions
+#define BICA_CONFIGURATION(host, names, numbers, live, exceptions) BICA_JOIN(host, names, numbers, live, exceptions)
 #define BICA_OPEN \
-    inline namespace BICA_CONFIGURATION(BICA_HOST_TAG, BICA_NAMES_TAG, BICA_FLOAT_TAG, BICA_EXCEPTIONS_TAG) {
+    inline namespace BICA_CONFIGURATION(BICA_HOST_TAG, BICA_NAMES_TAG, BICA_FLOAT_TAG, BICA_LIVE_TAG, BICA_EXCEPTIONS_TAG) {
 #define BICA_CLOSE }
 #endif
 
@@ -548,6 +558,8 @@ public:
     virtual void begin_step(const Component& component, bool is_modulated, bool works) = 0;
     virtual void end_step(const Component& component) = 0;
     virtual void error(const Component& component, const char* what) = 0;
+    /// Called after `begin_step`; the component does not run its step if this returns true.
+    virtual bool replaces_step(Component&) { return false; }
 
 protected:
     ~Observer() = default;
@@ -580,6 +592,9 @@ public:
 
     Nanoseconds now_ns() const { return now_ns_; }
     std::int64_t iteration() const { return iteration_; }
+
+    /// Leaves out a time that passed on the clock, such as a pause.
+    void skip_time(Nanoseconds time_ns) { lag_ns_ -= time_ns; }
 
     /// Counts an error; without a handler or observer it is printed once per component.
     void report(Component& component, const char* what);
@@ -622,7 +637,9 @@ public:
 
     /// Activates the component: restarts it if it was inactive, then works if its period has elapsed.
     virtual void step() {
-        begin_observed_step();
+        if (!begin_observed_step()) {
+            return;
+        }
         attempt(*this, [this] {
             if (count_step(false)) {
                 restart_times();
@@ -658,11 +675,35 @@ public:
     /// Whether the component was in a final state after its last step, in this or the previous iteration.
     bool is_done() const { return in_final_state() && is_recent(); }
     bool was_stepped() const { return stepped_in_ == root.iteration_; }
+    /// The number of the iteration that stepped it last; negative before.
+    std::int64_t stepped_in() const { return stepped_in_; }
 #if !defined(BICA_NO_NAMES)
     /// The state that the last step left, for observers; nullptr if it left none.
     const char* left_state() const { return left_; }
     /// The id of the transition that the last step took, for observers; nullptr if it has none.
     const char* transition() const { return transition_; }
+#endif
+
+#if !defined(BICA_NO_NAMES)
+    // What the live view needs of a generated component; instantiated only there.
+
+    /// Leaves the active state and enters another one between two iterations.
+    template <class Machine>
+    static void enter_state(Machine& machine, typename Machine::State next) {
+        machine.leave();
+        machine.state_ = next;
+        machine.entered_ns_ = machine.root.now_ns_;
+        machine.forget_calls();
+        machine.enter();
+    }
+    template <class Machine>
+    static bool action_done_of(const Machine& machine) {
+        return machine.action_done();
+    }
+    template <class Machine>
+    static bool conflict_of(const Machine& machine) {
+        return machine.conflict();
+    }
 #endif
 
     Root& root;
@@ -692,9 +733,10 @@ protected:
 #if !defined(BICA_NO_NAMES)
     template <class Machine>
     BICA_EXACT BICA_NO_INLINE static void step_observed(Machine& machine, bool resume) {
-        machine.begin_observed_step(resume);
-        run_step(machine, resume);
-        machine.end_observed_step();
+        if (machine.begin_observed_step(resume)) {
+            run_step(machine, resume);
+            machine.end_observed_step();
+        }
     }
 #endif
 
@@ -702,8 +744,8 @@ protected:
     template <class Machine>
     BICA_INLINE static void step_large_machine(Machine& machine, bool resume) {
 #if !defined(BICA_NO_NAMES)
-        if (BICA_UNLIKELY(machine.root.observer != nullptr)) {
-            machine.begin_observed_step(resume);
+        if (BICA_UNLIKELY(machine.root.observer != nullptr) && !machine.begin_observed_step(resume)) {
+            return;
         }
 #endif
         run_step(machine, resume);
@@ -753,6 +795,8 @@ protected:
     void require(std::uint64_t) {}
     void forget_calls() {}
     void repeat_calls() {}
+    void enter() {}
+    void leave() {}
 
     Nanoseconds period_ns() const { return period_ns_; }
     Nanoseconds entered_ns() const { return entered_ns_; }
@@ -825,20 +869,28 @@ private:
     }
 
 #if defined(BICA_NO_NAMES)
-    void begin_observed_step() {}
+    bool begin_observed_step() { return true; }
     void end_observed_step() {}
 #else
     bool will_work(bool resume) const {
         return is_restarting(resume) || root.now_ns_ - worked_ns_ >= period_ns_;
     }
 
-    void begin_observed_step(bool resume = false) {
-        if (root.observer != nullptr) {
-            const bool is_modulated = root.modulated_ == this;
-            root.modulated_ = nullptr;
-            left_ = transition_ = nullptr;
-            root.observer->begin_step(*this, is_modulated, will_work(resume));
+    /// Returns whether the step runs.
+    bool begin_observed_step(bool resume = false) {
+        if (root.observer == nullptr) {
+            return true;
         }
+        const bool is_modulated = root.modulated_ == this;
+        root.modulated_ = nullptr;
+        left_ = transition_ = nullptr;
+        root.observer->begin_step(*this, is_modulated, will_work(resume));
+        if (!root.observer->replaces_step(*this)) {
+            return true;
+        }
+        count_step(false);
+        end_observed_step();
+        return false;
     }
 
     void end_observed_step() {

@@ -4,9 +4,12 @@ from typing import Any, cast
 
 import pytest
 
-from tests.bica.live_robot import make_root
+from tests.bica.cpp_robot import any_control, cpp_control, cpp_program, cpp_robot
+from tests.bica.live_robot import Viewer, close_connections, control, make_root, root
 from vicode.bica.control import ControlError, Controller
 from vicode.bica.observer import IterationRecord
+
+__all__ = ["any_control", "close_connections", "control", "cpp_control", "cpp_program", "cpp_robot", "root"]
 
 
 def record(*steps: dict[str, Any], errors: tuple[str, ...] = ()) -> IterationRecord:
@@ -134,6 +137,22 @@ def test_a_place_that_does_not_exist_is_refused(place: Any) -> None:
     with pytest.raises(ControlError):
         made.apply("viewer", {"do": "break", "places": [["Lamp", "Dark"], place]})
     assert made.check_breakpoints(record()) == "Lamp Lit"
+
+
+def test_places_and_counts_that_are_wrong_are_refused_over_the_protocol(any_control: Viewer) -> None:
+    for place in (
+        "Lamp",
+        [],
+        ["Lamp"],
+        ["Lamp", None],
+        ["Lamp", 1],
+        ["Lamp", "Lit", "Dark", 1],
+        ["Lamp", "Off"],
+        ["Arm", "Lit"],
+    ):
+        assert "error" in any_control.ask(do="break", places=[["Lamp", "Dark"], place])
+    for count in (0, -1, 1_000_001, True, 1.0, "1", None):
+        assert "whole number" in any_control.ask(do="step", count=count)["error"]
 
 
 @pytest.mark.parametrize("count", [0, -1, 1_000_001, True, 1.0, "1", None])

@@ -7,12 +7,13 @@ from typing import Any, cast
 
 import pytest
 
-from tests.bica.live_robot import Eyes, Field, Lamp, Side, advance, root
+from tests.bica.cpp_robot import any_control, cpp_control, cpp_program, cpp_robot
+from tests.bica.live_robot import Eyes, Field, Lamp, Side, Viewer, advance, close_connections, control, root
 from vicode.bica import Component, Root, SimulatedClock, State
 from vicode.bica.control import ControlError, Controller, convert_value
 from vicode.bica.observer import IterationRecord
 
-__all__ = ["root"]
+__all__ = ["any_control", "close_connections", "control", "cpp_control", "cpp_program", "cpp_robot", "root"]
 
 
 @pytest.fixture
@@ -207,6 +208,27 @@ def test_a_value_of_another_type_is_refused(value: object, old: object, words: s
     with pytest.raises(ControlError) as caught:
         convert_value(value, old, "it")
     assert str(caught.value) == words
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "words"),
+    [
+        ("side", "up", "Eyes.side must be one of Side.left, Side.right"),
+        ("distance", True, "Eyes.distance must be a value of type float"),
+        ("distance", "1", "Eyes.distance must be a value of type float"),
+        ("distance", "-inf", "set Eyes.distance = -inf"),
+        ("distance", 3, "set Eyes.distance = 3.0"),
+        ("distance", 0.1, "set Eyes.distance = 0.1"),
+    ],
+)
+def test_values_are_converted_over_the_protocol(any_control: Viewer, name: str, value: object, words: str) -> None:
+    answer = any_control.ask(do="set", component="Eyes", name=name, value=value)
+    assert answer.get("done", answer.get("error")) == words
+
+
+def test_an_int_is_limited_over_the_protocol(any_control: Viewer) -> None:
+    done = any_control.ask(do="set", component="Lamp", name="count", value=10**300)["done"]
+    assert done == f"set Lamp.count = {2**53}"
 
 
 # States

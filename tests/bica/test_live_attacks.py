@@ -12,11 +12,12 @@ from typing import Any
 
 import pytest
 
-from tests.bica.live_robot import Background, Eyes, Viewer, close_connections, is_iteration, root
+from tests.bica.cpp_robot import any_control, cpp_control, cpp_program, cpp_robot
+from tests.bica.live_robot import Background, Eyes, Viewer, close_connections, control, is_iteration, root
 from vicode.bica import Root, live_feed, live_viewer
 from vicode.bica.live_server import LiveServer
 
-__all__ = ["close_connections", "root"]
+__all__ = ["any_control", "close_connections", "control", "cpp_control", "cpp_program", "cpp_robot", "root"]
 
 FLOOD_LINE = b'{"focus":"x"}\n'
 FRAMES_PER_CONNECTION = 50
@@ -167,13 +168,17 @@ def test_an_allowance_grows_up_to_its_limit() -> None:
 
 
 @pytest.mark.parametrize("line", [b"[" * 1000, b'{"focus":' + b"[]," * 300 + b"0}", b'{"focus":' + b"[" * 900])
-def test_requests_with_many_values_are_refused_unread(root: Root, line: bytes) -> None:
-    with Background(root):
-        viewer = Viewer(root.watch())
-        viewer.get(is_iteration)
-        viewer.socket.sendall(line + b"\n")
-        with pytest.raises(ConnectionError):
-            viewer.get(lambda _line: False)
+def test_requests_with_many_values_are_refused_unread(any_control: Viewer, line: bytes) -> None:
+    any_control.socket.sendall(line + b"\n")
+    with pytest.raises(ConnectionError):
+        any_control.get(lambda _line: False)
+
+
+def test_a_busy_viewer_is_not_disconnected_in_any_language(any_control: Viewer) -> None:
+    for _round in range(3):
+        assert "done" in any_control.ask(do="break", places=[["Lamp", "Lit"]] * 100)
+        for _request in range(25):
+            any_control.ask(do="unset")
 
 
 def test_a_flood_and_a_viewer_that_never_reads_do_not_stop_the_robot(root: Root, measured: Callable[[], int]) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from tests.bica.cpp_robot import any_control, cpp_control, cpp_program, cpp_robot
 from tests.bica.live_robot import (
     Background,
     Eyes,
@@ -21,7 +22,7 @@ from tests.bica.live_robot import (
 )
 from vicode.bica import Root
 
-__all__ = ["close_connections", "control", "root"]
+__all__ = ["any_control", "close_connections", "control", "cpp_control", "cpp_program", "cpp_robot", "root"]
 
 
 def test_control_needs_permission(root: Root) -> None:
@@ -66,8 +67,8 @@ def test_values_are_set_and_held(root: Root, control: Viewer) -> None:
         ({"do": "raise", "component": "Arms"}, "no component 'Arms'"),
     ],
 )
-def test_requests_that_cannot_be_done_say_why(control: Viewer, request_: dict[str, Any], words: str) -> None:
-    assert words in control.ask(**request_)["error"]
+def test_requests_that_cannot_be_done_say_why(any_control: Viewer, request_: dict[str, Any], words: str) -> None:
+    assert words in any_control.ask(**request_)["error"]
 
 
 def test_a_state_is_entered_and_an_error_injected(
@@ -124,8 +125,8 @@ def test_a_breakpoint_pauses_and_steps_go_on(root: Root, capsys: pytest.CaptureF
         ([["Lamp", "Lit"]] * 12, f"{', '.join(['Lamp Lit'] * 10)} and 2 more"),
     ],
 )
-def test_breakpoints_are_logged_in_words(control: Viewer, places: list[list[Any]], words: str) -> None:
-    assert control.ask(do="break", places=places)["done"] == f"breakpoints: {words}"
+def test_breakpoints_are_logged_in_words(any_control: Viewer, places: list[list[Any]], words: str) -> None:
+    assert any_control.ask(do="break", places=places)["done"] == f"breakpoints: {words}"
 
 
 @pytest.mark.parametrize("source", ["Lit", ""])

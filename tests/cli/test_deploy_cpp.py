@@ -126,3 +126,15 @@ def test_a_project_without_a_program_is_refused(robot_program: Path, capsys: pyt
     (robot_program / "main.cpp").unlink()
     assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot", "--language", "cpp") == 2
     assert "the project has no main.cpp and no CMakeLists.txt" in capsys.readouterr().err
+
+
+def test_a_program_with_the_live_view_is_built_for_it(robot_program: Path) -> None:
+    main = MAIN.replace("rig/sensor.hpp", 'lamps/live.hpp"\n#include "rig/sensor.hpp')
+    live = "    bica::Live live(root, components.lamp, lamps::live_project(components), {count, arguments});\n    for"
+    (robot_program / "main.cpp").write_text(main.replace("    for", live))
+    assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot", "--language", "cpp") == 0
+    assert "BICA_LIVE" in Path("robot/CMakeLists.txt").read_text()
+    command = ["robot/run", "--watch", "0", "--record", "log/run.jsonl"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "watch: vicode attach 127.0.0.1:" in done.stderr
+    assert Path("robot/log/run.1.000001.jsonl").read_text().count("\n") == 6

@@ -13,6 +13,13 @@ from vicode.store import OpenProject
 BUILD_SCRIPT = "build.sh"
 _MAIN, _CMAKE = "main.cpp", "CMakeLists.txt"
 _PROGRAM = re.compile(r"^\s*add_executable\s*\(\s*([\w.+-]+)", re.MULTILINE)
+_LIVE = re.compile(r"^\s*#\s*include\s+.*live\.hpp", re.MULTILINE)
+"""A program that can be watched or recorded."""
+_LIVE_LINES = """\
+target_compile_definitions({library} PUBLIC BICA_LIVE)
+find_package(Threads REQUIRED)
+target_link_libraries({library} PUBLIC Threads::Threads)
+"""
 _SCRIPT = """\
 #!/bin/sh
 cd "$(dirname "$0")" || exit 1
@@ -88,6 +95,8 @@ def _library(text: str) -> str:
 def _write_cmake(folder: Path, package: str, library: str, sources: list[str]) -> None:
     program = "robot" if library != "robot" else "robot_program"
     listed = "".join(f'    "{source}"\n' for source in sources)
+    is_live = any(_LIVE.search((folder / each).read_text(encoding="utf-8", errors="replace")) for each in sources)
+    live = _LIVE_LINES.format(library=library) if is_live else ""
     (folder / _CMAKE).write_text(
         f"""\
 cmake_minimum_required(VERSION 3.16)
@@ -98,7 +107,7 @@ add_executable({program}
 {listed})
 target_include_directories({program} PRIVATE ${{CMAKE_CURRENT_SOURCE_DIR}})
 target_link_libraries({program} PRIVATE {library})
-""",
+{live}""",
         encoding="utf-8",
     )
 

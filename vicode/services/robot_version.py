@@ -30,7 +30,8 @@ def find_other_versions(
     """
     project = _with_values_at_start(project, written or {})
     known = {name: each.code for name, each in robot.components.items() if each.code and project.design(name)}
-    outputs = list_outputs(project, languages=("python",))
+    project = replace(project, languages=(robot.language,))
+    outputs = list_outputs(project)
     paths = {name: list_component_paths(project, name) for name in known}
     paths |= {name: tuple(path for path in outputs if path.endswith(f"/{name}")) for name in robot.shared}
     running = {**known, **robot.shared}
@@ -41,13 +42,14 @@ def find_other_versions(
             files = generate(
                 each,
                 components=[name for name in known if each.design(name)],
-                languages=("python",),
+                languages=(robot.language,),
                 sources=sources,
                 standalone=standalone,
             )
             texts = {file.path: file.text for file in files}
             for name, found in hashes.items():
-                found |= {_hash(texts[path]) for path in paths[name] if path in texts}
+                # A component has one file in Python, and in C++ a header and a source, which share a hash.
+                found.add(_hash("".join(texts[path] for path in paths[name] if path in texts)))
     except UnsoundDesignError:
         return None
     return tuple(name for name, code in running.items() if code not in hashes[name])

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from vicode.generators.cpp.component import CppComponentWriter
+from vicode.generators.cpp.live import build_live
 from vicode.generators.cpp.names import RESERVED_MODULES, GlobalNames
 from vicode.generators.cpp.origins import find_origins
 from vicode.generators.cpp.project import build_components, build_declarations, build_interfaces, list_interfaces
@@ -35,6 +36,7 @@ __all__ = [
 ]
 
 LANGUAGE = "cpp"
+_RUNTIME = ("bica.hpp", "bica_live.hpp")
 
 
 def generate_cpp(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ...]:  # noqa: ARG001 - as in other languages
@@ -47,7 +49,10 @@ def generate_cpp(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ..
     if list_interfaces(plan):
         shared["interfaces.hpp"] = build_interfaces(plan, names)
     files = [
-        OutputFile(path=f"{LANGUAGE}/bica.hpp", text=add_header(read_asset("cpp/bica.hpp"), "bica.hpp", "//")),
+        *(
+            OutputFile(path=f"{LANGUAGE}/{name}", text=add_header(read_asset(f"cpp/{name}"), name, "//"))
+            for name in _RUNTIME
+        ),
         OutputFile(path=f"{LANGUAGE}/.clang-format", text=add_header(read_asset("cpp/clang-format"), "vicode", "#")),
     ]
     for name, view in shared.items():
@@ -56,7 +61,9 @@ def generate_cpp(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ..
         files.append(OutputFile(path=f"{LANGUAGE}/{plan.package.name}/{name}", text=add_header(text, source, comment)))
     for component in plan.components:
         files += _component_files(plan, component, names)
-    return tuple(files)
+    live = build_live(plan, names, {file.path.rpartition("/")[2]: file.text for file in files})
+    text = add_header(render("cpp/live.hpp.jinja", view=live), source, "//")
+    return (*files, OutputFile(path=f"{LANGUAGE}/{plan.package.name}/live.hpp", text=text))
 
 
 def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCode]:
@@ -107,10 +114,10 @@ def list_regions(component: ComponentPlan) -> Iterator[CodePlan]:
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:  # noqa: ARG001 - as in other languages
     """List every path that `generate_cpp` may return."""
     folder = f"{LANGUAGE}/{package.name}"
-    shared = ["components.hpp", "CMakeLists.txt", "interfaces.hpp"]
+    shared = ["components.hpp", "CMakeLists.txt", "interfaces.hpp", "live.hpp"]
     shared += ["declarations.hpp"] if package.has_declarations else []
     modules = [f"{module}.{suffix}" for module in package.modules.values() for suffix in ("hpp", "cpp")]
-    runtime = (f"{LANGUAGE}/bica.hpp", f"{LANGUAGE}/.clang-format")
+    runtime = (*(f"{LANGUAGE}/{name}" for name in _RUNTIME), f"{LANGUAGE}/.clang-format")
     return (*runtime, *(f"{folder}/{name}" for name in (*shared, *modules)))
 
 

@@ -99,9 +99,8 @@ class FunctionWriter:
         ):
             if any(getattr(state, phase) for state in plan.states):
                 body = self._switch(partial(self._phase_steps, phase))
-                yield self._function(
-                    "void", phase, "", body, doc, inline=self._inline_change if phase == "leave" else ""
-                )
+                # Not inline: the live view calls both from another source.
+                yield self._function("void", phase, "", body, doc)
         yield self._change_to()
         yield from self._code_functions()
 

@@ -9,7 +9,9 @@ from vicode.generators.plan import ComponentPlan, PackagePlan, ProjectPlan, Valu
 from vicode.languages import LANGUAGES
 from vicode.model.names import python_attribute_name
 
-RESERVED_MODULES = frozenset({*LANGUAGES["cpp"].keywords, "bica", "components", "declarations", "interfaces", "world"})
+RESERVED_MODULES = frozenset(
+    {*LANGUAGES["cpp"].keywords, "bica", "components", "declarations", "interfaces", "live", "world"}
+)
 """File names that no design may use."""
 
 _KEYWORDS = LANGUAGES["cpp"].keywords
@@ -20,6 +22,7 @@ _MEMBERS = frozenset(
         "State",
         "act",
         "act_common",
+        "action_done_of",
         "already",
         "attempt",
         "begin_observed_step",
@@ -28,11 +31,13 @@ _MEMBERS = frozenset(
         "called",
         "change_state",
         "change_to",
+        "conflict_of",
         "count_step",
         "decide",
         "decide_common",
         "end_observed_step",
         "enter",
+        "enter_state",
         "entered_ns",
         "errors",
         "forget_calls",
@@ -214,7 +219,7 @@ class GlobalNames:
         for name in plan.project.interfaces():
             classes[name] = escape(name, taken | _members(plan, name) | set(classes.values()))
         names = {}
-        taken = _GLOBAL_NAMES | _PRIVATE | _MEMBERS | set(classes.values())
+        taken |= _MEMBERS | set(classes.values())
         for declared in [*(item.name for item in plan.enumerations), *(item.name for item in plan.constants)]:
             names[declared] = escape(declared, taken)
             taken |= {names[declared]}
@@ -245,7 +250,7 @@ def _members(plan: ProjectPlan, component: str) -> set[str]:
     declared = (*interface.parameters, *interface.readable) if interface else ()
     own = (*(value for _section, value in design.declarations()), *declared) if design else declared
     aliases = (use.alias for use in design.uses) if design else ()
-    return {member_name(name) for name in (*(value.name for value in own), *aliases)} | _MEMBERS
+    return {member_name(name) for name in (*(value.name for value in own), *aliases)} | _MEMBERS | {"work"}
 
 
 _TYPES = {"bool": "bool", "int": "std::int64_t", "float": "bica::Real"}

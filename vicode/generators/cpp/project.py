@@ -23,7 +23,7 @@ from vicode.generators.plan import (
     ValuePlan,
     plan_interface,
 )
-from vicode.model.expressions import INT, FunctionCall, walk
+from vicode.model.expressions import INT, FunctionCall, Variable, walk
 from vicode.model.names import python_attribute_name, snake_case
 from vicode.model.project import WORLD, Enumeration, Interface
 
@@ -39,7 +39,7 @@ def build_declarations(plan: ProjectPlan, names: GlobalNames) -> ProjectView:
         title=f"Enumerations and constants of the project {plan.name}.",
         doc=(),
         enumerations=tuple(_enumeration(item, names) for item in plan.enumerations),
-        constants=tuple(line for constant in plan.constants for line in _constant(constant, printer)),
+        constants=tuple(_constants(plan, printer)),
     )
 
 
@@ -163,14 +163,27 @@ def _enumeration(item: Enumeration, names: GlobalNames) -> CppEnumerationView:
     )
 
 
-def _constant(constant: ValuePlan, printer: ExpressionPrinter) -> Iterator[str]:
+def _constants(plan: ProjectPlan, printer: ExpressionPrinter) -> Iterator[str]:
+    """The constants; with BICA_LIVE, tunable ones are variables, so that no `constexpr` can depend on them."""
+    tunable = {each.name for each in plan.project.constants if each.tunable}
+    variable: set[str] = set()
+    for constant in plan.constants:
+        depends = {node.name for node in walk(constant.initial) if isinstance(node, Variable)} & variable
+        variable |= {constant.name} if constant.name in tunable or depends else set()
+        is_tunable = constant.name in tunable
+        yield from _constant(
+            constant, printer, "BICA_TUNABLE" if is_tunable else "BICA_FROM_TUNABLE" if depends else ""
+        )
+
+
+def _constant(constant: ValuePlan, printer: ExpressionPrinter, live: str) -> Iterator[str]:
     is_constexpr = not any(isinstance(node, FunctionCall) for node in walk(constant.initial))
     value = printer.stored(constant.initial).text
     is_constexpr = is_constexpr and "bica::" not in value
     yield from doc_comment(describe(constant))
     type_ = printer.names.type_name(constant.type)
-    specifier = "constexpr" if is_constexpr else "const"
-    yield f"inline {specifier} {type_} {printer.names.declared(constant.name)} = {value};"
+    specifier = (live or "inline constexpr") if is_constexpr else "inline const"
+    yield f"{specifier} {type_} {printer.names.declared(constant.name)} = {value};"
 
 
 def _interface(plan: ProjectPlan, item: InterfacePlan, names: GlobalNames) -> CppInterfaceView:

@@ -14,7 +14,9 @@ def join_headers(files: Sequence[OutputFile]) -> str:
     Args:
         files: The C++ files of one project.
     """
-    texts = {file.path.partition("/")[2]: file.text for file in files if file.path.endswith((".hpp", ".cpp"))}
+    paths = ((file.path.partition("/")[2], file.text) for file in files if file.path.endswith((".hpp", ".cpp")))
+    # A controller has no live view.
+    texts = {path: text for path, text in paths if path.rpartition("/")[2] not in ("bica_live.hpp", "live.hpp")}
     (start,) = (path for path in texts if path.endswith("/components.hpp"))
     lines = ["#pragma once", ""]
     written: set[str] = set()

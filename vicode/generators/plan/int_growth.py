@@ -22,9 +22,13 @@ _ROUNDS = 4
 
 
 def constant_ranges(project: Project) -> dict[str, Interval]:
-    """The values of the int constants."""
+    """The values of the int constants; viewers of a robot may change those that are tunable."""
     values, scope = evaluate_constants(project), build_scope(project, None)
-    ints = {item.name: values.get(item.name) for item in project.constants if scope.type_of(item) == INT}
+    ints = {
+        item.name: values.get(item.name)
+        for item in project.constants
+        if scope.type_of(item) == INT and not item.tunable
+    }
     return {name: (int(value), int(value)) for name, value in ints.items() if value is not None}
 
 
