@@ -28,11 +28,17 @@ class Language:
     title: str
     keywords: frozenset[str]
     _: KW_ONLY
-    editor_mode: Literal["Python", "C++", "C"]
+    editor_mode: Literal["Python", "C++", "C", "JavaScript"]
     fence: str = ""
     comment: str = r"//.*|/\*(?s:.*?)\*/"
     is_generated: bool = False
 
+
+_JAVASCRIPT = """
+await break case catch class const continue debugger default delete do else enum export extends false finally for
+function if implements import in instanceof interface let new null package private protected public return static super
+switch this throw true try typeof var void while with yield
+"""
 
 _PYTHON = frozenset(keyword.kwlist)
 _LANGUAGES = (
@@ -40,6 +46,7 @@ _LANGUAGES = (
     # C++17 with its alternative tokens.
     Language("cpp", "C++", frozenset(_CPP.split()), editor_mode="C++", fence="cpp", is_generated=True),
     Language("xabsl", "XABSL", frozenset(_XABSL.split()), editor_mode="C", is_generated=True),
+    Language("javascript", "JavaScript", frozenset(_JAVASCRIPT.split()), editor_mode="JavaScript", is_generated=True),
 )
 LANGUAGES = {each.name: each for each in _LANGUAGES}
 """The languages by name; code in a design may be written in each of them."""

@@ -45,6 +45,7 @@ export class Component {
   $names = [];
   #initial = "";
   #steppedIn = null;
+  #restartedIn = null;
   #startedNs = 0;
   #enteredNs = 0;
   #workedNs = 0;
@@ -52,11 +53,17 @@ export class Component {
   #left = null;
   #transition = null;
 
-  constructor(root, name, { periodNs = 0, resume = false } = {}) {
+  constructor(root, name, { periodNs = 0, resume = false, xabsl = false } = {}) {
     this.$root = root;
     this.$name = name;
     this.$periodNs = periodNs;
     this.$resume = resume;
+    this.$isXabsl = xabsl;
+  }
+
+  /** With the rules of XABSL: whether each step of this iteration is a restart. */
+  get #isRestartedAgain() {
+    return this.$isXabsl && this.#restartedIn === this.$root.iteration;
   }
 
   $work() {}
@@ -81,7 +88,8 @@ export class Component {
     const record = {};
     root.trace?.push(record);
     this.#left = this.#transition = null;
-    if (this.#steppedIn === null || this.#steppedIn < root.iteration - 1) {
+    const isStepped = this.#steppedIn === root.iteration;
+    if (this.#steppedIn === null || (isStepped ? this.#isRestartedAgain : this.#steppedIn < root.iteration - 1)) {
       this.#start();
     }
     this.#steppedIn = root.iteration;
@@ -119,7 +127,11 @@ export class Component {
   }
 
   get $done() {
-    return this.#steppedIn !== null && this.#active.final === true && this.#steppedIn >= this.$root.iteration - 1;
+    if (this.#steppedIn === null || this.#active.final !== true) {
+      return false;
+    }
+    const isAnew = this.#steppedIn === this.$root.iteration && this.#isRestartedAgain;
+    return !isAnew && this.#steppedIn >= this.$root.iteration - 1;
   }
 
   get $actionDone() {
@@ -156,6 +168,7 @@ export class Component {
   }
 
   #start() {
+    this.#restartedIn = this.$root.iteration;
     if (this.$resume && this.#steppedIn !== null) {
       return;
     }
@@ -249,6 +262,12 @@ export function modulo(a, b) {
     return b < 0 !== rest < 0 ? rest + b : rest;
   }
   return b < 0 ? -0 : 0;
+}
+
+export const xabslDivide = (a, b) => a / (b === 0 ? 1e-7 : b);
+
+export function xabslModulo(a, b) {
+  return Number.isFinite(a) && Number.isFinite(b) && Math.abs(b) >= 1 ? Math.trunc(a) % Math.trunc(b) : 0;
 }
 
 export const abs = (x) => (typeof x === "bigint" ? (x < 0n ? -x : x) : Math.abs(x));

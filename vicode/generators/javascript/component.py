@@ -32,15 +32,13 @@ def check_supported(component: ComponentPlan) -> None:
     """Raise if JavaScript cannot express a component.
 
     Raises:
-        UnsoundDesignError: The component has code, cooperative states or the rules of XABSL.
+        UnsoundDesignError: The component has code or cooperative states.
     """
     code = [*component.guard_code, *component.action_code, *filter(None, (component.module_code, component.members))]
     if code:
         raise UnsoundDesignError(f"{component.component} contains code, which has no counterpart in JavaScript")
     if any(state.is_cooperative for state in component.states):
         raise UnsoundDesignError(f"{component.component} has states of a team, which JavaScript does not support")
-    if component.arithmetic:
-        raise UnsoundDesignError(f"{component.component} has the rules of XABSL, which JavaScript does not support")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,6 +83,7 @@ class JavaScriptWriter:
         plan = self.component
         options = [f"periodNs: {round(1e9 / plan.frequency_hz)}"] if plan.frequency_hz else []
         options += ["resume: true"] if plan.resume else []
+        options += ["xabsl: true"] if plan.arithmetic == "xabsl" else []
         given = f", {{ {', '.join(options)} }}" if options else ""
         yield "constructor(root) {"
         yield f"{_INDENT}super(root, {json.dumps(plan.component)}{given});"
@@ -191,7 +190,9 @@ def declare(
     parameters: Iterable[ValuePlan], values: Iterable[ValuePlan], printer: JavaScriptExpressionPrinter
 ) -> Iterator[str]:
     """The statement that declares the values of a component."""
-    sections = [[f"{escape(value.name)}: {printer.stored(value.initial)}" for value in each] for each in (parameters, values)]
+    sections = [
+        [f"{escape(value.name)}: {printer.stored(value.initial)}" for value in each] for each in (parameters, values)
+    ]
     if any(sections):
         first, second = (f"{{ {', '.join(section)} }}" if section else "{}" for section in sections)
         yield f"this.$declare({first}, {second});"

@@ -9,6 +9,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Self
 
+from vicode.generators.javascript.names import escape
 from vicode.generators.plan import (
     ComponentPlan,
     Condition,
@@ -19,7 +20,6 @@ from vicode.generators.plan import (
     UnsoundDesignError,
     literal_value,
 )
-from vicode.generators.javascript.names import escape
 from vicode.model.expressions import (
     INT,
     TEAM_SIZE,
@@ -40,11 +40,14 @@ from vicode.model.expressions import (
     StatusFlag,
     Ternary,
     Variable,
+    walk,
 )
 
 _CHOICE, _OR, _AND, _EQUAL, _RELATION, _SUM, _PRODUCT, _UNARY, _ATOM = range(9)
 _NAMES = {"int": "toInt", "min": "minimum", "max": "maximum", "is_nan": "isNan"}
 _SAME_TYPE = frozenset({"abs", "min", "max", "clamp"})
+_OPERATORS = {"//": "floorDivide", "%": "modulo"}
+_XABSL_OPERATORS = {"/": "xabslDivide", "//": "floorDivide", "%": "xabslModulo"}
 _EQUALITY = {"==": "===", "!=": "!=="}
 
 
@@ -72,6 +75,7 @@ class JavaScriptExpressionPrinter:
 
     ranges: IntRanges
     time_unit: str = "s"
+    uses_xabsl_arithmetic: bool = False
     functions: Mapping[tuple[str, str], FunctionPlan] = field(default_factory=dict)
     inputs: Collection[tuple[str, str]] = ()
     declarations: str = "declarations."
@@ -81,6 +85,7 @@ class JavaScriptExpressionPrinter:
         return cls(
             ranges=component.ranges,
             time_unit=component.time_unit,
+            uses_xabsl_arithmetic=component.arithmetic == "xabsl",
             functions={(use.alias, item.result.name): item for use in component.uses for item in use.functions},
             inputs={(use.alias, value.name) for use in component.uses for value in use.inputs},
         )
@@ -107,8 +112,9 @@ class JavaScriptExpressionPrinter:
 
     def print(self, node: Expr) -> Printed:
         """Print a tree; an int or a float becomes a number."""
-        if self._is_big(node):
-            return Printed(f"bica.toNumber({self._big(node)})")
+        return Printed(f"bica.toNumber({self._big(node)})") if self._is_big(node) else self._print_small(node)
+
+    def _print_small(self, node: Expr) -> Printed:
         match node:
             case Number(value=value):
                 return Printed(_number(value))
@@ -116,6 +122,15 @@ class JavaScriptExpressionPrinter:
                 return Printed("true" if value else "false")
             case EnumElement(element=element, type=enumeration):
                 return Printed(f"{self.declarations}{escape(enumeration)}.{escape(element)}")
+            case OutputRef():
+                return self._output(node)
+            case Variable() | ElapsedTime() | Done() | StatusFlag():
+                return self._own_value(node)
+            case _:
+                return self._operation(node)
+
+    def _own_value(self, node: Variable | ElapsedTime | Done | StatusFlag) -> Printed:
+        match node:
             case Variable(name=name, kind=kind):
                 owner = self.declarations if kind == ScopeSymbolKind.CONSTANT else "this."
                 return Printed(f"{owner}{escape(name)}")
@@ -126,15 +141,13 @@ class JavaScriptExpressionPrinter:
             case StatusFlag(name=name):
                 # One robot: designs with cooperative states are refused.
                 return Printed({TEAM_SIZE: "1", "action_done": "this.$actionDone"}.get(name, "false"))
-            case OutputRef():
-                return self._output(node)
-            case _:
-                return self._operation(node)
 
     def _output(self, node: OutputRef) -> Printed:
         text = f"this.{escape(node.alias)}.{escape(node.output)}"
         if node.arguments is not None:
             given = dict(node.arguments)
+            if self.uses_xabsl_arithmetic and any(_calls(value, node) for value in given.values()):
+                raise UnsoundDesignError(f"a call of '{node.output}' contains another one, with the rules of XABSL")
             declared = self.functions[node.alias, node.output].arguments
             values = (f"{escape(each.name)}: {self.stored(given.get(each.name, each.initial))}" for each in declared)
             text = f"{text}({{ {', '.join(values)} }})"
@@ -175,8 +188,8 @@ class JavaScriptExpressionPrinter:
         return Printed(f"-{inner.at(_ATOM)}", _UNARY)
 
     def _binary(self, node: Expr, operator: str, left: Printed, right: Printed) -> Printed:
-        if operator in ("//", "%"):
-            function = "floorDivide" if operator == "//" else "modulo"
+        function = (_XABSL_OPERATORS if self.uses_xabsl_arithmetic else _OPERATORS).get(operator)
+        if function:
             return Printed(f"bica.{function}({left.text}, {right.text})")
         level = _SUM if operator in "+-" else _PRODUCT
         text = f"{left.at(level)} {operator} {right.at(level + 1)}"
@@ -235,6 +248,11 @@ class JavaScriptExpressionPrinter:
                 return f"bica.toBig({self.print(node).text})"
 
 
+def _calls(value: Expr, function: OutputRef) -> bool:
+    outputs = (node for node in walk(value) if isinstance(node, OutputRef))
+    return any((each.alias, each.output) == (function.alias, function.output) for each in outputs)
+
+
 def _int_parts(node: Expr) -> tuple[Expr, ...]:
     match node:
         case Minus(operand=operand):
@@ -250,8 +268,4 @@ def _int_parts(node: Expr) -> tuple[Expr, ...]:
 
 
 def _number(value: float) -> str:
-    if isinstance(value, float) and math.isinf(value):
-        return "1e999"
-    return repr(int(value)) if float(value).is_integer() and abs(value) < 2**53 else repr(value)
-
-
+    return "1e999" if math.isinf(value) else repr(value).removesuffix(".0")
