@@ -3,7 +3,7 @@
 
 const MAX_INT = 2 ** 53;
 
-export const STAY = Object.freeze(["", ""]);
+export const STAY = Object.freeze([""]);
 
 /** Holds one instance of each component, and runs iterations. */
 export class Root {
@@ -185,7 +185,7 @@ export class Component {
       this.$work();
       return;
     }
-    const [target, transition] = this.$decideCommon() ?? this.#active.decide?.() ?? STAY;
+    const [target, transition = null] = this.$decideCommon() ?? this.#active.decide?.() ?? STAY;
     if (target !== "" && target !== this.$state) {
       this.#change(target, transition);
     }
@@ -197,7 +197,7 @@ export class Component {
     const old = this.#active;
     old.leave?.();
     this.#left = this.$state;
-    this.#transition = transition || null;
+    this.#transition = transition;
     this.$state = target;
     this.#enteredNs = this.$root.nowNs;
     this.#active.enter?.();

@@ -1,11 +1,11 @@
 """JavaScript generator: an ES module per component, on the runtime bica.mjs."""
 
-import json
 from collections.abc import Callable
 
 from vicode.generators.javascript.component import (
     JavaScriptWriter,
     check_supported,
+    state_key,
     write_declarations,
     write_interfaces,
 )
@@ -81,7 +81,7 @@ def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:
 
 def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
     """Map the lines of each state to the state."""
-    marks = {f"      [{json.dumps(state.name)}]: {{": state.name for state in plan.states}
+    marks = {f"      {state_key(state.name)}: {{": state.name for state in plan.states}
     lines = text.split("\n")
     origins = []
     for number, line in enumerate(lines, start=1):

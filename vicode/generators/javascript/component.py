@@ -4,6 +4,8 @@ import json
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import groupby
+from operator import itemgetter
 
 from vicode.generators.javascript.expression_printer import JavaScriptExpressionPrinter
 from vicode.generators.javascript.names import escape
@@ -60,9 +62,9 @@ class JavaScriptWriter:
         yield 'import * as bica from "../bica.mjs";'
         if self.package.has_declarations:
             yield 'import * as declarations from "./declarations.mjs";'
-        uses = {use.component: use.module or INTERFACES_MODULE for use in self.component.uses}
-        for component, module in sorted(uses.items()):
-            yield f'import {{ {escape(component)} }} from "./{module}.mjs";'
+        uses = sorted({(use.module or INTERFACES_MODULE, escape(use.component)) for use in self.component.uses})
+        for module, group in groupby(uses, key=itemgetter(0)):
+            yield f'import {{ {", ".join(name for _module, name in group)} }} from "./{module}.mjs";'
 
     def _class(self) -> Iterator[str]:
         plan = self.component
@@ -98,7 +100,7 @@ class JavaScriptWriter:
 
     def _state(self, state: StatePlan) -> Iterator[str]:
         yield from comment(state.doc, 0)
-        yield f"[{json.dumps(state.name)}]: {{"
+        yield f"{state_key(state.name)}: {{"
         if state.final:
             yield f"{_INDENT}final: true,"
         for key, aliases in (("requires", state.requires), ("calls", state.calls)):
@@ -134,7 +136,7 @@ class JavaScriptWriter:
     def _outcome(self, decision: DecisionPlan) -> Iterator[str]:
         match decision.outcome:
             case StateChange(state=state, transition=transition):
-                yield f"return [{json.dumps(state)}, {json.dumps(transition)}];"
+                yield f"return [{', '.join(map(json.dumps, filter(None, (state, transition))))}];"
             case Branch(then=then):
                 yield from self._decisions(then)
             case _:
@@ -149,6 +151,11 @@ class JavaScriptWriter:
                 case CallStep(alias=alias, arguments=arguments):
                     given = ", ".join(f"{escape(name)}: {self.printer.stored(value)}" for name, value in arguments)
                     yield f"this.$call(this.{escape(alias)}, {{{f' {given} ' if given else ''}}});"
+
+
+def state_key(name: str) -> str:
+    """The name of a state as a key of an object literal, in which `__proto__` has a meaning unless it is computed."""
+    return name if name.isascii() and name.isidentifier() and name != "__proto__" else f"[{json.dumps(name)}]"
 
 
 def write_interfaces(plan: ProjectPlan, interfaces: Iterable[InterfacePlan]) -> str:
