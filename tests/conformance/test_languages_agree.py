@@ -18,7 +18,7 @@ from tests.conformance.random_designs import draw_projects
 from tests.conformance.scxml_cases import DOCUMENTS, expected_states, scxml_run
 from vicode.conformance.comparison import find_absent_languages
 from vicode.conformance.cpp import COMPILER_MISSING
-from vicode.conformance.javascript import NODE_MISSING, find_node, is_last_bit
+from vicode.conformance.javascript import find_node, is_last_bit
 from vicode.conformance.report import describe, explain
 from vicode.conformance.traces import EXPECTED_DIFFERENCES, first_difference, reduce_for
 from vicode.generators.cpp.compiler import find_compiler
@@ -71,7 +71,7 @@ def test_there_is_a_compiler() -> None:
 
 def test_javascript_runs_the_cases(session: Session) -> None:
     if find_node() is None:
-        pytest.skip(NODE_MISSING)
+        pytest.skip("Node.js is missing: sudo apt install nodejs")
     assert len(session.traces["javascript"]) > len(FILES)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from vicode.check import check_project
-from vicode.conformance.javascript import NODE_MISSING, find_node
+from vicode.conformance.javascript import find_node
 from vicode.generators import UnsoundDesignError, generate, list_origins, list_outputs
 from vicode.model.project import Project
 from vicode.output import apply_diffs, compare_files
@@ -41,7 +41,7 @@ def javascript(text: str, **files: str) -> dict[str, str]:
 def run_node(folder: Path, program: str) -> list[str]:
     node = find_node()
     if node is None:
-        pytest.skip(NODE_MISSING)
+        pytest.skip("Node.js is missing: sudo apt install nodejs")
     (folder / "program.mjs").write_text(program, encoding="utf-8")
     done = subprocess.run([node, "program.mjs"], cwd=folder, capture_output=True, text=True, check=False)
     assert done.stderr == ""

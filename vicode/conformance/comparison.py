@@ -116,11 +116,11 @@ def compare_languages(
         on_language: Is called before a language runs.
         tools: The C++ compiler; None: the one that `find_tools` finds.
     """
+    tools = tools or find_tools()
     absent = _find_absent(runs[0])
-    if (tools := tools or find_tools()) is None:
-        absent.setdefault("cpp", AbsentLanguage(language="cpp", reason=COMPILER_MISSING))
-    if find_node() is None:
-        absent.setdefault("javascript", AbsentLanguage(language="javascript", reason=NODE_MISSING))
+    missing = {"cpp": COMPILER_MISSING} if tools is None else {}
+    missing |= {} if find_node() else {"javascript": NODE_MISSING}
+    absent = {language: AbsentLanguage(language=language, reason=text) for language, text in missing.items()} | absent
     runners = _make_runners(folder, modules, tools)
     traces: dict[str, Traces] = {}
     failed, partial = [], []
