@@ -72,6 +72,13 @@ def _find_absent(run: ConformanceRun) -> dict[str, AbsentLanguage]:
     return absent
 
 
+def _find_missing(tools: CppTools | None) -> dict[str, AbsentLanguage]:
+    """The languages whose compiler or runtime is not installed."""
+    missing = {"cpp": COMPILER_MISSING} if tools is None else {}
+    missing |= {} if find_node() else {"javascript": NODE_MISSING}
+    return {language: AbsentLanguage(language=language, reason=text) for language, text in missing.items()}
+
+
 def _find_unfit(language: str, run: ConformanceRun) -> str:
     """Why a language cannot run these inputs; "" if it can."""
     if language == "simulator" and run.robots > 1:
@@ -117,10 +124,7 @@ def compare_languages(
         tools: The C++ compiler; None: the one that `find_tools` finds.
     """
     tools = tools or find_tools()
-    absent = _find_absent(runs[0])
-    missing = {"cpp": COMPILER_MISSING} if tools is None else {}
-    missing |= {} if find_node() else {"javascript": NODE_MISSING}
-    absent = {language: AbsentLanguage(language=language, reason=text) for language, text in missing.items()} | absent
+    absent = _find_missing(tools) | _find_absent(runs[0])
     runners = _make_runners(folder, modules, tools)
     traces: dict[str, Traces] = {}
     failed, partial = [], []
