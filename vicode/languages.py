@@ -28,7 +28,7 @@ class Language:
     title: str
     keywords: frozenset[str]
     _: KW_ONLY
-    editor_mode: Literal["Python", "C++", "C"]
+    editor_mode: Literal["Python", "C++", "C", "JavaScript"]
     fence: str = ""
     comment: str = r"//.*|/\*(?s:.*?)\*/"
     is_generated: bool = False
@@ -40,6 +40,8 @@ _LANGUAGES = (
     # C++17 with its alternative tokens.
     Language("cpp", "C++", frozenset(_CPP.split()), editor_mode="C++", fence="cpp", is_generated=True),
     Language("xabsl", "XABSL", frozenset(_XABSL.split()), editor_mode="C", is_generated=True),
+    # The generator renames reserved words.
+    Language("javascript", "JavaScript", frozenset(), editor_mode="JavaScript", is_generated=True),
 )
 LANGUAGES = {each.name: each for each in _LANGUAGES}
 """The languages by name; code in a design may be written in each of them."""

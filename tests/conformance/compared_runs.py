@@ -9,6 +9,7 @@ from vicode.conformance.chosen_inputs import choose_runs
 from vicode.conformance.comparison import find_absent_languages
 from vicode.conformance.cpp import CppProgram
 from vicode.conformance.inputs import ConformanceRun
+from vicode.conformance.javascript import find_node, run_javascript
 from vicode.conformance.python import run_python, run_simulator
 from vicode.conformance.reference import run_reference
 from vicode.conformance.traces import TraceIteration
@@ -51,6 +52,8 @@ def compare_all(runs: Runs, absent: Mapping[str, Mapping[str, str]], folder: Pat
         # Without a compiler, one test fails, and the other languages are compared.
         "cpp": run_cpp(able("cpp"), folder, compiler) if (compiler := find_compiler()) else {},
         "xabsl": {name: run_xabsl(run) for name, run in able("xabsl").items()},
+        # Without Node.js, one test is skipped, and the other languages are compared.
+        "javascript": run_javascript(able("javascript"), folder) if find_node() else {},
         "simulator": run_simulator(able("simulator"), folder),
     }
 

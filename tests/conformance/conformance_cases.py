@@ -28,7 +28,7 @@ from vicode.model.project import Project
 from vicode.store import open_project
 
 CASES = Path(__file__).parent / "cases"
-LANGUAGES = ("python", "cpp", "xabsl", "simulator")
+LANGUAGES = ("python", "cpp", "xabsl", "javascript", "simulator")
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from vicode.check import (
     code,
     declarations,
     expressions,
+    javascript,
     names,
     states,
     steps,
@@ -108,7 +109,10 @@ def _cached_checker(
 
 
 def _run_rules(context: RuleContext, warnings: tuple[DesignRule, ...]) -> tuple[Finding, ...]:
-    rules = (*DESIGN_RULES, *warnings, *(_xabsl_rules()[1] if "xabsl" in context.project.languages else ()))
+    languages = context.project.languages
+    in_xabsl = _xabsl_rules()[1] if "xabsl" in languages else ()
+    in_javascript = javascript.RULES if "javascript" in languages else ()
+    rules = (*DESIGN_RULES, *warnings, *in_xabsl, *in_javascript)
     return tuple(finding for rule in rules for finding in rule(context))
 
 

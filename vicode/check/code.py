@@ -30,8 +30,15 @@ def find_unparsable_code(context: RuleContext) -> Iterator[Finding]:
 
 
 def find_missing_languages(context: RuleContext) -> Iterator[Finding]:
-    """D414: an action or predicate without code in a target language into which it cannot be translated."""
-    wanted = [language for language in context.project.languages if language in GENERATED_LANGUAGES]
+    """D414: an action or predicate without code in a target language into which it cannot be translated.
+
+    Designs with code are not generated as JavaScript (L705).
+    """
+    wanted = [
+        language
+        for language in context.project.languages
+        if language in GENERATED_LANGUAGES and language != "javascript"
+    ]
     for placed in context.code_blocks:
         if placed.role not in ("action", "predicate"):
             continue

@@ -14,12 +14,13 @@ from vicode.conformance.chosen_inputs import choose_runs
 from vicode.conformance.coverage import measure_coverage
 from vicode.conformance.cpp import COMPILER_MISSING, CompileError, CppTools, ProgramError, find_tools, run_cpp
 from vicode.conformance.inputs import ConformanceRun
+from vicode.conformance.javascript import NODE_MISSING, find_node, find_unfit_javascript, is_last_bit, run_javascript
 from vicode.conformance.python import CodeRunError, run_python, run_simulator
 from vicode.conformance.random_inputs import random_run
 from vicode.conformance.reference import run_reference
 from vicode.conformance.report import explain
 from vicode.conformance.result import AbsentLanguage, LanguageComparison, LanguageDifference, find_baseline
-from vicode.conformance.traces import TraceIteration, first_difference, large_ints_limit, reduce_for
+from vicode.conformance.traces import LAST_BIT, TraceIteration, first_difference, large_ints_limit, reduce_for
 from vicode.conformance.xabsl import run_xabsl
 from vicode.findings import Finding, Severity
 from vicode.generators import UnsoundDesignError, collect_components
@@ -27,7 +28,7 @@ from vicode.model.project import Project
 from vicode.runs.setup import NotReadyError
 from vicode.semantics import NotInterpretableError
 
-GENERATED = ("python", "cpp", "xabsl")
+GENERATED = ("python", "cpp", "xabsl", "javascript")
 _MS = 1_000_000
 Traces = dict[int, list[TraceIteration]]
 """The traces of a language by the number of the run."""
@@ -71,10 +72,19 @@ def _find_absent(run: ConformanceRun) -> dict[str, AbsentLanguage]:
     return absent
 
 
+def _find_missing(tools: CppTools | None) -> dict[str, AbsentLanguage]:
+    """The languages whose compiler or runtime is not installed."""
+    missing = {"cpp": COMPILER_MISSING} if tools is None else {}
+    missing |= {} if find_node() else {"javascript": NODE_MISSING}
+    return {language: AbsentLanguage(language=language, reason=text) for language, text in missing.items()}
+
+
 def _find_unfit(language: str, run: ConformanceRun) -> str:
     """Why a language cannot run these inputs; "" if it can."""
     if language == "simulator" and run.robots > 1:
         return "the simulator runs one robot"
+    if language == "javascript":
+        return find_unfit_javascript(run)
     if language == "xabsl" and any(step.time_ns % _MS for step in run.steps):
         return "times of XABSL are whole milliseconds"
     return ""
@@ -113,9 +123,8 @@ def compare_languages(
         on_language: Is called before a language runs.
         tools: The C++ compiler; None: the one that `find_tools` finds.
     """
-    absent = _find_absent(runs[0])
-    if (tools := tools or find_tools()) is None:
-        absent.setdefault("cpp", AbsentLanguage(language="cpp", reason=COMPILER_MISSING))
+    tools = tools or find_tools()
+    absent = _find_missing(tools) | _find_absent(runs[0])
     runners = _make_runners(folder, modules, tools)
     traces: dict[str, Traces] = {}
     failed, partial = [], []
@@ -157,6 +166,7 @@ def _make_runners(
         "python": lambda fit: _by_number(fit, run_python(_by_name(fit), folder, modules)),
         "cpp": lambda fit: run_cpp(fit, folder, tools),
         "xabsl": lambda fit: {number: run_xabsl(run) for number, run in fit.items()},
+        "javascript": lambda fit: _by_number(fit, run_javascript(_by_name(fit), folder)),
         "simulator": lambda fit: _by_number(fit, run_simulator(_by_name(fit), folder, modules)),
     }
 
@@ -192,6 +202,8 @@ def _find_difference(
         if found is None:
             continue
         limit = large_ints_limit(got[0], expected[1][number], found)
+        if got[0] == "javascript" and is_last_bit(runs[number], found):
+            limit = LAST_BIT
         difference = explain(found, sides, runs[number], number)
         if limit is None:
             return difference

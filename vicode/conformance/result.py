@@ -128,6 +128,7 @@ LANGUAGE_TITLES = {
     "python": "Python",
     "cpp": "C++",
     "xabsl": "XABSL",
+    "javascript": "JavaScript",
     "simulator": "simulator",
 }
 

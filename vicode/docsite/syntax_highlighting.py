@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 from html import escape
 
-from pygments.lexers import CppLexer, YamlLexer
+from pygments.lexers import CppLexer, JavascriptLexer, YamlLexer
 from pygments.token import Comment, Keyword, Name, Number, Operator, String
 
 from vicode.languages import LANGUAGES
@@ -42,7 +42,7 @@ _XABSL = re.compile(
     r"|(?P<m>\d+(?:\.\d+)?)"
 )
 _EXPRESSIONS = {"python": _PYTHON, "xabsl": _XABSL}
-_LEXERS = {"cpp": CppLexer, "yaml": YamlLexer}
+_LEXERS = {"cpp": CppLexer, "javascript": JavascriptLexer, "yaml": YamlLexer}
 
 
 def highlight_lines(text: str, language: str) -> tuple[str, ...]:

@@ -131,6 +131,8 @@ _RECORDS = (
     ("L702", "other-result-in-xabsl", Severity.ERROR, "expression with a different result in XABSL"),
     ("L703", "bad-xabsl-name", Severity.ERROR, "name invalid or not unique in XABSL"),
     ("L704", "code-is-not-xabsl", Severity.ERROR, "invalid XABSL code"),
+    # JavaScript as a target language
+    ("L705", "not-in-javascript", Severity.ERROR, "feature that JavaScript does not support"),
     # Generated files
     ("G501", "edited-generated", Severity.ERROR, "an edit of a generated file that is missing from the design"),
     ("G502", "stale-output", Severity.ERROR, "generated file that is out of date"),

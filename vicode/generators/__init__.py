@@ -107,10 +107,25 @@ def _cpp_generator() -> Generator:
     )
 
 
+def _javascript_generator() -> Generator:
+    from vicode.generators import javascript  # noqa: PLC0415 - most projects do not generate JavaScript
+
+    return Generator(
+        write=javascript.generate_javascript,
+        list_paths=javascript.list_paths,
+        reserved_modules=javascript.RESERVED_MODULES,
+        component_writer=javascript.component_writer,
+        find_origins=javascript.find_origins,
+        # Code has no counterpart in JavaScript.
+        list_regions=lambda _component: (),
+    )
+
+
 GENERATORS: Mapping[str, Callable[[], Generator]] = {
     "python": _python_generator,
     "cpp": _cpp_generator,
     "xabsl": _xabsl_generator,
+    "javascript": _javascript_generator,
 }
 """Functions that load the generator of a language."""
 

@@ -36,7 +36,7 @@ UNFIXABLE: Mapping[str, str] = {
     "D408": "which use in the cycle to remove is not certain",
     "D412": _AMBIGUOUS,
     "D414": "code cannot be translated automatically",
-    **dict.fromkeys(("L701", "L702"), "there is no general replacement in the language"),
+    **dict.fromkeys(("L701", "L702", "L705"), "there is no general replacement in the language"),
     "L703": "the robot program also uses the XABSL name",
     "L704": _AMBIGUOUS,
     "D432": "whether to rename the state or the method is not certain",
