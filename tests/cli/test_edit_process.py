@@ -26,7 +26,9 @@ HEED_SIGHUP = (
 def folder(tmp_path: Path) -> Path:
     folder = tmp_path / "forward"
     shutil.copytree(ROOT / "designs" / "forward", folder)
-    (folder / ".player.yaml.0123abcd.tmp").write_text("half")
+    left = folder / ".player.yaml.0123abcd.tmp"
+    left.write_text("half")
+    os.utime(left, (0, 0))
     (folder / ".notes.tmp").write_text("of the user")
     return folder
 

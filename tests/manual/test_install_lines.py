@@ -18,7 +18,10 @@ SUFFIXES = {".md", ".js", ".json", ".html", ".css", ".yaml", ".yml", ".j2", ".tx
 _COMMAND = r"\b(?:(?:pip3?|pipx|uv tool|uv pip) (?:install|download|wheel|run|upgrade)\b|uvx |uv add )"
 _INSTALL = re.compile(rf"(?P<before>.?){_COMMAND}(?P<arguments>(?:(?!{_COMMAND})[^\n])*)")
 _END = re.compile(r" && | \|\|? |; | \(|\)| # | {2,}|, ")
-_OPTIONS_WITH_VALUES = {"--with", "--wheel-dir", "-w", "--dest", "-d", "--python", "--resolution", "--index-url", "--target"}
+_OPTIONS_WITH_VALUES = {
+    *("--with", "--wheel-dir", "-w", "--dest", "-d", "--python"),
+    *("--resolution", "--index-url", "--target"),
+}
 _NAME = re.compile(r"(?P<name>[A-Za-z0-9][\w.-]*)(?:\[(?P<extras>[\w,$*-]+)\])?(?:[<>=!~].*)?$")
 
 

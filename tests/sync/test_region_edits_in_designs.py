@@ -69,7 +69,8 @@ def test_an_edited_region_changes_what_the_design_generates(tmp_path: Path, lang
 
     before = project()
     only = Project(name=before.name, languages=(language,), designs=before.designs)
-    found = edits_of(tmp_path, only, edit)
+    # live.hpp has hashes of the other files; it is only written again.
+    found = tuple(file for file in edits_of(tmp_path, only, edit) if not file.path.endswith("live.hpp"))
     assert [len(file.regions) for file in found] == [1]
     result = apply_regions(only, found)
     assert (result.conflicts, [edit.region for edit in result.applied]) == ((), list(found[0].regions))
@@ -77,7 +78,8 @@ def test_an_edited_region_changes_what_the_design_generates(tmp_path: Path, lang
     assert set(result.designs) == {"Lamp"}
     after = generate(replaced(result, only))
     assert [edit(file.text) for file in generate(only)] != [file.text for file in generate(only)]
-    assert find_file_edits(compare_files(after, tmp_path), after, lambda path: texts_at(after, path)) == ()
+    left = find_file_edits(compare_files(after, tmp_path), after, lambda path: texts_at(after, path))
+    assert [file.path for file in left if not file.path.endswith("live.hpp")] == []
     # The other language is as before, and a text with a line break at its end keeps it.
     other = "cpp" if language == "python" else "python"
     old, new = (design.module.in_language(other) for design in (before.designs[0], result.designs["Lamp"]))
