@@ -86,8 +86,7 @@ class TopicComponent(Component):
         self._likes: dict[str, Any] = {}
         self._has_stopped = True
         _watch_root(root)
-        if parameters:
-            root.holders.append(self.publish_stop)
+        root.holders.append(self.publish_stop)
 
     def work(self) -> None:
         """Read the newest message, or publish the parameters."""

@@ -107,6 +107,10 @@ class Interface:
         return self.implementation in (WORLD, INTERNAL, MISSING) or self.remote is not None
 
     @property
+    def is_topic(self) -> bool:
+        return isinstance(self.remote, TopicReference)
+
+    @property
     def readable(self) -> tuple[Declaration, ...]:
         """Outputs and variables."""
         return self.outputs + self.variables

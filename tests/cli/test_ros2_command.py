@@ -1,0 +1,179 @@
+"""Commands with a profile whose components are topics of ROS 2."""
+
+import os
+import random
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.bica.ros_robot import SCAN, TWIST, make_scan, read_latched
+from tests.cli.command_runner import vicode
+from vicode.bica import ros_session
+
+PROJECT = """\
+vicode: 1
+project: Scouts
+constants: {near: 1.0}
+components:
+  Scan: {outputs: {nearest: 9.0, is_alive: bool}}
+  Drive: {parameters: {speed: 0.0, turn: 0.0}}
+profiles:
+  ros2:
+    components:
+      Scan: {topic: /scan, type: sensor_msgs/msg/LaserScan, outputs: {nearest: min(ranges)}, max_age: 5}
+      Drive: {topic: /cmd_vel, type: geometry_msgs/msg/Twist, parameters: {speed: linear.x, turn: angular.z}}
+"""
+SCOUT = """\
+vicode: 1
+component: Scout
+uses: {scan: Scan, drive: Drive}
+parameters: {speed: 1.0}
+initial: Go
+states:
+  Go:
+    requires: [scan]
+    modulates: {drive: {speed: speed}}
+    transitions: [{to: Near, when: scan.is_alive and scan.nearest < near}]
+  Near: {requires: [scan], modulates: [drive]}
+"""
+HOME = Path(__file__).parents[2]
+LIMIT_S = 30.0
+
+
+@pytest.fixture
+def scouts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The project, in the current folder; the domain of DDS is random."""
+    (tmp_path / "project.yaml").write_text(PROJECT)
+    (tmp_path / "scout.yaml").write_text(SCOUT)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(random.randint(100, 200)))
+    monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)
+    monkeypatch.delenv("CYCLONEDDS_URI", raising=False)
+    return tmp_path
+
+
+def wait(condition: Callable[[], Any]) -> Any:
+    end_s = time.monotonic() + LIMIT_S
+    while time.monotonic() < end_s:
+        if result := condition():
+            return result
+        time.sleep(0.01)
+    raise AssertionError("nothing happened")
+
+
+@pytest.fixture
+def run(scouts: Path) -> Iterator["subprocess.Popen[str]"]:
+    """A run that ends with the test."""
+    command = [sys.executable, "-m", "vicode", "run", "scout.yaml", "--profile", "ros2", "--real-time"]
+    environment = {**os.environ, "PYTHONPATH": str(HOME)}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment) as run:
+        try:
+            yield run
+        finally:
+            run.terminate()
+
+
+def test_a_run_drives_a_robot_until_it_is_stopped(run: "subprocess.Popen[str]") -> None:
+    session = ros_session.open_session()
+    commands, publish = session.reader("/cmd_vel", TWIST), session.writer("/scan", SCAN)
+    assert wait(lambda: commands.take(0)).linear.x == 1.0
+    # Published before this reader came.
+    states = read_latched("/Scout/states")
+    assert wait(lambda: states.take(1))[0].data == "Scout.Go"
+
+    def approach() -> Any:
+        publish(make_scan(0.5))
+        return states.take(1)
+
+    assert wait(approach)[0].data == "Scout.Near"
+
+    def is_stopped() -> bool:
+        command = commands.take(0)
+        return command is not None and command.linear.x == 0.0
+
+    wait(is_stopped)
+    run.terminate()
+    output, errors = run.communicate(timeout=LIMIT_S)
+    assert run.returncode == 143
+    assert "Traceback" not in errors
+    assert "Scout: Go → Near" in output
+
+
+def test_the_default_command_is_published_at_the_end(run: "subprocess.Popen[str]") -> None:
+    commands = ros_session.open_session().reader("/cmd_vel", TWIST)
+    assert wait(lambda: commands.take(0)).linear.x == 1.0
+    run.terminate()
+    received = []
+    wait(lambda: received.append(commands.take(0)) or run.poll() is not None)
+    received.append(commands.take(0))
+    assert [message for message in received if message is not None][-1].linear.x == 0.0
+
+
+def test_checked_and_generated(scouts: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert vicode("check", ".") == 0
+    assert vicode("gen", "--profile", "ros2") == 0
+    assert vicode("gen", "--profile", "ros2", "--check") == 0
+    # Without the profile, the classes are others.
+    assert vicode("gen", "--check") == 1
+    capfd.readouterr()
+    assert vicode("gen", "--profile", "ros2", "--language", "cpp") == 0
+    assert "Scan, Drive: a topic of ROS 2 only in Python; write the class in C++" in capfd.readouterr().err
+
+
+def test_a_deployed_program_says_what_it_needs(scouts: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert vicode("deploy", "scout.yaml", "--profile", "ros2", "--to", "robot", "--python", sys.executable) == 0
+    assert f"{sys.executable} -m pip install cyclonedds rosbags" in capfd.readouterr().err
+    assert vicode("deploy", "scout.yaml", "--to", "other") == 0
+    assert "pip install" not in capfd.readouterr().err
+    environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    done = subprocess.run(
+        ["robot/run", "--seconds", "0.5"], capture_output=True, text=True, check=False, timeout=LIMIT_S, env=environment
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "state: Go" in done.stdout
+
+
+def test_a_deployed_cpp_program_has_no_topics(scouts: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    (scouts / "main.cpp").write_text("int main() {}\n")
+    assert vicode("deploy", "scout.yaml", "--profile", "ros2", "--to", "robot", "--language", "cpp") == 0
+    assert "write the class in C++" in capfd.readouterr().err
+
+
+def test_inputs_take_the_place_of_topics(scouts: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    inputs = ("--set", "Scan.is_alive=true", "--set", "1 s: Scan.nearest=0.5")
+    assert vicode("run", "scout.yaml", "--profile", "ros2", "--seconds", "2", *inputs) == 0
+    assert "1.00 s  Scout: Go → Near" in capfd.readouterr().out
+
+
+def test_a_trace_of_topics_is_replayed_and_checked(scouts: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    options = ("--profile", "ros2", "--real-time", "--seconds", "0.3", "--trace", "run.jsonl", "--values")
+    assert vicode("run", "scout.yaml", *options) == 0
+    assert vicode("replay", "run.jsonl") == 0
+    assert "Scout: same states" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("run", "scout.yaml", "--profile", "ros2"), "/scan: topics need --real-time"),
+        (
+            ("sweep", "scout.yaml", "--profile", "ros2", "--set", "Scout.speed=1,2", "--out", "runs"),
+            "Scan is a topic, which needs real time",
+        ),
+    ],
+)
+def test_simulated_time_is_refused(
+    scouts: Path, arguments: tuple[str, ...], message: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert vicode(*arguments) == 2
+    assert message in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("arguments", [("conform", "."), ("test", "gen", ".", "--out", "suite")])
+def test_commands_without_profiles(scouts: Path, arguments: tuple[str, ...]) -> None:
+    assert vicode(*arguments) == 0
