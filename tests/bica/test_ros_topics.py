@@ -219,7 +219,7 @@ class Planner(Component):
         self.drive = root.component(Drive)
         self._set_states(State("Go", self._in_go))
 
-    def _in_go(self, decide: bool = True) -> None:  # noqa: ARG002
+    def _in_go(self, decide: bool = True) -> None:
         self._call(self.drive, speed=1.0)
 
 

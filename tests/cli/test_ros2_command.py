@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from tests.bica.ros_robot import SCAN, TWIST, make_scan, read_latched
+from tests.bica.ros_robot import SCAN, TWIST, make_scan, read_latched, write_bag
 from tests.cli.command_runner import vicode
 from vicode.bica import ros_session
 
@@ -177,3 +177,47 @@ def test_simulated_time_is_refused(
 @pytest.mark.parametrize("arguments", [("conform", "."), ("test", "gen", ".", "--out", "suite")])
 def test_commands_without_profiles(scouts: Path, arguments: tuple[str, ...]) -> None:
     assert vicode(*arguments) == 0
+
+
+def record(folder: Path) -> None:
+    """A bag of 2 s in which the wall gets nearer; the last message ends it."""
+    distances = enumerate([3.0, 2.0, 1.5, 0.8, 0.7])
+    write_bag(folder, [(7_000_000_000 + 500_000_000 * number, make_scan(each)) for number, each in distances])
+
+
+def test_a_bag_is_replayed_until_its_end(scouts: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    record(scouts / "bag")
+    options = ("--bag", "bag", "scout.yaml", "--profile", "ros2", "--trace", "run.jsonl")
+    assert vicode("replay", *options) == 0
+    output, errors = capfd.readouterr()
+    assert "1.50 s  Scout: Go → Near" in output
+    assert "2.00 s in 101 iterations" in output
+    assert errors == ""
+    # The trace leads to the same states without the bag.
+    assert vicode("replay", "run.jsonl") == 0
+    assert "same states in 101 iterations" in capfd.readouterr().out
+    assert ros_session.BAG not in os.environ
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--bag", "bag", "scout.yaml"), "Scout uses no topics; name a profile"),
+        (("--bag", "none", "scout.yaml", "--profile", "ros2"), "cannot read the bag none"),
+        (("--bag", "bag", "scout.yaml", "--profile", "robot"), "profile"),
+        (("--bag", "bag", "scout.yaml", "--profile", "ros2", "--tolerance", "1"), "no effect with --bag"),
+        (("run.jsonl", "--profile", "ros2"), "no effect without --bag"),
+    ],
+)
+def test_wrong_replays_of_bags(
+    scouts: Path, arguments: tuple[str, ...], message: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    record(scouts / "bag")
+    assert vicode("replay", *arguments) == 2
+    assert message in capfd.readouterr().err
+
+
+def test_a_topic_without_messages_is_named(scouts: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    write_bag(scouts / "bag", [(0, make_scan(1.0))], topic="/scam")
+    assert vicode("replay", "--bag", "bag", "scout.yaml", "--profile", "ros2") == 0
+    assert "has no messages on /scan" in capfd.readouterr().err

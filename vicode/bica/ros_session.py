@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, Protocol
 
-from .errors import NetworkError
+from .errors import NetworkError, print_error
 from .ros_messages import INSTALL, FieldType, is_base, is_fixed_array, is_message, message_fields, read_bag
 
 if TYPE_CHECKING:
@@ -125,6 +125,8 @@ class _BagSession:
 
     def reader(self, topic: str, type_: str) -> TopicReader:
         messages, _duration = read_bag(self._path, (topic,))
+        if not messages[topic]:
+            print_error(f"the bag {self._path} has no messages on {topic}", kind="warning")
         others = {own for _time, own, _content in messages[topic]} - {type_}
         if others:
             raise NetworkError(f"{topic} has the type {others.pop()} in the bag {self._path}, not {type_}")
