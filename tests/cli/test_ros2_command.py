@@ -1,5 +1,7 @@
 """Commands with a profile whose components are topics of ROS 2."""
 
+import itertools
+import math
 import os
 import random
 import subprocess
@@ -18,12 +20,13 @@ from vicode.bica import ros_session
 PROJECT = """\
 vicode: 1
 project: Scouts
-constants: {near: 1.0}
+constants: {near: {value: 1.0, range: [0.2, 5.0], tunable: true}, far: {value: 9, tunable: true}}
 components:
   Scan: {outputs: {nearest: 9.0, is_alive: bool}}
   Drive: {parameters: {speed: 0.0, turn: 0.0}}
 profiles:
   ros2:
+    tune: true
     components:
       Scan: {topic: /scan, type: sensor_msgs/msg/LaserScan, outputs: {nearest: min(ranges)}, max_age: 5}
       Drive: {topic: /cmd_vel, type: geometry_msgs/msg/Twist, parameters: {speed: linear.x, turn: angular.z}}
@@ -112,6 +115,44 @@ def test_the_default_command_is_published_at_the_end(run: "subprocess.Popen[str]
     wait(lambda: received.append(commands.take(0)) or run.poll() is not None)
     received.append(commands.take(0))
     assert [message for message in received if message is not None][-1].linear.x == 0.0
+
+
+def test_a_message_sets_a_tunable_constant(run: "subprocess.Popen[str]") -> None:
+    session = ros_session.open_session()
+    states, publish = read_latched("/Scout/states"), session.writer("/scan", SCAN)
+    tune = session.writer("/Scout/set/near", "std_msgs/msg/Float64")
+    assert wait(lambda: states.take(1))[0].data == "Scout.Go"
+
+    def send(near: float) -> Any:
+        message = ros_session.make_message("std_msgs/msg/Float64")
+        message.data = near
+        tune(message)
+        publish(make_scan(4.0))
+        return states.take(1)
+
+    # Out of range; the writer may need a moment until the first arrives.
+    end_s = time.monotonic() + 1.0
+    for near in itertools.cycle((9.0, math.nan)):
+        assert send(near) == []
+        time.sleep(0.02)
+        if time.monotonic() > end_s:
+            break
+    assert wait(lambda: send(4.5))[0].data == "Scout.Near"
+    run.terminate()
+    _output, errors = run.communicate(timeout=LIMIT_S)
+    assert errors.count("/Scout/set/near is ignored") == 1
+    # No component uses the other constant.
+    assert "far" not in errors
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [(", tunable: true", "", "no constant is tunable"), ("topic: ", "remote: a", "the profile has no topics")],
+)
+def test_nothing_to_tune(scouts: Path, old: str, new: str, message: str, capfd: pytest.CaptureFixture[str]) -> None:
+    (scouts / "project.yaml").write_text(PROJECT.replace(old, new))
+    assert vicode("check", ".") == 1
+    assert message in capfd.readouterr().out
 
 
 def test_checked_and_generated(scouts: Path, capfd: pytest.CaptureFixture[str]) -> None:
