@@ -6,7 +6,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from enum import Enum
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ import pytest
 
 from tests.bica.live_robot import Viewer, close_connections
 from tests.bica.ros_robot import SCAN, TWIST, make_scan, read_latched, write_bag
-from vicode.bica import Component, Root, SimulatedClock, State, ros_session
+from vicode.bica import Component, Root, SimulatedClock, State, ros_messages, ros_session
 from vicode.bica.errors import NetworkError
 from vicode.bica.live import NoHoldError
 from vicode.bica.ros_messages import FieldError, find_field
@@ -311,14 +311,53 @@ def test_wrong_fields(source: str, message: str) -> None:
 def test_a_missing_library_is_named_with_the_command(
     library: str, needed: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from vicode.bica import ros_messages
-
-    ros_messages._load_types.cache_clear()
-    ros_session.message_class.cache_clear()
+    clear_types()
     monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(NetworkError, match=f"{needed}, which is not installed: pip install"):
         ros_session.make_message("std_msgs/msg/String")
     ros_messages._load_types.cache_clear()
+
+
+@pytest.fixture
+def types(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder of message types."""
+    folder = tmp_path / "turtles/msg"
+    folder.mkdir(parents=True)
+    (folder / "Pose.msg").write_text("float32 x\nturtles/Color color\nColor[] others\n")
+    (folder / "Color.msg").write_text("uint8 red\n")
+    monkeypatch.setenv("VICODE_ROS_TYPES", str(tmp_path))
+    clear_types()
+    yield folder
+    clear_types()
+
+
+def clear_types() -> None:
+    ros_messages._load_types.cache_clear()
+    ros_session.message_class.cache_clear()
+
+
+def test_a_team_has_its_own_message_types(types: Path) -> None:
+    class Turtle(TopicComponent):
+        def __init__(self, root: Root) -> None:
+            super().__init__(root, "/pose", "turtles/msg/Pose", outputs={"x": "x", "red": "color.red"})
+            self.x, self.red = 0.0, 0
+
+    with Root(Turtle) as root:
+        publish = ros_session.open_session().writer("/pose", "turtles/msg/Pose")
+        message = ros_session.make_message("turtles/msg/Pose")
+        message.x, message.color.red = 1.5, 7
+        wait(lambda: publish(message) or root.main.red == 7, root)
+        assert root.main.x == 1.5
+
+
+def test_wrong_message_types_are_errors(types: Path) -> None:
+    (types / "Color.msg").write_text("uint8 = red\n")
+    with pytest.raises(NetworkError, match=r"cannot read the message type .*Color\.msg"):
+        ros_session.make_message("turtles/msg/Pose")
+    (types / "Color.msg").unlink()
+    (types / "Pose.msg").unlink()
+    with pytest.raises(NetworkError, match=r"no file PACKAGE/msg/NAME\.msg"):
+        ros_session.make_message("turtles/msg/Pose")
 
 
 def test_simulated_time_needs_a_bag() -> None:
