@@ -9,6 +9,8 @@ import time
 from pathlib import Path
 from typing import Any
 
+from cyclonedds.core import Policy, Qos
+from cyclonedds.sub import DataReader
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
@@ -22,6 +24,14 @@ def make_scan(*ranges: float) -> Any:
     message = ros_session.make_message(SCAN)
     message.ranges = list(ranges)
     return message
+
+
+def read_latched(topic: str) -> Any:
+    """A reader of a latched topic of texts, whose `take(1)` lists new messages."""
+    session = ros_session.open_session()
+    assert isinstance(session, ros_session._DomainSession)
+    qos = Qos(Policy.Reliability.Reliable(0), Policy.Durability.TransientLocal, Policy.History.KeepLast(1))
+    return DataReader(session._participant, session._topic(topic, "std_msgs/msg/String"), qos=qos)
 
 
 def write_bag(path: Path, messages: list[tuple[int, Any]], topic: str = "/scan", type_: str = SCAN) -> None:

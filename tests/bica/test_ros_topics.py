@@ -4,19 +4,24 @@ import math
 import random
 import subprocess
 import sys
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from enum import Enum
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tests.bica.ros_robot import SCAN, TWIST, make_scan, write_bag
-from vicode.bica import Component, Root, SimulatedClock, State, ros_session
+from tests.bica.live_robot import Viewer, close_connections
+from tests.bica.ros_robot import SCAN, TWIST, make_scan, read_latched, write_bag
+from vicode.bica import Component, Root, SimulatedClock, State, ros_messages, ros_session
 from vicode.bica.errors import NetworkError
+from vicode.bica.live import NoHoldError
 from vicode.bica.ros_messages import FieldError, find_field
 from vicode.bica.ros_topic import TopicComponent
+
+__all__ = ["close_connections"]
 
 LIMIT_S = 30.0
 
@@ -165,14 +170,7 @@ def test_data_gets_too_old(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 def test_states_reach_who_joins_late() -> None:
     with Root(Player) as root:
         root.step()
-        session = ros_session.open_session()
-        from cyclonedds.core import Policy, Qos
-        from cyclonedds.sub import DataReader
-
-        assert isinstance(session, ros_session._DomainSession)
-        qos = Qos(Policy.Reliability.Reliable(0), Policy.Durability.TransientLocal, Policy.History.KeepLast(1))
-        topic = session._topic("/Player/states", "std_msgs/msg/String")
-        reader = DataReader(session._participant, topic, qos=qos)
+        reader = read_latched("/Player/states")
         assert wait(lambda: reader.take(1))[0].data == "Player.Go"
         root.step()
         time.sleep(0.1)
@@ -200,6 +198,61 @@ def test_a_robot_that_is_held_or_closed_stops(stop: Callable[[Root], None]) -> N
     time.sleep(0.1)
     assert commands.take(0) is None
     root.close()
+
+
+class Motor(Component):
+    def work(self) -> None:
+        """Would move the robot."""
+
+
+class Lifter(Commander):
+    def __init__(self, root: Root) -> None:
+        super().__init__(root)
+        self.motor = root.component(Motor)
+
+
+class Planner(Component):
+    """Like a generated component."""
+
+    def __init__(self, root: Root) -> None:
+        super().__init__(root)
+        self.drive = root.component(Drive)
+        self._set_states(State("Go", self._in_go))
+
+    def _in_go(self, decide: bool = True) -> None:
+        self._call(self.drive, speed=1.0)
+
+
+class Loader(Planner):
+    def __init__(self, root: Root) -> None:
+        super().__init__(root)
+        self.motor = root.component(Motor)
+
+
+def test_a_paused_robot_gets_the_stop_command() -> None:
+    with Root(Planner) as root:
+        viewer = Viewer(root.watch(control=True), root)
+        commands = ros_session.open_session().reader("/cmd_vel", TWIST)
+
+        def speed() -> float | None:
+            message = commands.take(0)
+            return None if message is None else float(message.linear.x)
+
+        wait(lambda: speed() == 1.0, root)
+        threading.Timer(0.5, lambda: viewer.send({"do": "resume", "robot": "Planner"})).start()
+        viewer.send({"do": "pause", "robot": "Planner"})
+        # The step of the root returns when the viewer resumes; until then, the newest command stops the robot.
+        held = []
+        holders, root.holders = root.holders, [*root.holders, lambda: held.append(wait(lambda: speed() == 0.0))]
+        wait(lambda: held, root)
+        root.holders = holders
+        wait(lambda: speed() == 1.0, root)
+
+
+@pytest.mark.parametrize("component", [Lifter, Loader])
+def test_a_robot_with_other_motors_needs_hold(component: type[Component]) -> None:
+    with Root(component) as root, pytest.raises(NoHoldError, match=r"(Motor|Lifter) is no topic"):
+        root.watch(control=True)
 
 
 def test_parameters_are_limited_to_their_fields_and_headers_filled() -> None:
@@ -258,14 +311,53 @@ def test_wrong_fields(source: str, message: str) -> None:
 def test_a_missing_library_is_named_with_the_command(
     library: str, needed: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from vicode.bica import ros_messages
-
-    ros_messages._load_types.cache_clear()
-    ros_session.message_class.cache_clear()
+    clear_types()
     monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(NetworkError, match=f"{needed}, which is not installed: pip install"):
         ros_session.make_message("std_msgs/msg/String")
     ros_messages._load_types.cache_clear()
+
+
+@pytest.fixture
+def types(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder of message types."""
+    folder = tmp_path / "turtles/msg"
+    folder.mkdir(parents=True)
+    (folder / "Pose.msg").write_text("float32 x\nturtles/Color color\nColor[] others\n")
+    (folder / "Color.msg").write_text("uint8 red\n")
+    monkeypatch.setenv("VICODE_ROS_TYPES", str(tmp_path))
+    clear_types()
+    yield folder
+    clear_types()
+
+
+def clear_types() -> None:
+    ros_messages._load_types.cache_clear()
+    ros_session.message_class.cache_clear()
+
+
+def test_a_team_has_its_own_message_types(types: Path) -> None:
+    class Turtle(TopicComponent):
+        def __init__(self, root: Root) -> None:
+            super().__init__(root, "/pose", "turtles/msg/Pose", outputs={"x": "x", "red": "color.red"})
+            self.x, self.red = 0.0, 0
+
+    with Root(Turtle) as root:
+        publish = ros_session.open_session().writer("/pose", "turtles/msg/Pose")
+        message = ros_session.make_message("turtles/msg/Pose")
+        message.x, message.color.red = 1.5, 7
+        wait(lambda: publish(message) or root.main.red == 7, root)
+        assert root.main.x == 1.5
+
+
+def test_wrong_message_types_are_errors(types: Path) -> None:
+    (types / "Color.msg").write_text("uint8 = red\n")
+    with pytest.raises(NetworkError, match=r"cannot read the message type .*Color\.msg"):
+        ros_session.make_message("turtles/msg/Pose")
+    (types / "Color.msg").unlink()
+    (types / "Pose.msg").unlink()
+    with pytest.raises(NetworkError, match=r"no file PACKAGE/msg/NAME\.msg"):
+        ros_session.make_message("turtles/msg/Pose")
 
 
 def test_simulated_time_needs_a_bag() -> None:

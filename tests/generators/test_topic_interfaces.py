@@ -1,10 +1,12 @@
 """Generated classes of components that a profile assigns to topics of ROS 2."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from tests.check.test_topics import PROJECT
 from tests.generators.code_tools import format_diff, lint_errors, write_files
 from vicode.generators import generate
+from vicode.model.design import Declaration
 from vicode.model.project import select_profile
 
 
@@ -26,3 +28,15 @@ def test_a_topic_has_the_same_interface(tmp_path: Path) -> None:
 
 def test_other_profiles_do_not_import_ros() -> None:
     assert all("ros_topic" not in file.text for file in generate(PROJECT))
+
+
+def test_tunable_constants_have_their_limits(tmp_path: Path) -> None:
+    near = Declaration(name="near", initial="1.0", tunable=True, range=(0.2, 5.0))
+    plain = Declaration(name="far", initial="9.0")
+    profile = replace(PROJECT.profiles[0], tune=True)
+    project = replace(PROJECT, constants=(near, plain), profiles=(profile,))
+    files = generate(select_profile(project, "ros2"))
+    assert any('tunable={"near": (0.2, 5.0)}' in file.text for file in files)
+    assert all("tunable=" not in file.text for file in generate(project))
+    write_files(files, tmp_path)
+    assert format_diff(tmp_path) == ""

@@ -16,7 +16,7 @@ from vicode.store.project_format import PROJECT_RECORDS
 from vicode.store.schema_types import ListSchema, MapSchema, RecordSchema, ValueSchema
 
 RECORDS = {record.name: record for record in (*DESIGN_RECORDS, *PROJECT_RECORDS)}
-NOT_IN_FILE = {"Interface.remote", "Project.designs", "Project.unreadable"}
+NOT_IN_FILE = {"Interface.remote", "Interface.tunable", "Project.designs", "Project.unreadable"}
 MODEL_CLASSES = [
     value
     for module in (design_model, project_model)

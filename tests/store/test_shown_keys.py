@@ -69,7 +69,7 @@ def with_names(value: Any) -> Any:
     if isinstance(value, Design):
         values["states"] = (*values["states"], State(name=OTHER))
     if isinstance(value, Interface):
-        values["remote"] = None
+        values["remote"], values["tunable"] = None, ()
     return replace(value, **values)
 
 

@@ -231,6 +231,7 @@ profiles = st.builds(
     name=names,
     world=st.just("") | texts,
     clock=st.sampled_from(["", "world"]),
+    tune=st.booleans(),
     components=_unique(
         st.builds(ProfileClass, component=names, implementation=texts)
         | st.builds(RemoteReference, component=names, remote=texts, reliable=st.booleans(), max_age=frequencies)

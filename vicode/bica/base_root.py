@@ -82,7 +82,7 @@ class BaseRoot:
         self._is_time_stopped = self._is_closed = False
         self._hold_failures: set[str] = set()
         self.holders: list[Callable[[], None]] = []
-        """What components do when the robot is held; they never raise."""
+        """What components do when the robot is held, as their methods; they never raise."""
         self._closing = ExitStack()
         self._closing.callback(self._close_world)
         try:

@@ -29,6 +29,42 @@ class InjectedError(Exception):
     """An exception that a viewer asked for."""
 
 
+class Constant:
+    """A constant of a project, in every module that uses it.
+
+    Raises:
+        ControlError: No component uses it.
+    """
+
+    def __init__(self, root: BaseRoot, name: str) -> None:
+        modules = {sys.modules[type(each).__module__] for each in root.components}
+        owners = [module for module in modules if name in vars(module)]
+        shared = {sys.modules.get(f"{module.__package__}.declarations") for module in modules}
+        declarations = [module for module in shared if module is not None and name in vars(module)]
+        if not declarations or not owners or name.startswith("_"):
+            raise ControlError(f"no component uses a constant '{name}'")
+        self.name, self._modules = name, (*declarations, *owners)
+
+    @property
+    def value(self) -> Any:
+        return getattr(self._modules[0], self.name)
+
+    def set(self, given: object, limits: tuple[float, float] | None = None) -> Any:
+        """Set a JSON value, and return it in the type of the constant.
+
+        Raises:
+            ControlError: It has another type, is not finite, or is not within the limits.
+        """
+        value = convert_value(given, self.value, self.name)
+        if isinstance(value, float) and not math.isfinite(value):
+            raise ControlError(f"{self.name} must be a finite number")
+        if limits is not None and not limits[0] <= value <= limits[1]:
+            raise ControlError(f"{self.name} must be from {limits[0]:g} to {limits[1]:g}")
+        for module in self._modules:
+            setattr(module, self.name, value)
+        return value
+
+
 class Controller:
     """Applies requests between iterations. What a viewer holds ends when it releases it or disconnects."""
 
@@ -192,20 +228,8 @@ class Controller:
         return f"{type(component).__name__} works at {hertz:g} Hz"
 
     def _tune(self, _viewer: object, request: dict[str, Any]) -> str:
-        """Set a constant in every module that uses it."""
-        name = str(request.get("name"))
-        modules = {sys.modules[type(each).__module__] for each in self._root.components}
-        owners = [module for module in modules if name in vars(module)]
-        shared = {sys.modules.get(f"{module.__package__}.declarations") for module in modules}
-        declarations = [module for module in shared if module is not None and name in vars(module)]
-        if not declarations or not owners or name.startswith("_"):
-            raise ControlError(f"no component uses a constant '{name}'")
-        value = convert_value(request.get("value"), getattr(declarations[0], name), name)
-        if isinstance(value, float) and not math.isfinite(value):
-            raise ControlError(f"{name} must be a finite number")
-        for module in (*owners, *declarations):
-            setattr(module, name, value)
-        return f"constant {name} = {value}"
+        constant = Constant(self._root, str(request.get("name")))
+        return f"constant {constant.name} = {constant.set(request.get('value'))}"
 
     def _release(self, viewer: object, _request: dict[str, Any]) -> str:
         was_paused = self._paused_by is viewer

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
+from .component import Component
 from .errors import print_error
 from .live_server import LiveServer
 
@@ -37,11 +38,15 @@ def watch_root(
         OSError: The address is in use or invalid, or shared with another token or permission to control, or the root
             is watched already.
     """
-    if control and not without_hold and not (root.holders or callable(getattr(root.world, "hold", None))):
+    if control and not without_hold and not callable(getattr(root.world, "hold", None)):
         owner = (
             "the robot has no world" if root.world is None else f"the world {type(root.world).__name__} has no hold()"
         )
-        raise NoHoldError(f"{owner}: a paused robot would keep moving; define hold() in its world")
+        moving = _find_moving_components(root)
+        if root.world is None and root.holders and moving:
+            owner += f", and {moving[0]} is no topic"
+        if root.world is not None or moving or not root.holders:
+            raise NoHoldError(f"{owner}: a paused robot would keep moving; define hold() in its world")
     if any(each.shows(root) for each in _servers):
         raise OSError("the root is watched already")
     server = next((each for each in _servers if each.serves(address)), None)
@@ -58,6 +63,13 @@ def watch_root(
     if root.network is not None:
         root.network.announce(server.address)
     return server
+
+
+def _find_moving_components(root: BaseRoot) -> list[str]:
+    """The components that may move the robot while it is held: hand-written ones with code."""
+    held = [getattr(holder, "__self__", None) for holder in root.holders]
+    others = [type(each) for each in root.components if not each._states and each not in held]
+    return [each.__name__ for each in others if (each.work, each.modulate) != (Component.work, Component.modulate)]
 
 
 def find_address(root: BaseRoot) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -13,6 +14,8 @@ from typing import Any
 from .errors import NetworkError
 
 INSTALL = "pip install 'vicode-fsm[ros2]' (on a robot without vicode: pip install cyclonedds rosbags)"
+TYPES = "VICODE_ROS_TYPES"
+"""The variable with folders of other message types: files PACKAGE/msg/NAME.msg."""
 MAX_ITEMS = 100_000
 """Messages with longer arrays are ignored."""
 _BASE, _NAME, _ARRAY = 1, 2, 3
@@ -153,7 +156,25 @@ def _load_types() -> Any:
         from rosbags.typesys import Stores, get_typestore  # noqa: PLC0415 - optional
     except ImportError as error:
         raise NetworkError(f"the message types of ROS 2 need rosbags, which is not installed: {INSTALL}") from error
-    return get_typestore(Stores.ROS2_JAZZY)
+    store = get_typestore(Stores.ROS2_JAZZY)
+    for folder in filter(None, os.environ.get(TYPES, "").split(os.pathsep)):
+        store.register(_read_types(Path(folder)))
+    return store
+
+
+def _read_types(folder: Path) -> dict[str, Any]:
+    """The message types of the files PACKAGE/msg/NAME.msg in a folder."""
+    from rosbags.typesys import get_types_from_msg  # noqa: PLC0415 - optional
+
+    types: dict[str, Any] = {}
+    for file in sorted(folder.glob("*/msg/*.msg")):
+        try:
+            types |= get_types_from_msg(file.read_text("utf-8"), f"{file.parents[1].name}/msg/{file.stem}")
+        except Exception as error:
+            raise NetworkError(f"cannot read the message type {file}: {str(error)[:300]}") from error
+    if not types:
+        raise NetworkError(f"{TYPES}={folder}: there is no file PACKAGE/msg/NAME.msg")
+    return types
 
 
 def _plain(field: tuple[Any, Any]) -> FieldType:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, Protocol
 
-from .errors import NetworkError
+from .errors import NetworkError, print_error
 from .ros_messages import INSTALL, FieldType, is_base, is_fixed_array, is_message, message_fields, read_bag
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class TopicReader(Protocol):
 class Session(Protocol):
     """A connection to topics."""
 
-    def reader(self, topic: str, type_: str) -> TopicReader: ...
+    def reader(self, topic: str, type_: str, *, is_expected: bool = True) -> TopicReader: ...
     def writer(self, topic: str, type_: str, *, latched: bool = False) -> Callable[[Any], None]: ...
 
 
@@ -91,7 +91,7 @@ class _DomainSession:
         except core.DDSException as error:
             raise NetworkError(f"DDS cannot open domain {domain_id}: {error}") from error
 
-    def reader(self, topic: str, type_: str) -> TopicReader:
+    def reader(self, topic: str, type_: str, *, is_expected: bool = True) -> TopicReader:  # noqa: ARG002
         policy = self._core.Policy
         qos = self._core.Qos(policy.Reliability.BestEffort, policy.Durability.Volatile, policy.History.KeepLast(1))
         return _DomainReader(self._dds.sub.DataReader(self._participant, self._topic(topic, type_), qos=qos), type_)
@@ -123,8 +123,10 @@ class _BagSession:
     def __init__(self, path: str) -> None:
         self._path = path
 
-    def reader(self, topic: str, type_: str) -> TopicReader:
+    def reader(self, topic: str, type_: str, *, is_expected: bool = True) -> TopicReader:
         messages, _duration = read_bag(self._path, (topic,))
+        if is_expected and not messages[topic]:
+            print_error(f"the bag {self._path} has no messages on {topic}", kind="warning")
         others = {own for _time, own, _content in messages[topic]} - {type_}
         if others:
             raise NetworkError(f"{topic} has the type {others.pop()} in the bag {self._path}, not {type_}")

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 from . import ros_session
 from .clock import SimulatedClock
 from .component import Component
+from .control import Constant, ControlError
 from .errors import NetworkError, describe_exception, print_error
 from .ros_messages import FieldError, MessageField, find_field, message_fields
 
@@ -47,6 +49,7 @@ class TopicComponent(Component):
         parameters: Fields by parameter.
         frame: The `frame_id` of published messages with a header.
         max_age: Seconds after which data is too old.
+        tunable: The constants that topics `/ROOT/set/NAME` may set, and their limits.
 
     Attributes:
         data_age: Seconds since the newest message was received; infinite before.
@@ -66,6 +69,7 @@ class TopicComponent(Component):
         parameters: Mapping[str, str] | None = None,
         frame: str = "",
         max_age: float = 1.0,
+        tunable: Mapping[str, tuple[float, float] | None] | None = None,
     ) -> None:
         super().__init__(root)
         self.data_age = float("inf")
@@ -81,13 +85,13 @@ class TopicComponent(Component):
             raise NetworkError(f"{topic}: topics need --real-time: other programs do not wait for simulated time")
         self._reader = session.reader(topic, type_) if outputs else None
         self._write = session.writer(topic, type_) if parameters else None
+        self._message = ros_session.make_message(type_) if parameters else None
         self._received_ns: int | None = None
         self._reported: set[str] = set()
         self._likes: dict[str, Any] = {}
         self._has_stopped = True
-        _watch_root(root)
-        if parameters:
-            root.holders.append(self.publish_stop)
+        _watch_root(root, tunable or {})
+        root.holders.append(self.publish_stop)
 
     def work(self) -> None:
         """Read the newest message, or publish the parameters."""
@@ -139,7 +143,7 @@ class TopicComponent(Component):
         return type(like)(value)
 
     def _publish(self, values: Mapping[str, Any]) -> None:
-        message = ros_session.make_message(self._type)
+        message = self._message
         header = getattr(message, "header", None)
         if header is not None and hasattr(header, "stamp"):
             header.stamp.sec, header.stamp.nanosec = divmod(time.time_ns(), 1_000_000_000)
@@ -175,10 +179,41 @@ def _to_field(value: Any, field: MessageField, owner: type) -> Any:
     return max(low, min(high, int(value)))
 
 
-def _watch_root(root: BaseRoot) -> None:
+def _watch_root(root: BaseRoot, tunable: Mapping[str, tuple[float, float] | None]) -> None:
     """Observe a root once."""
     if not any(isinstance(each, _RootTopics) for each in root.observers):
-        root.observe(_RootTopics())
+        root.observe(_RootTopics(tunable))
+
+
+def _open_constants(root: BaseRoot, tunable: Mapping[str, tuple[float, float] | None]) -> Iterator[_ConstantTopic]:
+    for name, limits in tunable.items():
+        # A component of the project may use it that is not part of this root.
+        with suppress(ControlError):
+            try:
+                yield _ConstantTopic(root, name, limits)
+            except NetworkError as error:
+                print_error(str(error), kind="warning")
+
+
+class _ConstantTopic:
+    """Sets a constant to the newest message of a topic between two iterations; wrong values are reported once."""
+
+    def __init__(self, root: BaseRoot, name: str, limits: tuple[float, float] | None) -> None:
+        self._constant, self._limits, self._is_reported = Constant(root, name), limits, False
+        type_ = {bool: "Bool", int: "Int64", float: "Float64"}.get(type(self._constant.value), "String")
+        self._topic = f"/{type(root.main).__name__}/set/{name}"
+        self._reader = ros_session.open_session().reader(self._topic, f"std_msgs/msg/{type_}", is_expected=False)
+
+    def read(self, now_ns: int) -> None:
+        try:
+            message = self._reader.take(now_ns)
+            if message is not None:
+                self._constant.set(message.data, self._limits)
+        except Exception as error:
+            # The library raises many types of exceptions for malformed messages.
+            if not self._is_reported:
+                self._is_reported = True
+                print_error(f"{self._topic} is ignored: {describe_exception(error)} (reported once)", kind="warning")
 
 
 class _RootTopics:
@@ -188,7 +223,8 @@ class _RootTopics:
     components with their states, such as "Player.FollowBall Turn.Left".
     """
 
-    def __init__(self) -> None:
+    def __init__(self, tunable: Mapping[str, tuple[float, float] | None]) -> None:
+        self._tunable, self._constants = tunable, list[_ConstantTopic]()
         self._write: Callable[[Any], None] | None = None
         self._text: str | None = None
 
@@ -199,6 +235,8 @@ class _RootTopics:
         """Errors are printed by the root."""
 
     def observe_iteration(self, root: BaseRoot, step: Callable[[], None], /) -> None:
+        for constant in self._constants:
+            constant.read(root.now_ns)
         step()
         for component in root.components:
             if isinstance(component, TopicComponent) and component._stepped_in != root.iteration:
@@ -207,6 +245,7 @@ class _RootTopics:
         if text != self._text:
             self._text = text
             if self._write is None:
+                self._constants = list(_open_constants(root, self._tunable))
                 topic = f"/{type(root.main).__name__}/states"
                 self._write = ros_session.open_session().writer(topic, "std_msgs/msg/String", latched=True)
             message = ros_session.make_message("std_msgs/msg/String")

@@ -44,6 +44,11 @@ def find_bad_profiles(project: Project) -> Iterator[Finding]:
         if profile.clock and not (profile.world or project.world):
             fix = "add 'world: module:Class', or remove 'clock'"
             yield _make_finding("P213", (*path, "clock"), "the world sets the pace, but the profile has none", fix)
+        is_used = any(isinstance(each, TopicReference) for each in profile.components)
+        if profile.tune and not (is_used and any(each.tunable for each in project.constants)):
+            fix = "mark a constant as 'tunable: true', or remove 'tune'" if is_used else "remove 'tune'"
+            message = "no constant is tunable" if is_used else "the profile has no topics, which 'tune' needs"
+            yield _make_finding("P213", (*path, "tune"), message, fix)
         for choice in profile.components:
             place = (*path, "components", choice.component)
             if isinstance(choice, Elsewhere):

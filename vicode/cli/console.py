@@ -7,6 +7,7 @@ from functools import lru_cache, partial
 from pathlib import Path
 
 from vicode.findings import Finding, Severity, escape_text, render_json, render_sarif, render_text
+from vicode.languages import language_title
 
 _MAX_BYTES = 2_000_000
 _XABSL_SUFFIXES = (".xabsl", ".yabsl")
@@ -60,6 +61,11 @@ def print_formatted(findings: Iterable[Finding], args: argparse.Namespace) -> bo
 def describe_os_error(error: OSError) -> str:
     words = error.strerror or str(error)
     return escape_text(words if error.filename is None else f"{error.filename}: {words}")
+
+
+def describe_python_topics(topics: Iterable[str], language: str) -> str:
+    """What a language without topics of ROS 2 generates for these components."""
+    return f"{', '.join(topics)}: a topic of ROS 2 only in Python; write the class in {language_title(language)}"
 
 
 def _read_lines(file: str, *, encoding: str) -> tuple[str, ...]:

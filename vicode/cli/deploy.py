@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from vicode.cli.console import describe_python_topics
 from vicode.cli.root_selection import select_root
 from vicode.output import temporary_folder
 
@@ -35,6 +36,7 @@ def run(args: argparse.Namespace) -> int:
     from vicode.deployment.program import ProgramOptions, build_program, list_files
     from vicode.deployment.target import copy_program
     from vicode.generators import UnsoundDesignError
+    from vicode.services.run_preparation import find_topics
 
     selected = select_root(args.path, args.profile, "deploy", args.language)
     if isinstance(selected, int):
@@ -51,8 +53,16 @@ def run(args: argparse.Namespace) -> int:
             print("".join(f"{path}\n" for path in list_files(folder)), end="")
             return 0
         copy_program(folder, args.to)
+    if topics := find_topics(opened.open_project.project, component):
+        print(_describe_needs(topics, args), file=sys.stderr)
     print(f"deployed {component} to {args.to}: {_next_command(args)}")
     return 0
+
+
+def _describe_needs(topics: tuple[str, ...], args: argparse.Namespace) -> str:
+    if args.language == "cpp":
+        return describe_python_topics(topics, "cpp")
+    return f"topics need two packages on the robot: {args.python} -m pip install cyclonedds rosbags"
 
 
 def _next_command(args: argparse.Namespace) -> str:

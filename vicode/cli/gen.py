@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vicode.cli.console import describe_os_error, print_findings
+from vicode.cli.console import describe_os_error, describe_python_topics, print_findings
 from vicode.findings import Severity
 from vicode.output import format_diff
 from vicode.services.project_loader import LoadedProject, load_projects
@@ -114,6 +114,7 @@ def _generate(opened: LoadedProject, args: argparse.Namespace) -> int:
     if args.single_header:
         return _write_single_header(opened, args)
     has_errors = print_errors(opened)
+    _print_topics(opened, args)
     choices = read_choices(args)
     plan = plan_generation(
         generation_input(opened, read_output_options(args)), applies_edits=args.apply, choices=choices
@@ -128,6 +129,14 @@ def _generate(opened: LoadedProject, args: argparse.Namespace) -> int:
     if args.apply:
         require_known_items(plan, choices)
     return int(not write_plan(opened, plan, is_forced=args.force) or has_errors)
+
+
+def _print_topics(opened: LoadedProject, args: argparse.Namespace) -> None:
+    project = opened.open_project.project
+    topics = tuple(each.component for each in project.components if each.is_topic)
+    for language in ("cpp", "javascript"):
+        if topics and language in (args.language or project.languages):
+            print(describe_python_topics(topics, language), file=sys.stderr)
 
 
 def _write_single_header(opened: LoadedProject, args: argparse.Namespace) -> int:

@@ -54,13 +54,16 @@ def run(args: argparse.Namespace) -> int:
     from vicode.cli.experiment import ending_at_sigterm
     from vicode.runs.changed_values import ChangedValueError
     from vicode.runs.sweep import OtherRunsError
-    from vicode.services.run_preparation import needs_bridge
+    from vicode.services.run_preparation import find_topics, needs_bridge
 
     selected = select_root(args.path, args.profile, "sweep")
     if isinstance(selected, int):
         return selected
     opened, component = selected
     project = opened.open_project.project
+    if topics := find_topics(project, component):
+        print(f"vicode: {topics[0]} is a topic, which needs real time; see --profile", file=sys.stderr)
+        return 2
     if project.clock == options.WORLD or needs_bridge(project, component):
         print("vicode: a sweep needs a simulated world that does not set the pace; see --profile", file=sys.stderr)
         return 2

@@ -87,7 +87,7 @@ class Interface:
 
     `implementation` is "module:Class" or, for generated classes, WORLD, INTERNAL, MISSING, or with `remote` REMOTE or
     TOPIC; empty for a design. Other components can read `outputs` and `variables`, and set `variables`. `assume` is a
-    condition on them that the analysis takes for granted.
+    condition on them that the analysis takes for granted. A profile that allows it gives `tunable` constants to topics.
     """
 
     component: str
@@ -101,10 +101,15 @@ class Interface:
     variables: tuple[Declaration, ...] = ()
     assume: str = ""
     remote: Elsewhere | None = None
+    tunable: tuple[Declaration, ...] = ()
 
     @property
     def is_generated(self) -> bool:
         return self.implementation in (WORLD, INTERNAL, MISSING) or self.remote is not None
+
+    @property
+    def is_topic(self) -> bool:
+        return isinstance(self.remote, TopicReference)
 
     @property
     def readable(self) -> tuple[Declaration, ...]:
@@ -135,11 +140,15 @@ class Agent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Profile:
-    """Other implementations behind the same interfaces, and another world; `clock` is "world" if it sets the pace."""
+    """Other implementations behind the same interfaces, and another world; `clock` is "world" if it sets the pace.
+
+    With `tune`, programs of ROS 2 may set tunable constants.
+    """
 
     name: str
     world: str = ""
     clock: str = ""
+    tune: bool = False
     components: tuple[ProfileClass | Elsewhere, ...] = ()
 
 
@@ -212,24 +221,29 @@ def select_profile(project: Project, name: str) -> Project:
     choices = {choice.component: choice for choice in profile.components}
     remote = {name for name, choice in choices.items() if isinstance(choice, Elsewhere)}
     designs = (derive_interface(design) for design in project.designs if design.component in remote)
+    tunable = tuple(each for each in project.constants if each.tunable) if profile.tune else ()
     return replace(
         project,
         world=profile.world or project.world,
         # The clock belongs to its world.
         clock=profile.clock or ("" if profile.world else project.clock),
-        components=tuple(_choose(each, choices.get(each.component)) for each in (*project.components, *designs)),
+        components=tuple(
+            _choose(each, choices.get(each.component), tunable) for each in (*project.components, *designs)
+        ),
         designs=tuple(design for design in project.designs if design.component not in remote),
     )
 
 
-def _choose(interface: Interface, choice: ProfileClass | Elsewhere | None) -> Interface:
+def _choose(
+    interface: Interface, choice: ProfileClass | Elsewhere | None, tunable: tuple[Declaration, ...]
+) -> Interface:
     match choice:
         case ProfileClass(implementation=implementation):
             return replace(interface, implementation=implementation)
         case RemoteReference():
             return replace(interface, implementation=REMOTE, remote=choice)
         case TopicReference():
-            return replace(interface, implementation=TOPIC, remote=choice)
+            return replace(interface, implementation=TOPIC, remote=choice, tunable=tunable)
         case None:
             return interface
 

@@ -172,7 +172,7 @@ def _with_stubs(project: Project, stub_names: tuple[str, ...]) -> Project:
     replaced = []
     for component in stub_names:
         interface = project.interface(component) or Interface(component=component)
-        replaced.append(replace(interface, implementation=f"{STUB_MODULE}:{component}"))
+        replaced.append(replace(interface, implementation=f"{STUB_MODULE}:{component}", remote=None))
     kept = tuple(each for each in project.components if each.component not in stub_names)
     designs = tuple(each for each in project.designs if each.component not in stub_names)
     return replace(project, components=(*kept, *replaced), designs=designs)

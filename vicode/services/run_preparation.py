@@ -8,6 +8,7 @@ from vicode.git import GitError, find_repository
 from vicode.model.design_hash import hash_design
 from vicode.model.project import WORLD, Project
 from vicode.output import apply_diffs, compare_files
+from vicode.runs.setup import used_components
 from vicode.store import OpenProject
 
 
@@ -39,6 +40,13 @@ def needs_bridge(project: Project, component: str) -> bool:
     designs = (project.design(name) for name in collect_components(project, {component}))
     used = (project.interface(use.component) for design in designs if design for use in design.uses)
     return any(interface and interface.implementation == WORLD for interface in used)
+
+
+def find_topics(project: Project, component: str) -> tuple[str, ...]:
+    """The components that a component uses, directly or not, and that a profile connects to topics of ROS 2."""
+    design = project.design(component)
+    used = used_components(project, design) if design is not None else ()
+    return tuple(each.component for each in project.components if each.component in used and each.is_topic)
 
 
 def generate_for_run(opened: OpenProject, component: str, folder: Path) -> str:

@@ -129,6 +129,7 @@ PROFILE = RecordSchema(
     keys=(
         KeySchema("world", TEXT, "class of the world as module:Class, if it is another one"),
         _CLOCK,
+        KeySchema("tune", FLAG, "whether programs of ROS 2 may set tunable constants (docs/ros2.md)", default=False),
         KeySchema(
             "components",
             MapSchema(description="a mapping of components to classes", value_schema=CHOICE, name_field="component"),

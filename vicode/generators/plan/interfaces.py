@@ -20,4 +20,5 @@ def plan_interface(project: Project, interface: Interface) -> InterfacePlan:
         functions=plan_functions(interface.readable, scope),
         variables=plan_values(interface.variables, scope),
         remote=interface.remote,
+        tunable=plan_values(interface.tunable, scope),
     )

@@ -66,6 +66,7 @@ class InterfacePlan:
     functions: tuple[FunctionPlan, ...]
     variables: tuple[ValuePlan, ...]
     remote: Elsewhere | None = None
+    tunable: tuple[ValuePlan, ...] = ()
 
     @property
     def stored_values(self) -> tuple[ValuePlan, ...]:

@@ -84,6 +84,9 @@ class _InterfaceWriter:
         if not values and remote is None:
             return
         arguments: list[Doc] = ["root", *_remote_arguments(remote)]
+        if self.plan.tunable:
+            limits = (f"{quoted(value.name)}: {value.range!r}" for value in self.plan.tunable)
+            arguments.append(f"tunable={{{', '.join(limits)}}}")
         lines = render_doc(call_doc("super().__init__", arguments), BODY_INDENT)
         for value in values:
             lines += format_statement(
