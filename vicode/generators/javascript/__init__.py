@@ -1,6 +1,6 @@
 """JavaScript generator: an ES module per component, on the runtime bica.mjs."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from vicode.generators.javascript.component import (
     JavaScriptWriter,
@@ -10,6 +10,7 @@ from vicode.generators.javascript.component import (
     write_interfaces,
 )
 from vicode.generators.javascript.names import escape
+from vicode.generators.javascript.script import wrap_module, write_script
 from vicode.generators.origins import ComponentCode, Origin
 from vicode.generators.plan import (
     INTERFACES_MODULE,
@@ -32,6 +33,8 @@ __all__ = [
     "find_origins",
     "generate_javascript",
     "list_paths",
+    "wrap_module",
+    "write_component_script",
 ]
 
 LANGUAGE = "javascript"
@@ -89,6 +92,11 @@ def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
             last = next(index for index in range(number, len(lines)) if lines[index] == "      },") + 1
             origins.append(Origin(first=number, last=last, path=("states", marks[line])))
     return tuple(origins)
+
+
+def write_component_script(plan: ProjectPlan, modules: Iterable[str]) -> str:
+    """Write the first component of a plan and all that it uses as statements; see `write_script`."""
+    return write_script(plan, plan.components[0], list_interfaces(plan), modules)
 
 
 def list_interfaces(plan: ProjectPlan) -> list[InterfacePlan]:
