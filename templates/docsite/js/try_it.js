@@ -1,0 +1,270 @@
+// Runs a design with its generated code: inputs, steps, and what is active. Nothing here knows the rules of designs.
+const MAX_STEPS_PER_FRAME = 200;
+const RATES = [0.25, 1, 4, 16];
+
+function el(tag, props = {}, ...children) {
+  const node = Object.assign(document.createElement(tag), props);
+  node.append(...children);
+  return node;
+}
+
+function shown(value) {
+  if (typeof value === "string") return value.slice(value.indexOf(".") + 1);
+  return typeof value === "number" ? String(Number(value.toPrecision(5))) : String(value);
+}
+
+function seconds(ns) {
+  return `${(ns / 1e9).toFixed(3)} s`;
+}
+
+/** A whole power of ten that divides a range into 100 to 1000 parts. */
+function stepOf([low, high]) {
+  return 10 ** Math.floor(Math.log10((high - low) / 100));
+}
+
+class TryIt {
+  constructor(design) {
+    this.design = design;
+    this.section = document.getElementById("try");
+    this.lastRates = null;
+    this.values = new Map();
+    this.build();
+    this.reset();
+  }
+
+  build() {
+    const { section } = this;
+    this.runButton = el("button", { type: "button", onclick: () => this.toggleRun() }, "Run");
+    this.rate = el("select", { id: "try-rate" }, ...RATES.map((rate) => new Option(`${rate} ×`, rate, rate === 1, rate === 1)));
+    this.time = el("output", { className: "try-time" });
+    this.last = el("p", { className: "try-last" });
+    this.last.setAttribute("role", "status");
+    this.guards = el("ol", { className: "try-guards" });
+    this.guardTitle = el("h3");
+    this.parts = el("tbody");
+    section.append(
+      el(
+        "div", { className: "try-bar" },
+        el("button", { type: "button", title: `One iteration: ${seconds(this.design.stepNs)}`, onclick: () => this.step() }, "Step"),
+        this.runButton,
+        el("label", { htmlFor: "try-rate" }, "Rate"), this.rate,
+        el("button", { type: "button", onclick: () => this.reset() }, "Reset"),
+        this.time,
+      ),
+      this.last,
+      el(
+        "div", { className: "try-columns" },
+        el("div", {}, el("h3", {}, "Inputs"), ...this.makeInputs()),
+        el("div", {}, this.guardTitle, this.guards),
+      ),
+      el("h3", {}, "Components"),
+      el(
+        "div", { className: "table" },
+        el("table", {}, el("thead", {}, el("tr", {}, ...["Component", "Active state", "Values"].map((text) => el("th", { scope: "col" }, text)))), this.parts),
+      ),
+    );
+  }
+
+  makeInputs() {
+    const root = new bica.Root();
+    const groups = new Map();
+    this.design.inputs.forEach((input, index) => {
+      const start = root.component(this.design.classes[input.component])[input.name];
+      this.values.set(input, input.isFunction ? start({}) : start);
+      const group = groups.get(input.component) ?? groups.set(input.component, []).get(input.component);
+      group.push(...this.makeInput(input, `try-input-${index}`));
+    });
+    if (!groups.size) return [el("p", { className: "secondary" }, "This design reads no inputs.")];
+    const label = (component) => this.design.parts.find((part) => part.component === component).label;
+    return [...groups].map(([component, rows]) => {
+      const name = component === this.design.main ? "Parameters" : label(component);
+      return el("fieldset", {}, el("legend", {}, name), el("div", { className: "try-inputs" }, ...rows));
+    });
+  }
+
+  /** A label, the field and the unit; a slider also shows its value. */
+  makeInput(input, id) {
+    const value = this.values.get(input);
+    const text = `${input.unit ? ` ${input.unit}` : ""}`;
+    const isNumber = input.type === "int" || input.type === "float";
+    const note = el("output", { className: "try-value", htmlFor: id });
+    const tell = () => { note.textContent = isNumber && !input.range ? text : isNumber ? shown(this.values.get(input)) + text : ""; };
+    const set = (given) => {
+      this.values.set(input, given);
+      tell();
+      this.applyInputs();
+      this.showGuards();
+    };
+    const field = this.makeField(input, value, set);
+    Object.assign(field, { id });
+    tell();
+    const name = input.isFunction ? `${input.label}(…)` : input.label;
+    return [el("label", { htmlFor: id, title: name }, name), field, note];
+  }
+
+  makeField({ type, options, range }, value, set) {
+    if (options.length) {
+      const field = el("select", { onchange: () => set(field.value) }, ...options.map((each) => new Option(shown(each), each)));
+      field.value = value;
+      return field;
+    }
+    if (type === "bool") {
+      const field = el("input", { type: "checkbox", checked: value, oninput: () => set(field.checked) });
+      return field;
+    }
+    const number = () => (type === "int" ? bica.toInt(field.valueAsNumber) : field.valueAsNumber);
+    const field = el("input", { type: range ? "range" : "number" });
+    const [min, max] = range ?? ["", ""];
+    Object.assign(field, { min, max, step: type === "int" ? 1 : range ? stepOf(range) : "any", value });
+    field.addEventListener("input", () => { if (!Number.isNaN(field.valueAsNumber)) set(number()); });
+    return field;
+  }
+
+  component(name) {
+    return this.root.component(this.design.classes[name]);
+  }
+
+  applyInputs() {
+    for (const [input, value] of this.values) {
+      this.component(input.component)[input.name] = input.isFunction ? () => value : value;
+    }
+  }
+
+  reset() {
+    this.pause();
+    this.root = new bica.Root();
+    this.main = this.component(this.design.main);
+    this.design.parts.forEach((part) => this.component(part.component));
+    this.clockNs = 0;
+    this.records = [];
+    this.lastTransition = null;
+    this.applyInputs();
+    this.show();
+  }
+
+  step() {
+    this.iterate();
+    this.show();
+  }
+
+  iterate() {
+    this.applyInputs();
+    this.root.trace = this.records = [];
+    this.root.step(this.main, this.clockNs);
+    const [own] = this.records;
+    if (own.changed_from !== null) this.lastTransition = { from: own.changed_from, to: own.state, id: own.transition, ns: this.clockNs };
+    this.clockNs += this.design.stepNs;
+  }
+
+  toggleRun() {
+    if (this.frame) {
+      this.pause();
+      return;
+    }
+    this.runButton.textContent = "Pause";
+    let before = performance.now();
+    let rest = 0;
+    const advance = (now) => {
+      rest += (now - before) * 1e6 * Number(this.rate.value);
+      before = now;
+      let steps = Math.min(Math.floor(rest / this.design.stepNs), MAX_STEPS_PER_FRAME);
+      rest %= this.design.stepNs;
+      const isNew = steps > 0;
+      for (; steps > 0; steps -= 1) this.iterate();
+      if (isNew) this.show();
+      this.frame = requestAnimationFrame(advance);
+    };
+    this.frame = requestAnimationFrame(advance);
+  }
+
+  pause() {
+    cancelAnimationFrame(this.frame);
+    this.frame = null;
+    this.runButton.textContent = "Run";
+  }
+
+  show() {
+    this.time.textContent = this.root.iteration ? seconds(this.root.nowNs) : "not started";
+    const text = this.describeLast();
+    if (this.last.textContent !== text) this.last.textContent = text;
+    this.showDiagram();
+    this.showGuards();
+    this.showParts();
+  }
+
+  describeLast() {
+    const name = (state) => this.design.states[state][1];
+    const now = `Active state: ${name(this.main.$state)}.`;
+    if (!this.lastTransition) return now;
+    const { from, to, ns } = this.lastTransition;
+    return `${now} Last transition: ${name(from)} → ${name(to)} at ${seconds(ns)}.`;
+  }
+
+  showDiagram() {
+    const [anchor] = this.design.states[this.main.$state];
+    const last = this.lastTransition && `#${this.lastTransition.id}`;
+    for (const link of document.querySelectorAll("#drawing ~ .diagram a, main .state .tree a, main .pseudocode li")) {
+      link.classList.remove("is-active", "is-last");
+    }
+    for (const link of document.querySelector(".diagram").querySelectorAll("a")) {
+      const href = link.getAttribute("href");
+      link.classList.toggle("is-active", link.classList.contains("state") && href === anchor);
+      link.classList.toggle("is-last", link.classList.contains("transition") && href === last);
+    }
+  }
+
+  showGuards() {
+    const state = this.main.$state;
+    this.guardTitle.textContent = `Guards of ${this.design.states[state][1]}`;
+    const guards = [...this.design.guards["@common"], ...this.design.guards[state]];
+    this.guards.replaceChildren(...guards.map((guard) => this.makeGuard(guard)));
+    if (!guards.length) this.guards.append(el("li", { className: "secondary" }, "The state has no transitions."));
+  }
+
+  makeGuard({ id, test, reads }) {
+    const holds = test.call(this.main);
+    const text = document.getElementById(id)?.querySelector("code")?.cloneNode(true) ?? el("code", {}, id);
+    const mark = el("span", { className: "try-mark" }, holds ? "true" : "false");
+    const values = Object.entries(reads).map(([name, read]) => `${name} = ${shown(read.call(this.main))}`);
+    return el("li", { className: holds ? "holds" : "" }, mark, el("div", {}, text, el("span", { className: "try-reads" }, values.join(" · "))));
+  }
+
+  showParts() {
+    const rows = this.design.parts.map(({ component, label, href }) => {
+      const record = this.records.findLast((each) => each.component === this.component(component).$name);
+      const isDesign = this.component(component).$states !== null;
+      const values = Object.entries((isDesign ? record?.values : record?.parameters) ?? {});
+      const state = record ? (isDesign ? record.state : "stepped") : "–";
+      return el(
+        "tr", { className: record ? "" : "muted" },
+        el("th", { scope: "row" }, el("a", { href }, label)),
+        el("td", { className: isDesign && record ? "try-state" : "" }, state),
+        el("td", {}, el("code", {}, values.map(([name, value]) => `${name} = ${shown(value)}`).join(" · "))),
+      );
+    });
+    this.parts.replaceChildren(...rows);
+  }
+}
+
+window.vicodeTry = (load) => {
+  const button = document.getElementById("try-button");
+  const isOnly = location.hash === "#try-only";
+  const open = () => {
+    document.documentElement.classList.add("is-tried");
+    document.getElementById("try").hidden = false;
+    button.hidden = true;
+    const tried = new TryIt(load(bica));
+    if (!isOnly) {
+      document.getElementById("drawing").scrollIntoView();
+      tried.section.querySelector("button").focus({ preventScroll: true });
+    }
+  };
+  button.hidden = false;
+  button.addEventListener("click", open);
+  if (!isOnly) return;
+  document.documentElement.classList.add("is-only-tried");
+  for (const link of document.querySelectorAll("a")) link.setAttribute("target", "_blank");
+  open();
+  const tell = () => parent.postMessage({ vicodeTryHeight: document.documentElement.scrollHeight }, "*");
+  new ResizeObserver(tell).observe(document.body);
+};
