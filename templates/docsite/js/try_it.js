@@ -17,6 +17,10 @@ function seconds(ns) {
   return `${(ns / 1e9).toFixed(3)} s`;
 }
 
+function makeValues(pairs) {
+  return el("span", { className: "try-reads" }, pairs.map(([name, value]) => `${name} = ${shown(value)}`).join(" · "));
+}
+
 /** A whole power of ten that divides a range into 100 to 1000 parts. */
 function stepOf([low, high]) {
   return 10 ** Math.floor(Math.log10((high - low) / 100));
@@ -42,6 +46,7 @@ class TryIt {
     this.guards = el("ol", { className: "try-guards" });
     this.guardTitle = el("h3");
     this.parts = el("tbody");
+    const head = el("thead", {}, el("tr", {}, ...["Component", "Active state"].map((text) => el("th", { scope: "col" }, text))));
     section.append(
       el(
         "div", { className: "try-bar" },
@@ -55,12 +60,7 @@ class TryIt {
       el(
         "div", { className: "try-columns" },
         el("div", {}, el("h3", {}, "Inputs"), ...this.makeInputs()),
-        el("div", {}, this.guardTitle, this.guards),
-      ),
-      el("h3", {}, "Components"),
-      el(
-        "div", { className: "table" },
-        el("table", {}, el("thead", {}, el("tr", {}, ...["Component", "Active state", "Values"].map((text) => el("th", { scope: "col" }, text)))), this.parts),
+        el("div", {}, this.guardTitle, this.guards, el("h3", {}, "Components"), el("table", {}, head, this.parts)),
       ),
     );
   }
@@ -184,7 +184,7 @@ class TryIt {
   }
 
   show() {
-    this.time.textContent = this.root.iteration ? seconds(this.root.nowNs) : "not started";
+    this.time.textContent = this.root.iteration ? seconds(this.root.nowNs) : "Not started";
     const text = this.describeLast();
     if (this.last.textContent !== text) this.last.textContent = text;
     this.showDiagram();
@@ -203,9 +203,6 @@ class TryIt {
   showDiagram() {
     const [anchor] = this.design.states[this.main.$state];
     const last = this.lastTransition && `#${this.lastTransition.id}`;
-    for (const link of document.querySelectorAll("#drawing ~ .diagram a, main .state .tree a, main .pseudocode li")) {
-      link.classList.remove("is-active", "is-last");
-    }
     for (const link of document.querySelector(".diagram").querySelectorAll("a")) {
       const href = link.getAttribute("href");
       link.classList.toggle("is-active", link.classList.contains("state") && href === anchor);
@@ -225,8 +222,8 @@ class TryIt {
     const holds = test.call(this.main);
     const text = document.getElementById(id)?.querySelector("code")?.cloneNode(true) ?? el("code", {}, id);
     const mark = el("span", { className: "try-mark" }, holds ? "true" : "false");
-    const values = Object.entries(reads).map(([name, read]) => `${name} = ${shown(read.call(this.main))}`);
-    return el("li", { className: holds ? "holds" : "" }, mark, el("div", {}, text, el("span", { className: "try-reads" }, values.join(" · "))));
+    const values = Object.entries(reads).map(([name, read]) => [name, read.call(this.main)]);
+    return el("li", { className: holds ? "holds" : "" }, mark, el("div", {}, text, makeValues(values)));
   }
 
   showParts() {
@@ -238,8 +235,7 @@ class TryIt {
       return el(
         "tr", { className: record ? "" : "muted" },
         el("th", { scope: "row" }, el("a", { href }, label)),
-        el("td", { className: isDesign && record ? "try-state" : "" }, state),
-        el("td", {}, el("code", {}, values.map(([name, value]) => `${name} = ${shown(value)}`).join(" · "))),
+        el("td", {}, el("span", { className: isDesign && record ? "try-state" : "" }, state), makeValues(values)),
       );
     });
     this.parts.replaceChildren(...rows);
