@@ -1,17 +1,14 @@
 """Designs that run on their pages, opened from files: the same as in the reference interpreter."""
 
-import json
 import math
 import random
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page
 
-from tests.editor.hostile_project import PAYLOADS
 from vicode.cli import main
 from vicode.conformance.inputs import PARAMETERS, ConformanceRun, RunStep, list_inputs
 from vicode.conformance.reference import run_reference
@@ -31,7 +28,10 @@ RUN = """([steps, changes]) => {
     field.closest("fieldset").querySelector("legend").textContent,
     document.querySelector(`label[for="${field.id}"]`).textContent,
   ];
-  const read = (field) => field.type === "checkbox" ? field.checked : field.tagName === "SELECT" ? field.value : field.valueAsNumber;
+  const read = (field) => {
+    if (field.type === "checkbox") return field.checked;
+    return field.tagName === "SELECT" ? field.value : field.valueAsNumber;
+  };
   const change = (field, chance) => {
     if (field.type === "checkbox") field.checked = chance < 0.5;
     else if (field.tagName === "SELECT") field.selectedIndex = Math.floor(chance * field.options.length);

@@ -32,13 +32,8 @@ def restrict_to_used(project: Project, component: str) -> Project:
     designs = tuple(each for each in project.designs if each.component in kept)
     used = {use.component for each in designs for use in each.uses} - kept
     components = tuple(each for each in project.components if each.component in used)
-    return Project(
-        name=project.name,
-        enumerations=project.enumerations,
-        constants=project.constants,
-        components=components,
-        designs=designs,
-    )
+    types, constants = project.enumerations, project.constants
+    return Project(name=project.name, enumerations=types, constants=constants, components=components, designs=designs)
 
 
 def strip_to_usage(project: Project) -> Project:

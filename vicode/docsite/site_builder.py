@@ -205,8 +205,8 @@ class _SitePlanner:
             if only not in ("", self.urls.component(name), self.urls.try_script(name)):
                 continue
             tried, file = self.try_scripts.find(name), self.urls.try_script(name)
-            if tried.script:
-                yield _plain_file(file, tried.script)
+            if isinstance(tried, str):
+                yield _plain_file(file, tried)
             texts = self.code_files.files_of(name)
             written = {text.variant: text.path for text in texts}
             made = ComponentInputs(
@@ -218,8 +218,8 @@ class _SitePlanner:
                 code_links=code_links_by_path(texts, self.urls, self.site_input.repository_link),
                 code_pages=code_page_links(texts, self.urls),
                 languages=tuple(language_views(self.site_input, name, written, self.generation_errors, self.urls)),
-                try_script=file if tried.script else "",
-                not_tried=tried.reason,
+                try_script=file if isinstance(tried, str) else "",
+                not_tried=() if isinstance(tried, str) else tried,
             )
             lists = (made.tables, made.used_by, made.agents)
             key = (

@@ -8,12 +8,13 @@ from typing import Any
 
 from vicode.bica.tick import choose_tick_ns
 from vicode.docsite.build_cache import BuildCache, StoredForm
-from vicode.docsite.code_pages import CodeFile, CodeFiles
+from vicode.docsite.code_pages import CodeFiles
 from vicode.docsite.languages import GenerationErrors
 from vicode.docsite.page_inputs import restrict_to_used
 from vicode.docsite.urls import SiteUrls, path_anchor, state_anchor
 from vicode.docsite.views import RichText, TextSpan
-from vicode.generators import collect_components, javascript_name, javascript_runtime, javascript_script
+from vicode.generators import collect_components
+from vicode.generators.javascript import LANGUAGE, component_script, escape, script_runtime
 from vicode.model.decision_keys import with_decision_ids
 from vicode.model.design import Declaration, Design
 from vicode.model.expressions import OutputRef, build_scope, parse_expression, walk
@@ -27,14 +28,6 @@ _MAX_CHARACTERS = 40_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TryIt:
-    """The script of a design, or why there is none."""
-
-    script: str = ""
-    reason: RichText = ()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class TryScripts:
     """Writes the scripts of the designs of a project, whose expressions are those of the designs."""
 
@@ -44,67 +37,55 @@ class TryScripts:
     urls: SiteUrls
     cache: BuildCache
 
-    def find(self, component: str) -> TryIt:
-        """The script of a design, if it and all designs that it uses are generated as JavaScript."""
-        names = sorted(collect_components(self.project, (component,)), key=lambda name: (name != component, name))
-        files = {name: self._module(name) for name in names}
-        for name, file in files.items():
-            if file is None:
-                return TryIt(reason=self._explain(name))
-        modules = tuple(file.text for name, file in files.items() if file and name != component)
+    def find(self, component: str) -> str | RichText:
+        """The script of a design, or the reason if it or a design that it uses is not generated as JavaScript."""
+        modules = []
+        for name in sorted(collect_components(self.project, (component,)), key=lambda name: name != component):
+            texts = [each.text for each in self.code_files.files_of(name) if each.variant == LANGUAGE]
+            if not texts:
+                return self._explain(name)
+            modules += texts
         if sum(map(len, modules)) <= _MAX_CHARACTERS:
-            key = (restrict_to_used(self.project, component), component, modules, self.urls.key)
-            make = partial(_write_script, *key[:3], self.urls)
-            script = self.cache.get_or_create("try", key, make, StoredForm(str, str))
+            # The component itself, which is first, is generated again with the ids of its decisions.
+            key = (restrict_to_used(self.project, component), component, tuple(modules[1:]))
+            make = partial(_write_script, *key, self.urls)
+            script = self.cache.get_or_create("try", (*key, self.urls.key), make, StoredForm(str, str))
             if len(script) <= _MAX_CHARACTERS:
-                return TryIt(script=script)
-        return TryIt(reason=(TextSpan(text=f"its code in JavaScript is larger than {_MAX_CHARACTERS // 1000} kB"),))
-
-    def _module(self, name: str) -> CodeFile | None:
-        return next((each for each in self.code_files.files_of(name) if each.variant == "javascript"), None)
+                return script
+        return (TextSpan(text=f"its code in JavaScript is larger than {_MAX_CHARACTERS // 1000} kB"),)
 
     def _explain(self, name: str) -> RichText:
-        errors = self.generation_errors["javascript"].get(name, ())
+        errors = self.generation_errors[LANGUAGE].get(name, ())
         link = TextSpan(text=self.urls.names.component(name), href=f"{self.urls.component(name)}#languages")
         return (link, TextSpan(text=f": {errors[0].message}" if errors else " has errors"))
 
 
 def try_script() -> str:
     """The script that all pages share: the runtime of generated code, and the controls."""
-    parts = (f"const bica = {javascript_runtime()};", read_asset("docsite/js/try_it.js"))
-    return (
-        "/* vicode docs: runs a design on its page. */\n(() => {\n" + '"use strict";\n' + "\n".join(parts) + "})();\n"
-    )
+    runtime = f"const bica = {script_runtime()};\n"
+    return _script("runs a design on its page", runtime + read_asset("docsite/js/try_it.js"))
+
+
+def _script(title: str, statements: str) -> str:
+    return f'/* vicode docs: {title} */\n(() => {{\n"use strict";\n{statements}}})();\n'
 
 
 def _write_script(project: Project, component: str, modules: tuple[str, ...], urls: SiteUrls) -> str:
     designs = tuple(with_decision_ids(each, path_anchor) for each in project.designs)
     design = next(each for each in designs if each.component == component)
-    others: list[Design | Interface] = [each for each in designs if each is not design]
-    parts: list[Design | Interface] = [design, *others, *project.components]
-    page = {"page": urls.component(component), "title": urls.names.component(component)}
+    parts: list[Design | Interface] = [design, *(each for each in designs if each is not design), *project.components]
+    names = [(escape(name), urls.names.component(name), urls.component(name)) for name in (p.component for p in parts)]
     facts = {
-        "main": javascript_name(component),
         "stepNs": choose_tick_ns(each.frequency_hz for each in parts if each.frequency_hz),
         "states": {each.name: [f"#{state_anchor(each.name)}", urls.names.state(each)] for each in design.states},
         "inputs": list(_inputs(project, design, urls)),
-        "parts": [
-            {
-                "component": javascript_name(each.component),
-                "label": urls.names.component(each.component),
-                "href": urls.component(each.component),
-            }
-            for each in parts
-        ],
+        "parts": names,
     }
-    classes = ", ".join(javascript_name(each.component) for each in parts)
-    return (
-        "/* vicode docs: a design that runs in the browser. */\n(() => {\n"
-        f'"use strict";\nconst design = {json.dumps(page)};\n{read_asset("docsite/js/try_frame.js")}'
-        "vicodeTry((bica) => {\n"
-        f"{javascript_script(replace(project, designs=designs), component, modules)}"
-        f"return {{ classes: {{ {classes} }}, guards, ...{json.dumps(facts)} }};\n}});\n}})();\n"
-    )
+    frame = f"const [, title, page] = {json.dumps(names[0])};\n{read_asset('docsite/js/try_frame.js')}"
+    code = component_script(replace(project, designs=designs), component, modules)
+    classes = ", ".join(name for name, _label, _href in names)
+    made = f"return {{ classes: {{ {classes} }}, guards, ...{json.dumps(facts)} }};\n"
+    return _script("a design that runs in the browser", f"{frame}vicodeTry((bica) => {{\n{code}{made}}});\n")
 
 
 def _inputs(project: Project, design: Design, urls: SiteUrls) -> Iterator[Mapping[str, Any]]:
@@ -116,8 +97,8 @@ def _inputs(project: Project, design: Design, urls: SiteUrls) -> Iterator[Mappin
         elements = enumeration.element_names if enumeration else ()
         low, high = each.range or (0, 0)
         return {
-            "component": javascript_name(owner.component),
-            "name": javascript_name(each.name),
+            "component": escape(owner.component),
+            "name": escape(each.name),
             "label": urls.names.declaration(owner, section, each),
             "type": scope.type_of(each),
             "options": [f"{enumeration.name}.{name}" for name in elements] if enumeration else [],

@@ -29,7 +29,6 @@ from vicode.generators.python import list_regions as list_python_regions
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.output import OutputFile
-from vicode.templating import read_asset
 
 __all__ = [
     "GENERATORS",
@@ -39,9 +38,6 @@ __all__ = [
     "collect_components",
     "component_generator",
     "generate",
-    "javascript_name",
-    "javascript_runtime",
-    "javascript_script",
     "list_component_paths",
     "list_origins",
     "list_outputs",
@@ -262,35 +258,6 @@ def python_probes(project: Project, component: str) -> OutputFile:
     """
     plan = plan_project(project, {component}, {}, RESERVED_MODULES)
     return generate_probes(plan, plan.components[0])
-
-
-def javascript_script(project: Project, component: str, modules: Iterable[str]) -> str:
-    """Generate a design and all that it uses as statements of a classic script, which need the runtime as `bica`.
-
-    They declare classes with the names of `javascript_name`, and `guards`, which lists the decisions by state.
-    `modules` are the generated modules of the designs that it uses.
-
-    Raises:
-        UnsoundDesignError: The design has errors, or JavaScript cannot express it.
-    """
-    from vicode.generators import javascript  # noqa: PLC0415 - most projects do not generate JavaScript
-
-    plan = plan_project(project, {component}, {}, javascript.RESERVED_MODULES)
-    return javascript.write_component_script(plan, modules)
-
-
-def javascript_name(name: str) -> str:
-    """Return the name of a component or declaration in JavaScript."""
-    from vicode.generators import javascript  # noqa: PLC0415 - most projects do not generate JavaScript
-
-    return javascript.escape(name)
-
-
-def javascript_runtime() -> str:
-    """Return the runtime of `javascript_script` as an expression."""
-    from vicode.generators import javascript  # noqa: PLC0415 - most projects do not generate JavaScript
-
-    return javascript.wrap_module(read_asset("javascript/bica.mjs"))
 
 
 def _select_generators(project: Project, languages: Collection[str] | None) -> list[Generator]:

@@ -2,8 +2,8 @@
 const script = document.currentScript;
 if ("vicodeTry" in script.dataset) {
   const frame = document.createElement("iframe");
-  frame.src = new URL(`${design.page}#try-only`, script.src).href;
-  frame.title = `${design.title}: try it`;
+  frame.src = new URL(`${page}#try-only`, script.src).href;
+  frame.title = `${title}: try it`;
   Object.assign(frame.style, { display: "block", width: "100%", height: "720px", border: "0" });
   addEventListener("message", (event) => {
     const height = Number(event.data?.vicodeTryHeight);

@@ -13,31 +13,24 @@ function shown(value) {
   return typeof value === "number" ? String(Number(value.toPrecision(5))) : String(value);
 }
 
-function seconds(ns) {
-  return `${(ns / 1e9).toFixed(3)} s`;
-}
+const seconds = (ns) => `${(ns / 1e9).toFixed(3)} s`;
 
 function makeValues(pairs) {
   return el("span", { className: "try-reads" }, pairs.map(([name, value]) => `${name} = ${shown(value)}`).join(" · "));
 }
 
 /** A whole power of ten that divides a range into 100 to 1000 parts. */
-function stepOf([low, high]) {
-  return 10 ** Math.floor(Math.log10((high - low) / 100));
-}
+const stepOf = ([low, high]) => 10 ** Math.floor(Math.log10((high - low) / 100));
 
 class TryIt {
   constructor(design) {
     this.design = design;
-    this.section = document.getElementById("try");
-    this.lastRates = null;
     this.values = new Map();
     this.build();
     this.reset();
   }
 
   build() {
-    const { section } = this;
     this.runButton = el("button", { type: "button", onclick: () => this.toggleRun() }, "Run");
     this.rate = el("select", { id: "try-rate" }, ...RATES.map((rate) => new Option(`${rate} ×`, rate, rate === 1, rate === 1)));
     this.time = el("output", { className: "try-time" });
@@ -47,10 +40,10 @@ class TryIt {
     this.guardTitle = el("h3");
     this.parts = el("tbody");
     const head = el("thead", {}, el("tr", {}, ...["Component", "Active state"].map((text) => el("th", { scope: "col" }, text))));
-    section.append(
+    document.getElementById("try").append(
       el(
         "div", { className: "try-bar" },
-        el("button", { type: "button", title: `One iteration: ${seconds(this.design.stepNs)}`, onclick: () => this.step() }, "Step"),
+        el("button", { type: "button", title: `One iteration: ${seconds(this.design.stepNs)}`, onclick: () => this.run(1) }, "Step"),
         this.runButton,
         el("label", { htmlFor: "try-rate" }, "Rate"), this.rate,
         el("button", { type: "button", onclick: () => this.reset() }, "Reset"),
@@ -75,28 +68,26 @@ class TryIt {
       group.push(...this.makeInput(input, `try-input-${index}`));
     });
     if (!groups.size) return [el("p", { className: "secondary" }, "This design reads no inputs.")];
-    const label = (component) => this.design.parts.find((part) => part.component === component).label;
-    return [...groups].map(([component, rows]) => {
-      const name = component === this.design.main ? "Parameters" : label(component);
-      return el("fieldset", {}, el("legend", {}, name), el("div", { className: "try-inputs" }, ...rows));
-    });
+    const main = this.design.parts[0][0];
+    return this.design.parts.filter(([component]) => groups.has(component)).map(([component, label]) => (
+      el("fieldset", {}, el("legend", {}, component === main ? "Parameters" : label), el("div", { className: "try-inputs" }, ...groups.get(component)))
+    ));
   }
 
-  /** A label, the field and the unit; a slider also shows its value. */
+  /** A label, the field, and its unit; a slider also shows its value. */
   makeInput(input, id) {
-    const value = this.values.get(input);
-    const text = `${input.unit ? ` ${input.unit}` : ""}`;
-    const isNumber = input.type === "int" || input.type === "float";
     const note = el("output", { className: "try-value", htmlFor: id });
-    const tell = () => { note.textContent = isNumber && !input.range ? text : isNumber ? shown(this.values.get(input)) + text : ""; };
-    const set = (given) => {
-      this.values.set(input, given);
+    const tell = () => {
+      const value = input.range ? shown(this.values.get(input)) : "";
+      note.textContent = `${value} ${input.unit}`.trim();
+    };
+    const field = this.makeField(input, this.values.get(input), (value) => {
+      this.values.set(input, value);
       tell();
       this.applyInputs();
       this.showGuards();
-    };
-    const field = this.makeField(input, value, set);
-    Object.assign(field, { id });
+    });
+    field.id = id;
     tell();
     const name = input.isFunction ? `${input.label}(…)` : input.label;
     return [el("label", { htmlFor: id, title: name }, name), field, note];
@@ -104,19 +95,17 @@ class TryIt {
 
   makeField({ type, options, range }, value, set) {
     if (options.length) {
-      const field = el("select", { onchange: () => set(field.value) }, ...options.map((each) => new Option(shown(each), each)));
-      field.value = value;
-      return field;
+      const choices = options.map((each) => new Option(shown(each), each, each === value, each === value));
+      return el("select", { onchange: (event) => set(event.target.value) }, ...choices);
     }
-    if (type === "bool") {
-      const field = el("input", { type: "checkbox", checked: value, oninput: () => set(field.checked) });
-      return field;
-    }
-    const number = () => (type === "int" ? bica.toInt(field.valueAsNumber) : field.valueAsNumber);
-    const field = el("input", { type: range ? "range" : "number" });
+    if (type === "bool") return el("input", { type: "checkbox", checked: value, onchange: (event) => set(event.target.checked) });
     const [min, max] = range ?? ["", ""];
-    Object.assign(field, { min, max, step: type === "int" ? 1 : range ? stepOf(range) : "any", value });
-    field.addEventListener("input", () => { if (!Number.isNaN(field.valueAsNumber)) set(number()); });
+    const step = type === "int" ? 1 : range ? stepOf(range) : "any";
+    const field = el("input", { type: range ? "range" : "number", min, max, step, value });
+    field.addEventListener("input", () => {
+      const number = field.valueAsNumber;
+      if (!Number.isNaN(number)) set(type === "int" ? bica.toInt(number) : number);
+    });
     return field;
   }
 
@@ -133,17 +122,11 @@ class TryIt {
   reset() {
     this.pause();
     this.root = new bica.Root();
-    this.main = this.component(this.design.main);
-    this.design.parts.forEach((part) => this.component(part.component));
+    [this.main] = this.design.parts.map(([component]) => this.component(component));
     this.clockNs = 0;
     this.records = [];
     this.lastTransition = null;
     this.applyInputs();
-    this.show();
-  }
-
-  step() {
-    this.iterate();
     this.show();
   }
 
@@ -156,22 +139,21 @@ class TryIt {
     this.clockNs += this.design.stepNs;
   }
 
+  run(steps) {
+    for (let count = 0; count < Math.min(steps, MAX_STEPS_PER_FRAME); count += 1) this.iterate();
+    if (steps > 0) this.show();
+  }
+
   toggleRun() {
-    if (this.frame) {
-      this.pause();
-      return;
-    }
+    if (this.frame) return this.pause();
     this.runButton.textContent = "Pause";
     let before = performance.now();
     let rest = 0;
     const advance = (now) => {
       rest += (now - before) * 1e6 * Number(this.rate.value);
       before = now;
-      let steps = Math.min(Math.floor(rest / this.design.stepNs), MAX_STEPS_PER_FRAME);
+      this.run(Math.floor(rest / this.design.stepNs));
       rest %= this.design.stepNs;
-      const isNew = steps > 0;
-      for (; steps > 0; steps -= 1) this.iterate();
-      if (isNew) this.show();
       this.frame = requestAnimationFrame(advance);
     };
     this.frame = requestAnimationFrame(advance);
@@ -185,19 +167,15 @@ class TryIt {
 
   show() {
     this.time.textContent = this.root.iteration ? seconds(this.root.nowNs) : "Not started";
-    const text = this.describeLast();
+    const name = (state) => this.design.states[state][1];
+    const { from, to, ns } = this.lastTransition ?? {};
+    const last = from ? ` Last transition: ${name(from)} → ${name(to)} at ${seconds(ns)}.` : "";
+    const text = `Active state: ${name(this.main.$state)}.${last}`;
+    // Screen readers read each change.
     if (this.last.textContent !== text) this.last.textContent = text;
     this.showDiagram();
     this.showGuards();
     this.showParts();
-  }
-
-  describeLast() {
-    const name = (state) => this.design.states[state][1];
-    const now = `Active state: ${name(this.main.$state)}.`;
-    if (!this.lastTransition) return now;
-    const { from, to, ns } = this.lastTransition;
-    return `${now} Last transition: ${name(from)} → ${name(to)} at ${seconds(ns)}.`;
   }
 
   showDiagram() {
@@ -227,7 +205,7 @@ class TryIt {
   }
 
   showParts() {
-    const rows = this.design.parts.map(({ component, label, href }) => {
+    const rows = this.design.parts.map(([component, label, href]) => {
       const record = this.records.findLast((each) => each.component === this.component(component).$name);
       const isDesign = this.component(component).$states !== null;
       const values = Object.entries((isDesign ? record?.values : record?.parameters) ?? {});
@@ -249,18 +227,16 @@ window.vicodeTry = (load) => {
     document.documentElement.classList.add("is-tried");
     document.getElementById("try").hidden = false;
     button.hidden = true;
-    const tried = new TryIt(load(bica));
-    if (!isOnly) {
-      document.getElementById("drawing").scrollIntoView();
-      tried.section.querySelector("button").focus({ preventScroll: true });
-    }
+    new TryIt(load(bica));
+    if (isOnly) return;
+    document.getElementById("drawing").scrollIntoView();
+    document.querySelector(".try-bar button").focus({ preventScroll: true });
   };
   button.hidden = false;
   button.addEventListener("click", open);
   if (!isOnly) return;
   document.documentElement.classList.add("is-only-tried");
-  for (const link of document.querySelectorAll("a")) link.setAttribute("target", "_blank");
+  document.head.append(el("base", { target: "_blank" }));
   open();
-  const tell = () => parent.postMessage({ vicodeTryHeight: document.documentElement.scrollHeight }, "*");
-  new ResizeObserver(tell).observe(document.body);
+  new ResizeObserver(() => parent.postMessage({ vicodeTryHeight: document.body.offsetHeight }, "*")).observe(document.body);
 };

@@ -19,7 +19,9 @@ from vicode.generators.plan import (
     PackagePlan,
     ProjectPlan,
     plan_interface,
+    plan_project,
 )
+from vicode.model.project import Project
 from vicode.output import OutputFile
 from vicode.regions import add_header
 from vicode.templating import read_asset
@@ -28,13 +30,13 @@ __all__ = [
     "LANGUAGE",
     "RESERVED_MODULES",
     "check_supported",
+    "component_script",
     "component_writer",
     "escape",
     "find_origins",
     "generate_javascript",
     "list_paths",
-    "wrap_module",
-    "write_component_script",
+    "script_runtime",
 ]
 
 LANGUAGE = "javascript"
@@ -94,9 +96,19 @@ def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
     return tuple(origins)
 
 
-def write_component_script(plan: ProjectPlan, modules: Iterable[str]) -> str:
-    """Write the first component of a plan and all that it uses as statements; see `write_script`."""
-    return write_script(plan, plan.components[0], list_interfaces(plan), modules)
+def script_runtime() -> str:
+    """The runtime that `component_script` needs, as an expression."""
+    return wrap_module(read_asset("javascript/bica.mjs"))
+
+
+def component_script(project: Project, component: str, modules: Iterable[str]) -> str:
+    """Write a design as `write_script` does; `modules` are those of the designs that it uses.
+
+    Raises:
+        UnsoundDesignError: The design has errors, or JavaScript cannot express it.
+    """
+    plan = plan_project(project, {component}, {}, RESERVED_MODULES)
+    return write_script(plan, list_interfaces(plan), modules)
 
 
 def list_interfaces(plan: ProjectPlan) -> list[InterfacePlan]:

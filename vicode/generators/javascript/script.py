@@ -8,16 +8,18 @@ import json
 import re
 from collections.abc import Iterable, Iterator
 
-from vicode.generators.javascript.component import JavaScriptWriter, indented, write_declarations, write_interfaces
+from vicode.generators.javascript.component import JavaScriptWriter, write_declarations, write_interfaces
 from vicode.generators.javascript.expression_printer import JavaScriptExpressionPrinter
 from vicode.generators.plan import (
     Branch,
     ComponentPlan,
+    Condition,
     DecisionPlan,
     ExpressionCondition,
     InterfacePlan,
     ProjectPlan,
     TimerCondition,
+    UnsoundDesignError,
 )
 from vicode.model.design import COMMON
 from vicode.model.expressions import Done, ElapsedTime, Expr, OutputRef, ScopeSymbolKind, StatusFlag, Variable, walk
@@ -26,29 +28,21 @@ _EXPORT = re.compile(r"^export (?:const|class|function) (?:\{ (.*) \}|(\w+))", r
 _NOT_IN_SCRIPTS = re.compile(r"^(?:import .*\n| *(?://|/\*\*).*\n|export )", re.MULTILINE)
 
 
-def write_script(
-    plan: ProjectPlan, component: ComponentPlan, interfaces: Iterable[InterfacePlan], modules: Iterable[str]
-) -> str:
-    """The statements that declare the classes of a component and of all that it uses, and its `guards`.
+def write_script(plan: ProjectPlan, interfaces: Iterable[InterfacePlan], modules: Iterable[str]) -> str:
+    """The statements that declare the classes of the only component of a plan and of all that it uses.
 
-    They need the runtime as `bica`. `guards` lists the decisions by state: each has its `id`, a method `test`, and in
-    `reads` methods for the values that it reads.
-
-    Args:
-        plan: The project.
-        component: The component; the ids of its decisions are used.
-        interfaces: The components without a design that are used.
-        modules: The modules of the designs that are used.
+    They need the runtime as `bica`. They also declare `guards`, the decisions by state: each has its `id`, a method
+    `test`, and in `reads` methods for the values that it reads; `this` is the component.
     """
+    (component,), package = plan.components, plan.package
     texts = [
         write_interfaces(plan, interfaces),
         *modules,
-        JavaScriptWriter(package=plan.package, component=component).write(),
+        JavaScriptWriter(package=package, component=component).write(),
     ]
-    declarations = (
-        f"const declarations = {wrap_module(write_declarations(plan))};\n" if plan.package.has_declarations else ""
-    )
-    return declarations + "".join(map(_strip, texts)) + "\n".join(_guards(component)) + "\n"
+    texts += ["\n".join(_guards(component))]
+    declarations = wrap_module(write_declarations(plan)) if package.has_declarations else "{}"
+    return f"const declarations = {declarations};\n" + "".join(map(_strip, texts)) + "\n"
 
 
 def wrap_module(text: str) -> str:
@@ -64,18 +58,16 @@ def _strip(text: str) -> str:
 
 def _guards(component: ComponentPlan) -> Iterator[str]:
     printer = JavaScriptExpressionPrinter.of_component(component)
+    sources = {COMMON: component.common_decisions} | {state.name: state.decisions for state in component.states}
     yield "const guards = {"
-    for source, decisions in (
-        (COMMON, component.common_decisions),
-        *((each.name, each.decisions) for each in component.states),
-    ):
+    for source, decisions in sources.items():
         yield f"  [{json.dumps(source)}]: ["
         for decision in _alternatives(decisions):
-            reads = dict(pair for each in decision.conditions for pair in _reads(each, printer))
+            nodes = (node for condition in decision.conditions for node in walk(_tree(condition)))
+            reads = {name: printer.print(node).text for node in nodes if (name := _name(node, printer))}
+            methods = ", ".join(f"[{json.dumps(name)}]() {{ return {value}; }}" for name, value in reads.items())
             test = printer.guard(decision.conditions) if decision.conditions else "true"
-            yield f"    {{ id: {json.dumps(decision.id)}, test() {{ return {test}; }}, reads: {{"
-            yield from indented((f"[{json.dumps(name)}]() {{ return {value}; }}," for name, value in reads.items()), 3)
-            yield "    } },"
+            yield f"    {{ id: {json.dumps(decision.id)}, test() {{ return {test}; }}, reads: {{ {methods} }} }},"
         yield "  ],"
     yield "};"
 
@@ -87,17 +79,19 @@ def _alternatives(decisions: Iterable[DecisionPlan]) -> Iterator[DecisionPlan]:
             yield from _alternatives((*each.outcome.then, *each.outcome.otherwise))
 
 
-def _reads(condition: object, printer: JavaScriptExpressionPrinter) -> Iterator[tuple[str, str]]:
+def _tree(condition: Condition) -> Expr:
     match condition:
         case ExpressionCondition(expression=tree) | TimerCondition(time=tree):
-            yield from ((name, printer.print(node).text) for node in walk(tree) if (name := _read_name(node, printer)))
+            return tree
+        case _:
+            raise UnsoundDesignError("a guard is written as code")
 
 
-def _read_name(node: Expr, printer: JavaScriptExpressionPrinter) -> str:
+def _name(node: Expr, printer: JavaScriptExpressionPrinter) -> str:
     """The name of a value as in the design; empty for other nodes."""
     match node:
-        case Variable(name=name, kind=kind) if kind != ScopeSymbolKind.CONSTANT:
-            return name
+        case Variable(name=name, kind=kind):
+            return "" if kind == ScopeSymbolKind.CONSTANT else name
         case ElapsedTime(kind=of):
             return f"{of}_time"
         case StatusFlag(name=of):
@@ -106,5 +100,4 @@ def _read_name(node: Expr, printer: JavaScriptExpressionPrinter) -> str:
             return f"done({alias})"
         case OutputRef(alias=alias, output=output):
             return printer.print(node).text.replace("this.", "") if node.arguments else f"{alias}.{output}"
-        case _:
-            return ""
+    return ""
