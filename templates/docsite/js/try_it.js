@@ -33,7 +33,7 @@ class TryIt {
   build() {
     this.runButton = el("button", { type: "button", onclick: () => this.toggleRun() }, "Run");
     this.rate = el("select", { id: "try-rate" }, ...RATES.map((rate) => new Option(`${rate} ×`, rate, rate === 1, rate === 1)));
-    this.time = el("output", { className: "try-time" });
+    this.time = el("span", { className: "try-time" });
     this.last = el("p", { className: "try-last" });
     this.last.setAttribute("role", "status");
     this.guards = el("ol", { className: "try-guards" });
@@ -76,7 +76,7 @@ class TryIt {
 
   /** A label, the field, and its unit; a slider also shows its value. */
   makeInput(input, id) {
-    const note = el("output", { className: "try-value", htmlFor: id });
+    const note = el("span", { className: "try-value", id: `${id}-value` });
     const tell = () => {
       const value = input.range ? shown(this.values.get(input)) : "";
       note.textContent = `${value} ${input.unit}`.trim();
@@ -88,6 +88,7 @@ class TryIt {
       this.showGuards();
     });
     field.id = id;
+    field.setAttribute("aria-describedby", note.id);
     tell();
     const name = input.isFunction ? `${input.label}(…)` : input.label;
     return [el("label", { htmlFor: id, title: name }, name), field, note];
