@@ -25,6 +25,7 @@ from vicode.templating import read_asset
 TRY_SCRIPT = "try.js"
 _MAX_CHARACTERS = 40_000
 """Of the script of a design; with `TRY_SCRIPT`, a page gets at most 60 kB."""
+_STORED_SCRIPT: StoredForm[str] = StoredForm(lambda text: {"script": text}, lambda value: str(value["script"]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +50,7 @@ class TryScripts:
             # The component itself, which is first, is generated again with the ids of its decisions.
             key = (restrict_to_used(self.project, component), component, tuple(modules[1:]))
             make = partial(_write_script, *key, self.urls)
-            script = self.cache.get_or_create("try", (*key, self.urls.key), make, StoredForm(str, str))
+            script = self.cache.get_or_create("try", (*key, self.urls.key), make, _STORED_SCRIPT)
             if len(script) <= _MAX_CHARACTERS:
                 return script
         return (TextSpan(text=f"its code in JavaScript is larger than {_MAX_CHARACTERS // 1000} kB"),)
@@ -93,15 +94,14 @@ def _inputs(project: Project, design: Design, urls: SiteUrls) -> Iterator[Mappin
     scope, read = build_scope(project, None), _read_outputs(project)
 
     def describe(owner: Design | Interface, section: str, each: Declaration) -> Mapping[str, Any]:
-        enumeration = project.enumeration(scope.type_of(each))
-        elements = enumeration.element_names if enumeration else ()
+        type_ = scope.type_of(each)
         low, high = each.range or (0, 0)
         return {
             "component": escape(owner.component),
             "name": escape(each.name),
             "label": urls.names.declaration(owner, section, each),
-            "type": scope.type_of(each),
-            "options": [f"{enumeration.name}.{name}" for name in elements] if enumeration else [],
+            "type": type_,
+            "options": [f"{type_}.{element}" for element in scope.enumerations.get(type_, ())],
             "unit": each.unit,
             "range": [low, high] if low < high else None,
             "isFunction": each.arguments is not None,

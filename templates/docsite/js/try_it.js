@@ -1,6 +1,5 @@
 // Runs a design with its generated code: inputs, steps, and what is active. Nothing here knows the rules of designs.
 const MAX_STEPS_PER_FRAME = 200;
-const RATES = [0.25, 1, 4, 16];
 
 function el(tag, props = {}, ...children) {
   const node = Object.assign(document.createElement(tag), props);
@@ -32,13 +31,13 @@ class TryIt {
 
   build() {
     this.runButton = el("button", { type: "button", onclick: () => this.toggleRun() }, "Run");
-    this.rate = el("select", { id: "try-rate" }, ...RATES.map((rate) => new Option(`${rate} ×`, rate, rate === 1, rate === 1)));
+    this.rate = el("select", { id: "try-rate" }, ...[0.25, 1, 4, 16].map((rate) => new Option(`${rate} ×`, rate, rate === 1, rate === 1)));
     this.time = el("span", { className: "try-time" });
     this.last = el("p", { className: "try-last" });
     this.last.setAttribute("role", "status");
     this.guards = el("ol", { className: "try-guards" });
     this.guardTitle = el("h3");
-    this.parts = el("tbody");
+    this.rows = el("tbody");
     const head = el("thead", {}, el("tr", {}, ...["Component", "Active state"].map((text) => el("th", { scope: "col" }, text))));
     document.getElementById("try").append(
       el(
@@ -53,7 +52,7 @@ class TryIt {
       el(
         "div", { className: "try-columns" },
         el("div", {}, el("h3", {}, "Inputs"), ...this.makeInputs()),
-        el("div", {}, this.guardTitle, this.guards, el("h3", {}, "Components"), el("table", {}, head, this.parts)),
+        el("div", {}, this.guardTitle, this.guards, el("h3", {}, "Components"), el("table", {}, head, this.rows)),
       ),
     );
   }
@@ -110,20 +109,17 @@ class TryIt {
     return field;
   }
 
-  component(name) {
-    return this.root.component(this.design.classes[name]);
-  }
-
   applyInputs() {
     for (const [input, value] of this.values) {
-      this.component(input.component)[input.name] = input.isFunction ? () => value : value;
+      this.parts.get(input.component)[input.name] = input.isFunction ? () => value : value;
     }
   }
 
   reset() {
     this.pause();
     this.root = new bica.Root();
-    [this.main] = this.design.parts.map(([component]) => this.component(component));
+    this.parts = new Map(this.design.parts.map(([name]) => [name, this.root.component(this.design.classes[name])]));
+    [this.main] = this.parts.values();
     this.clockNs = 0;
     this.records = [];
     this.lastTransition = null;
@@ -132,7 +128,6 @@ class TryIt {
   }
 
   iterate() {
-    this.applyInputs();
     this.root.trace = this.records = [];
     this.root.step(this.main, this.clockNs);
     const [own] = this.records;
@@ -206,18 +201,14 @@ class TryIt {
   }
 
   showParts() {
-    const rows = this.design.parts.map(([component, label, href]) => {
-      const record = this.records.findLast((each) => each.component === this.component(component).$name);
-      const isDesign = this.component(component).$states !== null;
-      const values = Object.entries((isDesign ? record?.values : record?.parameters) ?? {});
-      const state = record ? (isDesign ? record.state : "stepped") : "–";
-      return el(
-        "tr", { className: record ? "" : "muted" },
-        el("th", { scope: "row" }, el("a", { href }, label)),
-        el("td", {}, el("span", { className: isDesign && record ? "try-state" : "" }, state), makeValues(values)),
-      );
-    });
-    this.parts.replaceChildren(...rows);
+    this.rows.replaceChildren(...this.design.parts.map(([name, label, href]) => {
+      const { $name, $states } = this.parts.get(name);
+      const record = this.records.findLast((each) => each.component === $name);
+      const values = Object.entries(($states ? record?.values : record?.parameters) ?? {});
+      const state = el("span", { className: $states && record ? "try-state" : "" }, record ? ($states ? record.state : "stepped") : "–");
+      const cells = [el("th", { scope: "row" }, el("a", { href }, label)), el("td", {}, state, makeValues(values))];
+      return el("tr", { className: record ? "" : "muted" }, ...cells);
+    }));
   }
 }
 
