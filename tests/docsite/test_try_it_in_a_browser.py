@@ -201,6 +201,9 @@ def test_inputs_of_each_type_and_texts_of_strangers(page: Page, guide: Path) -> 
     compare(open_project(guide).project, "Guide", found, step_ns(guide / "site" / "try-Guide.js"))
     expect(page.locator(".try")).to_contain_text("<img src=x")
     assert page.evaluate("window.ran") is None
+    for width in (390, 820, 1366):
+        page.set_viewport_size({"width": width, "height": 768})
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
 
 
 def test_guards_show_their_truth_and_the_last_transition_is_marked(page: Page, guide: Path) -> None:
@@ -271,7 +274,9 @@ def test_other_documentation_shows_it_with_one_line(page: Page, sites: Path, tmp
 def test_a_design_with_code_has_no_button_but_a_reason(page: Page, sites: Path) -> None:
     page.goto((sites / "forward" / "component-Player.html").as_uri())
     expect(page.get_by_role("button", name="Try it")).to_have_count(0)
-    expect(page.locator("main")).to_contain_text("This page cannot run the component: Player: code has no counterpart")
+    expect(page.locator("main")).to_contain_text(
+        "This page cannot run the component: code has no counterpart in JavaScript."
+    )
     assert not (sites / "forward" / "try-Player.js").exists()
 
 
@@ -297,7 +302,7 @@ def test_a_design_that_uses_a_design_with_code_names_it() -> None:
     inner = Design(component="Inner", module=code, initial="A", states=states)
     outer = Design(component="Outer", uses=(Use(alias="inner", component="Inner"),), initial="A", states=states)
     page = build_pages(inner, outer)["component-Outer.html"]
-    assert '<a href="component-Inner.html#languages">Inner</a>: code has no counterpart' in page
+    assert 'in <a href="component-Inner.html#languages">Inner</a>, code has no counterpart' in page
 
 
 def build_pages(*designs: Design) -> dict[str, str]:

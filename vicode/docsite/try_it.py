@@ -44,7 +44,7 @@ class TryScripts:
         for name in sorted(collect_components(self.project, (component,)), key=lambda name: name != component):
             texts = [each.text for each in self.code_files.files_of(name) if each.variant == LANGUAGE]
             if not texts:
-                return self._explain(name)
+                return self._explain(name, component)
             modules += texts
         if sum(map(len, modules)) <= _MAX_CHARACTERS:
             # The component itself, which is first, is generated again with the ids of its decisions.
@@ -55,10 +55,13 @@ class TryScripts:
                 return script
         return (TextSpan(text=f"its code in JavaScript is larger than {_MAX_CHARACTERS // 1000} kB"),)
 
-    def _explain(self, name: str) -> RichText:
-        errors = self.generation_errors[LANGUAGE].get(name, ())
-        link = TextSpan(text=self.urls.names.component(name), href=f"{self.urls.component(name)}#languages")
-        return (link, TextSpan(text=f": {errors[0].message}" if errors else " has errors"))
+    def _explain(self, name: str, component: str) -> RichText:
+        errors, href = self.generation_errors[LANGUAGE].get(name, ()), f"{self.urls.component(name)}#languages"
+        message = errors[0].message if errors else "there are errors"
+        if name == component:
+            return (TextSpan(text=message, href=href),)
+        link = TextSpan(text=self.urls.names.component(name), href=href)
+        return (TextSpan(text="in "), link, TextSpan(text=f", {message}"))
 
 
 def try_script() -> str:

@@ -90,7 +90,7 @@ class TryIt {
     field.setAttribute("aria-describedby", note.id);
     tell();
     const name = input.isFunction ? `${input.label}(…)` : input.label;
-    return [el("label", { htmlFor: id, title: name }, name), field, note];
+    return [el("label", { htmlFor: id }, name), field, note];
   }
 
   makeField({ type, options, range }, value, set) {
