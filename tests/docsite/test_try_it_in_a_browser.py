@@ -151,6 +151,7 @@ components:
       size: {type: float, unit: m}
       unread: {type: bool}
       bearing: {type: float, range: [-90, 90], arguments: {x: {type: float}}}
+    variables: {told: {type: bool}}
 """
 GUIDE = """
 vicode: 1
@@ -164,7 +165,7 @@ states:
   Wait:
     doc: %(evil)s
     requires: [eyes]
-    actions: [{set: {steps: steps + 1}}]
+    actions: [{set: {steps: steps + 1, eyes.told: true}}]
     transitions:
       - when: eyes.seen
         doc: %(evil)s
@@ -174,7 +175,7 @@ states:
       - {to: Go, after: 0.1}
   Go:
     transitions: [{to: Wait, when: not eyes.seen}]
-  Stop: {transitions: [{to: Wait, when: eyes.count < 3}]}
+  Stop: {transitions: [{to: Wait, when: eyes.count < 3 and eyes.told}, {stay: true}]}
 """
 
 
@@ -225,6 +226,10 @@ def test_guards_show_their_truth_and_the_last_transition_is_marked(page: Page, g
     expect(page.locator(".try [role=status]")).to_have_text("Active state: Go. Last transition: Wait → Go at 0.000 s.")
     expect(page.locator(".diagram .is-last").first).to_have_attribute("href", "#state-Wait-0-then-0")
     expect(page.locator(".diagram .is-active")).to_have_attribute("data-key", "s:Go")
+    page.get_by_label("count").press("End")
+    page.get_by_role("button", name="Step").click()
+    expect(page.locator(".try-mark")).to_have_text(["true", "false", "always"])
+    expect(guards.nth(1)).to_contain_text("eyes.count = 9 · eyes.told = false")
     page.get_by_role("button", name="Reset").click()
     expect(page.locator(".try-time")).to_have_text("Not started")
     expect(page.locator(".diagram .is-active")).to_have_attribute("data-key", "s:Wait")

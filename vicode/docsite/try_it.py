@@ -16,10 +16,10 @@ from vicode.docsite.views import RichText, TextSpan
 from vicode.generators import collect_components
 from vicode.generators.javascript import LANGUAGE, component_script, escape, script_runtime
 from vicode.model.decision_keys import with_decision_ids
-from vicode.model.design import Declaration, Design
+from vicode.model.design import Assign, Declaration, Design
 from vicode.model.expressions import OutputRef, build_scope, parse_expression, walk
 from vicode.model.project import INTERNAL, Interface, Project
-from vicode.model.traversal import iter_expressions
+from vicode.model.traversal import iter_actions, iter_expressions
 from vicode.templating import read_asset
 
 TRY_SCRIPT = "try.js"
@@ -94,7 +94,7 @@ def _write_script(project: Project, component: str, modules: tuple[str, ...], ur
 
 def _inputs(project: Project, design: Design, urls: SiteUrls) -> Iterator[Mapping[str, Any]]:
     """The parameters of a design, and what it and the designs that it uses read of components without a design."""
-    scope, read = build_scope(project, None), _read_outputs(project)
+    scope, found = build_scope(project, None), _find_inputs(project)
 
     def describe(owner: Design | Interface, section: str, each: Declaration) -> Mapping[str, Any]:
         type_ = scope.type_of(each)
@@ -114,17 +114,19 @@ def _inputs(project: Project, design: Design, urls: SiteUrls) -> Iterator[Mappin
         yield describe(design, "parameters", each)
     for interface in project.components:
         for section in ("outputs", "variables") if interface.implementation != INTERNAL else ():
-            for each in getattr(interface, section):
-                if (interface.component, each.name) in read:
-                    yield describe(interface, section, each)
+            read = (each for each in getattr(interface, section) if (interface.component, each.name) in found)
+            yield from (describe(interface, section, each) for each in read)
 
 
-def _read_outputs(project: Project) -> set[tuple[str, str]]:
-    """What the designs of a project read of other components, as pairs of component and name."""
-    found = set()
+def _find_inputs(project: Project) -> set[tuple[str, str]]:
+    """What the designs of a project read of other components and do not set, as pairs of component and name."""
+    read, written = set(), set()
     for design in project.designs:
         scope, components = build_scope(project, design), {use.alias: use.component for use in design.uses}
         trees = (parse_expression(each.text, scope).tree for each in iter_expressions(design))
         nodes = (node for tree in trees if tree for node in walk(tree))
-        found |= {(components[node.alias], node.output) for node in nodes if isinstance(node, OutputRef)}
-    return found
+        read |= {(components[node.alias], node.output) for node in nodes if isinstance(node, OutputRef)}
+        actions = (each.action for each in iter_actions(design))
+        names = (name.rpartition(".") for each in actions if isinstance(each, Assign) for name, _value in each.values)
+        written |= {(components[alias], name) for alias, _dot, name in names if alias}
+    return read - written

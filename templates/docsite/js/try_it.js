@@ -193,9 +193,9 @@ class TryIt {
   }
 
   makeGuard({ id, test, reads }) {
-    const holds = test.call(this.main);
+    const holds = test?.call(this.main);
     const text = document.getElementById(id)?.querySelector("code")?.cloneNode(true) ?? el("code", {}, id);
-    const mark = el("span", { className: "try-mark" }, holds ? "true" : "false");
+    const mark = el("span", { className: "try-mark" }, test ? String(holds) : "always");
     const values = Object.entries(reads).map(([name, read]) => [name, read.call(this.main)]);
     return el("li", { className: holds ? "holds" : "" }, mark, el("div", {}, text, makeValues(values)));
   }

@@ -32,15 +32,11 @@ def write_script(plan: ProjectPlan, interfaces: Iterable[InterfacePlan], modules
     """The statements that declare the classes of the only component of a plan and of all that it uses.
 
     They need the runtime as `bica`. They also declare `guards`, the decisions by state: each has its `id`, a method
-    `test`, and in `reads` methods for the values that it reads; `this` is the component.
+    `test` if it has conditions, and in `reads` methods for the values that it reads; `this` is the component.
     """
     (component,), package = plan.components, plan.package
-    texts = [
-        write_interfaces(plan, interfaces),
-        *modules,
-        JavaScriptWriter(package=package, component=component).write(),
-    ]
-    texts += ["\n".join(_guards(component))]
+    own = JavaScriptWriter(package=package, component=component).write()
+    texts = [write_interfaces(plan, interfaces), *modules, own, "\n".join(_guards(component))]
     declarations = wrap_module(write_declarations(plan)) if package.has_declarations else "{}"
     return f"const declarations = {declarations};\n" + "".join(map(_strip, texts)) + "\n"
 
@@ -66,8 +62,8 @@ def _guards(component: ComponentPlan) -> Iterator[str]:
             nodes = (node for condition in decision.conditions for node in walk(_tree(condition)))
             reads = {name: printer.print(node).text for node in nodes if (name := _name(node, printer))}
             methods = ", ".join(f"[{json.dumps(name)}]() {{ return {value}; }}" for name, value in reads.items())
-            test = printer.guard(decision.conditions) if decision.conditions else "true"
-            yield f"    {{ id: {json.dumps(decision.id)}, test() {{ return {test}; }}, reads: {{ {methods} }} }},"
+            test = f"test() {{ return {printer.guard(decision.conditions)}; }}, " if decision.conditions else ""
+            yield f"    {{ id: {json.dumps(decision.id)}, {test}reads: {{ {methods} }} }},"
         yield "  ],"
     yield "};"
 
