@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from vicode.model.design import Action, Call, Code, Decision, DecisionGroup, Declaration, Design, State, Transition
-from vicode.model.expressions import Expr, Scope, Variable, build_scope, is_type_only, parse_expression, walk
+from vicode.model.expressions import Expr, Scope, build_scope, is_type_only, parse_expression
 from vicode.model.portable_code import NotPortable, PortableStatement, Role, parse_portable
 from vicode.model.project import INTERNAL, MISSING, REMOTE, Interface, Project
 from vicode.semantics.evaluation import evaluate
@@ -164,9 +164,7 @@ def _initial(declaration: Declaration, scope: Scope, constants: Mapping[str, Val
     if not declaration.initial or is_type_only(declaration, scope):
         return zero(type_, tuple(scope.enumerations.get(type_, ())))
     parsed = parse_expression(declaration.initial, scope, type_)
-    # A constant may use only those before it.
-    names = {node.name for node in walk(parsed.tree) if isinstance(node, Variable)} if parsed.tree is not None else ()
-    if parsed.tree is None or parsed.diagnostics or not constants.keys() >= set(names):
+    if parsed.tree is None or parsed.diagnostics:
         raise NotInterpretableError(f"'{declaration.name}' has an invalid value")
     return stored(evaluate(parsed.tree, type_, constants), type_)
 
