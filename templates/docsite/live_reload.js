@@ -10,7 +10,7 @@
   function affectsThisPage(file) {
     if (file === "*" || file === path) return true;
     if (file === `${folder}search.js`) return "vicodeSearchIndex" in window;
-    return ["site.css", "site.js", "menu.js"].some((name) => file === folder + name);
+    return ["site.css", ...[...document.scripts].map((script) => script.getAttribute("src"))].some((name) => file === folder + name);
   }
 
   function showErrors(errors) {

@@ -63,6 +63,19 @@ def test_a_page_follows_its_design(project: Path, address: str, page: Page, tmp_
     assert "live" not in on_disk
 
 
+def test_a_page_follows_a_design_that_only_its_script_contains(project: Path, address: str, page: Page) -> None:
+    states = "states: {Only: {requires: [blink]}}"
+    outer = f"vicode: 1\ncomponent: Outer\nuses: {{blink: {{component: Blink}}}}\ninitial: Only\n{states}\n"
+    (project / "outer.yaml").write_text(outer, "utf-8")
+    page.goto(f"{address}index.html")
+    page.get_by_role("navigation", name="Pages").get_by_role("link", name="Outer").click()
+    with page.expect_event("load"):
+        edit(project, "Bright", "Lit")
+    page.get_by_role("button", name="Try it").click()
+    page.get_by_role("button", name="Run").click()
+    expect(page.locator(".try tbody")).to_contain_text("Lit")
+
+
 def test_a_mistake_is_told_and_the_last_good_page_stays(project: Path, address: str, page: Page) -> None:
     page.goto(f"{address}component-Blink.html")
     good = (project / "blink.yaml").read_text("utf-8")

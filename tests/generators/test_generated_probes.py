@@ -11,9 +11,9 @@ from tests.generators.sound_designs import project_of, sound_designs
 from tests.generators.test_generator_laws import is_sound
 from vicode.bica import Root
 from vicode.generators import generate, python_class_path, python_probes
+from vicode.model.decision_keys import with_decision_ids
 from vicode.model.design import Design
 from vicode.output import apply_diffs, compare_files
-from vicode.runs.setup import with_decision_ids
 from vicode.store import read_design
 
 DESIGN = """

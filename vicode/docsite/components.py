@@ -52,6 +52,8 @@ class ComponentInputs:
     code_links: CodeLinks
     code_pages: tuple[TextSpan, ...]
     languages: tuple[LanguageView, ...]
+    try_script: str
+    not_tried: RichText
 
 
 def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView:
@@ -90,6 +92,8 @@ def component_view(design: Design, inputs: ComponentInputs) -> ComponentPageView
         findings=finding_rows(inputs.site_input, addresses, design.component),
         code_pages=inputs.code_pages,
         languages=inputs.languages,
+        try_script=inputs.try_script,
+        not_tried=inputs.not_tried,
     )
 
 

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from vicode.docsite.site_input import SiteInput
+from vicode.generators import collect_components
 from vicode.model.design import Action, Call, Code, CommonSection, Design, State
 from vicode.model.project import Project
 
@@ -23,6 +24,16 @@ def restrict_to_component(subject: SiteInput, design: Design) -> SiteInput:
     return SiteInput(
         project=part, findings=findings, sources=sources, title=subject.title, source_url=subject.source_url
     )
+
+
+def restrict_to_used(project: Project, component: str) -> Project:
+    """What the code of a design depends on: the design, and all components that it uses, directly or not."""
+    kept = collect_components(project, (component,))
+    designs = tuple(each for each in project.designs if each.component in kept)
+    used = {use.component for each in designs for use in each.uses} - kept
+    components = tuple(each for each in project.components if each.component in used)
+    types, constants = project.enumerations, project.constants
+    return Project(name=project.name, enumerations=types, constants=constants, components=components, designs=designs)
 
 
 def strip_to_usage(project: Project) -> Project:

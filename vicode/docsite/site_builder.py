@@ -40,6 +40,7 @@ from vicode.docsite.site_names import is_from_xabsl
 from vicode.docsite.site_search import search_entries, search_script
 from vicode.docsite.site_writer import PlannedFile
 from vicode.docsite.svg_classes import shape_rules, shorten_shapes
+from vicode.docsite.try_it import TRY_SCRIPT, TryScripts, try_script
 from vicode.docsite.urls import AGENTS, HOME, INTERFACES, NAME_INDEX, SYMBOLS, TYPES, SiteUrls
 from vicode.docsite.uses import user_rows
 from vicode.docsite.views import PageHead, RichText, TextSpan
@@ -123,6 +124,7 @@ class _SitePlanner:
     agents_by_component: Mapping[str, RichText]
     code_files: CodeFiles
     generation_errors: GenerationErrors
+    try_scripts: TryScripts
     menu: tuple[TextSpan, ...]
     folders: tuple[DesignFolder, ...]
     shared_digest: str
@@ -141,6 +143,7 @@ class _SitePlanner:
         yield _plain_file("site.css", read_asset("docsite/site.css") + shape_rules())
         parts = "\n".join(read_asset(f"docsite/js/{name}.js") for name in _SCRIPT_FILES)
         yield _plain_file("site.js", _SCRIPT.format(parts))
+        yield _plain_file(TRY_SCRIPT, try_script())
         yield _plain_file(MENU_SCRIPT, menu_script(self.folders, self.urls))
 
     def _overview_pages(self, only: str = "") -> Iterator[PlannedFile]:
@@ -199,8 +202,11 @@ class _SitePlanner:
         project = self.site_input.project
         for design in project.designs:
             name = design.component
-            if only not in ("", self.urls.component(name)):
+            if only not in ("", self.urls.component(name), self.urls.try_script(name)):
                 continue
+            tried, file = self.try_scripts.find(name), self.urls.try_script(name)
+            if isinstance(tried, str):
+                yield _plain_file(file, tried)
             texts = self.code_files.files_of(name)
             written = {text.variant: text.path for text in texts}
             made = ComponentInputs(
@@ -212,9 +218,19 @@ class _SitePlanner:
                 code_links=code_links_by_path(texts, self.urls, self.site_input.repository_link),
                 code_pages=code_page_links(texts, self.urls),
                 languages=tuple(language_views(self.site_input, name, written, self.generation_errors, self.urls)),
+                try_script=file if isinstance(tried, str) else "",
+                not_tried=() if isinstance(tried, str) else tried,
             )
             lists = (made.tables, made.used_by, made.agents)
-            key = (made.site_input, lists, made.code_links, made.code_pages, made.languages)
+            key = (
+                made.site_input,
+                lists,
+                made.code_links,
+                made.code_pages,
+                made.languages,
+                made.try_script,
+                made.not_tried,
+            )
             head = _head(self.urls.component(name), self.urls.names.component(name))
             yield self._page(head, "component", key, partial(_component, design, made))
 
@@ -265,6 +281,9 @@ def _make_planner(subject: SiteInput, memory: BuildCache) -> _SitePlanner:
         agents_by_component=agent_links(project, addresses),
         code_files=texts,
         generation_errors=generation_errors,
+        try_scripts=TryScripts(
+            project=subject.project, code_files=texts, generation_errors=generation_errors, urls=addresses, cache=memory
+        ),
         menu=menu,
         folders=group_by_folder(subject),
         shared_digest=compute_digest(subject.name, project.doc, menu, addresses.key),

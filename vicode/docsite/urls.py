@@ -97,6 +97,10 @@ class SiteUrls:
         """The code page of a component; `variant` is "source" or a language."""
         return f"{variant}-{self._stems[component]}.html" if component else f"{variant}.html"
 
+    def try_script(self, component: str) -> str:
+        """The script that runs a design."""
+        return f"try-{self._stems[component]}.js"
+
     def enumeration(self, name: str, element: str = "") -> str:
         """The description of an enumeration or of one of its elements; "" if unknown."""
         if self._project.enumeration(name) is None:

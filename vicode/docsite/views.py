@@ -191,7 +191,8 @@ class ComponentPageView:
 
     `properties` are pairs of a property and what is proved about it.
 
-    `root_of` are the agents with this root, `agents` those that can activate it.
+    `root_of` are the agents with this root, `agents` those that can activate it. `try_script` is the file with which
+    the page runs the design, "" if `not_tried` says why it does not.
     """
 
     name: str
@@ -214,6 +215,8 @@ class ComponentPageView:
     findings: tuple[FindingRow, ...]
     code_pages: tuple[TextSpan, ...]
     languages: tuple[LanguageView, ...]
+    try_script: str
+    not_tried: RichText
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,10 +10,9 @@ from vicode.bica.tick import choose_tick_ns
 from vicode.check import find_errors
 from vicode.check.classes import check_classes
 from vicode.check.module_names import check_module_names
-from vicode.findings import DesignPath
 from vicode.generators import collect_components, generate, python_class_path, python_probes
-from vicode.model.decision_keys import transition_key
-from vicode.model.design import Decision, DecisionGroup, Design, State, Transition
+from vicode.model.decision_keys import with_decision_ids
+from vicode.model.design import Decision, DecisionGroup, Design, Transition
 from vicode.model.project import INTERNAL, Interface, Project
 from vicode.output import OutputFile
 from vicode.runs.inputs import SimulationInput, collect_inputs, input_types, make_stub
@@ -135,13 +134,6 @@ def _fitting_tick_ns(project: Project, design: Design) -> int:
     return choose_tick_ns(each.frequency_hz for each in declared if each.frequency_hz and each.component in names)
 
 
-def with_decision_ids(design: Design) -> Design:
-    """The design with the canvas key of each decision as its id, so that records refer to it."""
-    common = _assign_ids(design.common.transitions, ("common", "transitions"))
-    states = tuple(_state_with_ids(state) for state in design.states)
-    return replace(design, common=replace(design.common, transitions=common), states=states)
-
-
 def behavior_key(project: Project, design: Design) -> object:
     """A value that changes exactly when the behavior of a simulation may change; positions do not count."""
     names = {design.component, *used_components(project, design)}
@@ -189,22 +181,6 @@ def _function_outputs(
         names = tuple(output.name for output in outputs if output.arguments is not None)
         found += [(use.alias, names)] if names else []
     return tuple(found)
-
-
-def _state_with_ids(state: State) -> State:
-    return replace(state, transitions=_assign_ids(state.transitions, ("states", state.name, "transitions")))
-
-
-def _assign_ids(items: tuple[Decision, ...], path: DesignPath) -> tuple[Decision, ...]:
-    given: list[Decision] = []
-    for index, item in enumerate(items):
-        here = (*path, index)
-        named = replace(item, id=transition_key(here))
-        if isinstance(named, DecisionGroup):
-            then, otherwise = _assign_ids(named.then, (*here, "then")), _assign_ids(named.otherwise, (*here, "else"))
-            named = replace(named, then=then, otherwise=otherwise)
-        given.append(named)
-    return tuple(given)
 
 
 def _without_positions(design: Design) -> Design:

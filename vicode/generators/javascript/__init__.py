@@ -1,6 +1,6 @@
 """JavaScript generator: an ES module per component, on the runtime bica.mjs."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from vicode.generators.javascript.component import (
     JavaScriptWriter,
@@ -10,6 +10,7 @@ from vicode.generators.javascript.component import (
     write_interfaces,
 )
 from vicode.generators.javascript.names import escape
+from vicode.generators.javascript.script import wrap_module, write_script
 from vicode.generators.origins import ComponentCode, Origin
 from vicode.generators.plan import (
     INTERFACES_MODULE,
@@ -18,7 +19,9 @@ from vicode.generators.plan import (
     PackagePlan,
     ProjectPlan,
     plan_interface,
+    plan_project,
 )
+from vicode.model.project import Project
 from vicode.output import OutputFile
 from vicode.regions import add_header
 from vicode.templating import read_asset
@@ -27,11 +30,13 @@ __all__ = [
     "LANGUAGE",
     "RESERVED_MODULES",
     "check_supported",
+    "component_script",
     "component_writer",
     "escape",
     "find_origins",
     "generate_javascript",
     "list_paths",
+    "script_runtime",
 ]
 
 LANGUAGE = "javascript"
@@ -89,6 +94,21 @@ def find_origins(plan: ComponentPlan, text: str) -> tuple[Origin, ...]:
             last = next(index for index in range(number, len(lines)) if lines[index] == "      },") + 1
             origins.append(Origin(first=number, last=last, path=("states", marks[line])))
     return tuple(origins)
+
+
+def script_runtime() -> str:
+    """The runtime that `component_script` needs, as an expression."""
+    return wrap_module(read_asset("javascript/bica.mjs"))
+
+
+def component_script(project: Project, component: str, modules: Iterable[str]) -> str:
+    """Write a design as `write_script` does; `modules` are those of the designs that it uses.
+
+    Raises:
+        UnsoundDesignError: The design has errors, or JavaScript cannot express it.
+    """
+    plan = plan_project(project, {component}, {}, RESERVED_MODULES)
+    return write_script(plan, list_interfaces(plan), modules)
 
 
 def list_interfaces(plan: ProjectPlan) -> list[InterfacePlan]:
