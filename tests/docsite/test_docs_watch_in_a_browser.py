@@ -69,8 +69,13 @@ def test_a_page_follows_a_design_that_only_its_script_contains(project: Path, ad
     (project / "outer.yaml").write_text(outer, "utf-8")
     page.goto(f"{address}index.html")
     page.get_by_role("navigation", name="Pages").get_by_role("link", name="Outer").click()
-    with page.expect_event("load"):
-        edit(project, "Bright", "Lit")
+    expect(page.locator("h1")).to_have_text("Outer")
+    page.wait_for_load_state()
+    # A page that was loaded again has lost it.
+    page.evaluate("document.body.id = 'old'")
+    edit(project, "Bright", "Lit")
+    expect(page.locator("body#old")).to_have_count(0)
+    page.wait_for_load_state()
     page.get_by_role("button", name="Try it").click()
     page.get_by_role("button", name="Run").click()
     expect(page.locator(".try tbody")).to_contain_text("Lit")

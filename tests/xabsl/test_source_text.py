@@ -20,6 +20,7 @@ ELSEWHERE = {
     ("services/imported_behavior/import_merge.py", "read_text"): "designs",
     ("services/imported_behavior/updated_files.py", "read_text"): "a record in JSON",
     ("cli/xabsl_diff.py", "read_text"): "a table of inputs",
+    ("services/imported_behavior/cpp_sources.py", "decode"): "sources in C++, which are only read",
 }
 OTHERS = (
     "cli/bridge_behaviors.py",
