@@ -47,7 +47,7 @@ def test_the_strategies_draw_each_field() -> None:
     """The save laws only cover what the strategies draw: each field must get a value other than its default."""
     drawn: set[str] = set()
 
-    @settings(max_examples=100, phases=[Phase.generate], database=None, derandomize=True, deadline=None)
+    @settings(max_examples=400, phases=[Phase.generate], database=None, derandomize=True, deadline=None)
     @given(designs.designs, designs.projects)
     def collect(design: object, project: object) -> None:
         for node in (*_iter_nodes(design), *_iter_nodes(project)):
