@@ -272,6 +272,18 @@ def test_parameters_are_limited_to_their_fields_and_headers_filled() -> None:
     assert message.header.stamp.sec > 0
 
 
+def test_a_parameter_without_a_default_cannot_stop_the_robot() -> None:
+    class Wheels(TopicComponent):
+        def __init__(self, root: Root) -> None:
+            super().__init__(root, "/cmd_vel", TWIST, parameters={"speed": "linear.x", "turn": "angular.z"})
+
+        def modulate(self, *, speed: float = 0.0, turn: float) -> None:
+            self.speed, self.turn = speed, turn
+
+    with pytest.raises(NetworkError, match=r"no default for 'turn'"):
+        Root(Wheels)
+
+
 def test_elements_are_numbers_or_texts() -> None:
     class Modes(TopicComponent):
         def __init__(self, root: Root) -> None:

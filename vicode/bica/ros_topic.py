@@ -56,7 +56,8 @@ class TopicComponent(Component):
         is_alive: Whether a message was received and is not older than `max_age`.
 
     Raises:
-        NetworkError: A package is not installed, the type or a field is unknown, or there is no network.
+        NetworkError: A package is not installed, the type or a field is unknown, a parameter has no default, or there
+            is no network.
     """
 
     def __init__(
@@ -80,6 +81,9 @@ class TopicComponent(Component):
             self._parameters = {name: find_field(type_, field) for name, field in (parameters or {}).items()}
         except FieldError as error:
             raise NetworkError(f"{topic}: {error}") from error
+        self._stop_values = getattr(type(self).modulate, "__kwdefaults__", None) or {}
+        if missing := sorted(self._parameters.keys() - self._stop_values.keys()):
+            raise NetworkError(f"{topic}: modulate() has no default for '{missing[0]}', which would stop the robot")
         session = ros_session.open_session()
         if isinstance(root.clock, SimulatedClock) and not os.environ.get(ros_session.BAG):
             raise NetworkError(f"{topic}: topics need --real-time: other programs do not wait for simulated time")
@@ -105,7 +109,7 @@ class TopicComponent(Component):
         """Publish the default parameters, unless they were published last."""
         if not self._has_stopped:
             self._has_stopped = True
-            self._publish(getattr(type(self).modulate, "__kwdefaults__", None) or {})
+            self._publish(self._stop_values)
 
     def close(self) -> None:
         self.publish_stop()
