@@ -42,6 +42,8 @@ export class Component {
   $states = null;
   $state = "";
   $parameters = {};
+  /** The parameters of the newest call, also those that have the name of an output. */
+  $given = {};
   $names = [];
   #initial = "";
   #steppedIn = null;
@@ -50,6 +52,7 @@ export class Component {
   #enteredNs = 0;
   #workedNs = 0;
   #calls = [];
+  #stored = [];
   #left = null;
   #transition = null;
 
@@ -73,7 +76,8 @@ export class Component {
 
   /** Declares the values with their initial ones; parameters get these also when a call omits them. */
   $declare(parameters, values) {
-    this.$parameters = parameters;
+    this.$parameters = this.$given = parameters;
+    this.#stored = Object.keys(parameters).filter((name) => !Object.hasOwn(values, name));
     this.$names = Object.keys({ ...parameters, ...values });
     Object.assign(this, parameters, values);
   }
@@ -157,7 +161,10 @@ export class Component {
   }
 
   #stepWith(component, parameters) {
-    Object.assign(component, parameters);
+    component.$given = parameters;
+    for (const name of component.#stored) {
+      component[name] = parameters[name];
+    }
     component.$step(this.$name, "modulates", parameters);
   }
 
