@@ -10,6 +10,7 @@ from functools import lru_cache
 
 from vicode.check import (
     code,
+    constructs,
     declarations,
     expressions,
     javascript,
@@ -24,6 +25,7 @@ from vicode.check.dependency_view import make_dependency_view
 from vicode.check.graphs import build_graphs
 from vicode.findings import Finding, Severity
 from vicode.model.design import Design
+from vicode.model.lowering import is_lowered
 from vicode.model.project import Project
 
 __all__ = [
@@ -44,6 +46,7 @@ DESIGN_RULES: tuple[DesignRule, ...] = (
     *states.RULES,
     *expressions.RULES,
     *code.RULES,
+    *constructs.RULES,
 )
 DESIGN_WARNINGS: tuple[DesignRule, ...] = (
     *declarations.WARNINGS,
@@ -113,7 +116,8 @@ def _run_rules(context: RuleContext, warnings: tuple[DesignRule, ...]) -> tuple[
     in_xabsl = _xabsl_rules()[1] if "xabsl" in languages else ()
     in_javascript = javascript.RULES if "javascript" in languages else ()
     rules = (*DESIGN_RULES, *warnings, *in_xabsl, *in_javascript)
-    return tuple(finding for rule in rules for finding in rule(context))
+    found = (finding for rule in rules for finding in rule(context))
+    return constructs.merge_derived(context.design, found) if is_lowered(context.design) else tuple(found)
 
 
 def _all_warnings() -> tuple[DesignRule, ...]:

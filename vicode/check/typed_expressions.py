@@ -24,7 +24,7 @@ from vicode.model.expressions import (
     walk,
 )
 from vicode.model.project import Interface
-from vicode.model.traversal import LocatedAction, LocatedDecision
+from vicode.model.traversal import LocatedAction, LocatedDecision, iter_construct_expressions
 
 
 class ExpressionSite(StrEnum):
@@ -95,6 +95,9 @@ def parse_expressions(
             yield _parse(ExpressionSite.AFTER, (*located.path, "after"), guard.after, scope, expected=FLOAT)
     for placed in actions:
         yield from _parse_action(placed, scope)
+    for construct in iter_construct_expressions(design):
+        site = ExpressionSite.GUARD if construct.expected == BOOL else ExpressionSite.AFTER
+        yield _parse(site, construct.path, construct.text, scope, expected=construct.expected)
     for index, promised in enumerate(design.properties):
         match promised:
             case ReachProperty(within=within) if within:

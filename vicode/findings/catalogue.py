@@ -126,6 +126,10 @@ _RECORDS = (
     ("D444", "never-assigned", Severity.NOTE, "variable or output that is never set"),
     ("D445", "never-read", Severity.NOTE, "variable that is set but never read"),
     ("D446", "short-time", Severity.WARNING, "time in a state that is shorter than the period of the component"),
+    ("D447", "invalid-interrupt", Severity.ERROR, "interrupt without an effect, or without one state that follows"),
+    ("D448", "states-twice", Severity.ERROR, "competence or layers beside states"),
+    ("D449", "derived-name", Severity.ERROR, "name that a latch, interrupt, competence or layer needs"),
+    ("D450", "layer-condition", Severity.ERROR, "layer that always commands, or a lowest layer that does not"),
     # XABSL as a target language
     ("L701", "not-in-xabsl", Severity.ERROR, "feature that XABSL does not support"),
     ("L702", "other-result-in-xabsl", Severity.ERROR, "expression with a different result in XABSL"),

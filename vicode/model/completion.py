@@ -102,6 +102,9 @@ def _names_in_expressions(project: Project, design: Design, scope: Scope) -> Ite
     yield from (CompletionOption(label=name, kind="property", detail=unit, doc=doc) for name, doc in _TIMES)
     yield from (CompletionOption(label=name, kind="property", detail="bool", doc=doc) for name, doc in _STATUSES)
     yield CompletionOption(label="done", kind="function", detail="(component) bool", doc="whether a component is done")
+    yield CompletionOption(
+        label="failed", kind="function", detail="(component) bool", doc="whether it has ended without success"
+    )
     for function in FUNCTIONS.values():
         parameters = ", ".join(function.parameter_types) + (", …" if function.is_variadic else "")
         detail = f"({parameters}) {function.return_type}"

@@ -9,6 +9,12 @@ COMMON = "@common"
 Point = tuple[float, float]
 """Center on the canvas in pixels, x to the right, y downwards."""
 
+Origin = tuple[str | int, ...]
+"""The path of the part of a design that something is derived from, such as ("latches", "near") (`model.lowering`).
+
+Empty for what the file contains; what is derived is not saved.
+"""
+
 
 STATE_COLORS = ("blue", "green", "yellow", "orange", "red", "purple")
 """The colors that a state can have in diagrams."""
@@ -44,6 +50,7 @@ class Declaration:
     xabsl_name: str = ""
     tunable: bool = False
     arguments: tuple["Declaration", ...] | None = None
+    origin: Origin = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,6 +93,7 @@ class Transition:
     id: str = ""
     disabled: bool = False
     label_at: Point | None = None
+    origin: Origin = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,6 +104,7 @@ class Stay:
     doc: str = ""
     id: str = ""
     disabled: bool = False
+    origin: Origin = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -111,6 +120,7 @@ class DecisionGroup:
     doc: str = ""
     id: str = ""
     disabled: bool = False
+    origin: Origin = ()
 
 
 Decision = Transition | Stay | DecisionGroup
@@ -121,6 +131,7 @@ class Assign:
     """Sets variables and outputs, and variables of used components (`alias.variable`), in order."""
 
     values: tuple[tuple[str, str], ...]
+    origin: Origin = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -149,6 +160,7 @@ class State:
     `id` survives renaming and identifies code regions. `modulates` are calls that run after `actions`.
     A `disabled` state stays in the design, but is not generated (`vicode.model.disabled`).
     `color` is one of STATE_COLORS, "" for none; it has no effect but in diagrams.
+    A `failed` state is final, too: the component has ended without success.
     `capacity` is the maximum number of robots in the state, `synchronized` the number that must enter simultaneously.
     """
 
@@ -159,6 +171,7 @@ class State:
     at: Point | None = None
     color: str = ""
     final: bool = False
+    failed: bool = False
     capacity: int | None = None
     synchronized: int | None = None
     disabled: bool = False
@@ -168,6 +181,12 @@ class State:
     actions: tuple[Action, ...] = ()
     leave: tuple[Action, ...] = ()
     transitions: tuple[Decision, ...] = ()
+    origin: Origin = ()
+
+    @property
+    def is_end(self) -> bool:
+        """Whether the component is done in this state, with or without success."""
+        return self.final or self.failed
 
     @property
     def all_actions(self) -> tuple[Action, ...]:
@@ -183,6 +202,79 @@ class CommonSection:
     at: Point | None = None
     actions: tuple[Action, ...] = ()
     transitions: tuple[Decision, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Latch:
+    """A bool with hysteresis: true when `on` holds, false when `off` holds; it stays so for at least `hold` seconds."""
+
+    name: str
+    on: str = ""
+    off: str = ""
+    hold: str = ""
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Interrupt:
+    """A rule for many states: when `when` holds, the state `do` becomes active, until `until` holds.
+
+    Attributes:
+        do: The state that handles it.
+        during: Names of states that it interrupts, with `*` as wildcard; all others if empty.
+        until: Its end; empty for the end of `when`.
+        then: One of INTERRUPT_ENDS, or a state.
+        every: The minimum time from the end of one interruption to the next, in seconds.
+    """
+
+    do: str
+    during: tuple[str, ...] = ()
+    when: str = ""
+    until: str = ""
+    then: str = ""
+    every: str = ""
+    doc: str = ""
+
+
+INTERRUPT_ENDS = ("resume", "restart", "skip", "done", "fail")
+"""What follows an interrupt: the interrupted state, the initial state, the state after the interrupted one, an end."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CompetenceStep:
+    """What a competence does while `when` holds; `retries` limits how often it is begun, None for no limit."""
+
+    name: str
+    doc: str = ""
+    when: str = ""
+    requires: tuple[str, ...] = ()
+    modulates: tuple[Call, ...] = ()
+    retries: int | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Competence:
+    """Steps towards a goal: the first possible one is done, until the goal is reached or none is left."""
+
+    goal: str
+    doc: str = ""
+    requires: tuple[str, ...] = ()
+    steps: tuple[CompetenceStep, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Layer:
+    """A layer of a subsumption architecture: all run, the highest one whose `when` holds commands for at least `hold`.
+
+    `requires` are the components that it runs, `modulates` its commands; without commands it inhibits lower layers.
+    """
+
+    name: str
+    doc: str = ""
+    when: str = ""
+    hold: str = ""
+    requires: tuple[str, ...] = ()
+    modulates: tuple[Call, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -265,6 +357,10 @@ class Design:
     members: Code = field(default_factory=Code)
     common: CommonSection = field(default_factory=CommonSection)
     states: tuple[State, ...] = ()
+    latches: tuple[Latch, ...] = ()
+    interrupts: tuple[Interrupt, ...] = ()
+    competence: Competence | None = None
+    layers: tuple[Layer, ...] = ()
     properties: tuple[Property, ...] = ()
     frames: tuple[DiagramFrame, ...] = ()
     notes: tuple[DiagramNote, ...] = ()

@@ -138,11 +138,35 @@ def iter_expressions(design: Design) -> Iterator[LocatedExpression]:
             yield LocatedExpression(path=(*located.path, "after"), text=guard.after, expected="float", state=state)
     for placed in iter_actions(design):
         yield from _iter_action_expressions(placed)
+    yield from iter_construct_expressions(design)
     for index, promised in enumerate(design.properties):
         if isinstance(promised, ReachProperty) and promised.within:
             yield LocatedExpression(path=("properties", index, "within"), text=promised.within, expected="float")
         if isinstance(promised, InvariantProperty):
             yield LocatedExpression(path=("properties", index, "holds"), text=promised.holds, expected="bool")
+
+
+def iter_construct_expressions(design: Design) -> Iterator[LocatedExpression]:
+    """Yield the conditions and times of latches, interrupts, competences and layers (`vicode.model.lowering`)."""
+    for latch in design.latches:
+        yield from _iter_fields(latch, ("latches", latch.name), on="bool", off="bool", hold="float")
+    for index, interrupt in enumerate(design.interrupts):
+        yield from _iter_fields(interrupt, ("interrupts", index), when="bool", until="bool", every="float")
+    if design.competence is not None:
+        yield from _iter_fields(design.competence, ("competence",), goal="bool")
+        for step in design.competence.steps:
+            yield from _iter_fields(step, ("competence", "steps", step.name), when="bool")
+    for layer in design.layers:
+        yield from _iter_fields(layer, ("layers", layer.name), when="bool", hold="float")
+
+
+def _iter_fields(record: object, path: DesignPath, **types: str) -> Iterator[LocatedExpression]:
+    is_layer = path[0] == "layers"
+    for name, expected in types.items():
+        text = getattr(record, name)
+        if text:
+            key = "for" if is_layer and name == "hold" else name
+            yield LocatedExpression(path=(*path, key), text=text, expected=expected)
 
 
 def _iter_initial_values(section: str, declaration: Declaration) -> Iterator[LocatedExpression]:

@@ -12,6 +12,7 @@ from vicode.model.design import (
     Assign,
     Call,
     Code,
+    Competence,
     Declaration,
     Guard,
     InvariantProperty,
@@ -25,6 +26,7 @@ from vicode.model.design import (
 _WORDS = {
     "doc": "description",
     "frequency_hz": "frequency",
+    "origin": "derived from",
     "xabsl_name": "XABSL name",
     "BridgeSettings.tick_ms": "tick",
     "Declaration.initial": "value",
@@ -35,6 +37,10 @@ _WORDS = {
     "Guard.after": "time",
     "Guard.code": "guard code",
     "Guard.when": "guard",
+    "Competence.goal": "until",
+    "Interrupt.during": "while",
+    "Layer.hold": "for",
+    "Layer.requires": "runs",
     "ProfileClass.implementation": "class",
     "Project.generated": "output folder",
     "Project.name": "project name",
@@ -63,7 +69,11 @@ def describe_fields(record: Any, apart: Collection[str] = ()) -> Iterator[str]:
     for field in fields(record):
         value = getattr(record, field.name)
         default = field.default_factory() if field.default_factory is not MISSING else field.default
-        is_left_out = field.name in apart or field.name in _NOT_IN_WORDS or any(map(is_dataclass, _as_tuple(value)))
+        is_left_out = (
+            field.name in apart
+            or field.name in _NOT_IN_WORDS
+            or any(is_dataclass(each) and not isinstance(each, Call) for each in _as_tuple(value))
+        )
         text = describe_value(value)
         if text and value != default and not is_left_out:
             word = field_word(type(record), field.name)
@@ -133,8 +143,19 @@ def describe_value(value: object) -> str:
             return ", ".join(
                 ": ".join(map(describe_value, each)) if _is_pair(each) else describe_value(each) for each in value
             )
+        case _:
+            return _describe_record(value)
+
+
+def _describe_record(value: object) -> str:
+    match value:
         case Declaration():
             return f"{value.name} {describe_declaration(value)}".rstrip()
+        case Call():
+            return f"{value.alias}({_describe_pairs(value.arguments)})"
+        case Competence():
+            steps = (f"{each.name} ({'; '.join(describe_fields(each))})" for each in value.steps)
+            return f"{'; '.join(describe_fields(value))}; steps {', '.join(steps)}"
         case _:
             return str(value)
 

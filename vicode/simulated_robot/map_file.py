@@ -8,7 +8,7 @@ from vicode.findings import Finding, sort_findings
 from vicode.simulated_robot.world_map import MAPS_FOLDER, Circle, StartPose, WorldMap
 from vicode.store.codec import decode_record
 from vicode.store.documents import read_record
-from vicode.store.format import DOC_KEY, FLOW_WIDTH, NAME, VERSION_KEY
+from vicode.store.format_values import DOC_KEY, FLOW_WIDTH, NAME, VERSION_KEY
 from vicode.store.schema_types import KeySchema, ListSchema, PairSchema, RecordSchema, ScalarSchema, ScalarType
 
 _POINT = PairSchema(description="a point [x, y] in m")

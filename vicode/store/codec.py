@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any, cast
 
 from vicode.model.design import Design
+from vicode.model.lowering import lift_design, lower_design
 from vicode.model.project import Project
 from vicode.store.format import DESIGN
 from vicode.store.project_format import PROJECT
@@ -20,8 +21,8 @@ from vicode.store.schema_types import (
 
 
 def decode_design(value: FormatValue, default_name: str) -> Design:
-    """Build a design; `default_name` is the component name if the file has none."""
-    return cast("Design", decode_record(DESIGN, value, {"component": default_name}))
+    """Build a lowered design (`vicode.model.lowering`); `default_name` is the component name if the file has none."""
+    return lower_design(cast("Design", decode_record(DESIGN, value, {"component": default_name})))
 
 
 def decode_project(value: FormatValue, default_name: str) -> Project:
@@ -30,7 +31,7 @@ def decode_project(value: FormatValue, default_name: str) -> Project:
 
 
 def encode_design(design: Design) -> FormatValue:
-    return _encode_record(DESIGN, design)
+    return _encode_record(DESIGN, lift_design(design))
 
 
 def encode_project(project: Project) -> FormatValue:

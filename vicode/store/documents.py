@@ -51,7 +51,7 @@ def read_design(text: str | bytes, file: str = "design.yaml") -> DesignReadResul
     design = None
     if root is not None and root.value is not None:
         design = decode_design(root.value, PurePath(file).stem)
-    source = SourceMap(file=file, line_index=report.line_index, root=root)
+    source = SourceMap(file=file, line_index=report.line_index, root=root, design=design)
     component = design.component if design else ""
     return DesignReadResult(design=design, source_map=source, findings=_with_component(report.findings, component))
 

@@ -4,15 +4,11 @@ The reader, the writer, the conversion from and to the model, the JSON Schema an
 are derived from these schemas.
 """
 
-from vicode.languages import LANGUAGES
 from vicode.model.design import (
-    STATE_COLORS,
     Assign,
     Call,
-    Code,
     CommonSection,
     DecisionGroup,
-    Declaration,
     Design,
     DiagramFrame,
     DiagramNote,
@@ -27,101 +23,40 @@ from vicode.model.design import (
     Transition,
     Use,
 )
+from vicode.store.architecture_format import COMPETENCE, INTERRUPT, LATCH, LAYER, STEP
+from vicode.store.format_values import (
+    ARGUMENT,
+    ARGUMENTS,
+    ASSIGNMENTS,
+    CALLS,
+    CODE,
+    COLOR_KEY,
+    COUNT,
+    DOC_KEY,
+    EXPRESSION,
+    FLAG,
+    FLOW_WIDTH,
+    FREQUENCY_KEY,
+    ID_KEY,
+    LABEL_POSITION,
+    NAME,
+    NAMES,
+    OUTPUT,
+    PARAMETER,
+    POSITION_KEY,
+    TEXT,
+    VARIABLE,
+    VERSION_KEY,
+    XABSL_NAME_KEY,
+    declarations,
+)
 from vicode.store.schema_types import (
     KeySchema,
     ListSchema,
     MapSchema,
-    PairSchema,
     RecordSchema,
     ScalarSchema,
     ScalarType,
-)
-
-VERSION = "1"
-FLOW_WIDTH = 110
-"""Maximum line length of lists and mappings in flow style."""
-
-TEXT = ScalarSchema(scalar_type=ScalarType.TEXT)
-NAME = ScalarSchema(scalar_type=ScalarType.NAME)
-EXPRESSION = ScalarSchema(scalar_type=ScalarType.EXPRESSION)
-FREQUENCY = ScalarSchema(scalar_type=ScalarType.NUMBER)
-COUNT = ScalarSchema(scalar_type=ScalarType.COUNT)
-FLAG = ScalarSchema(scalar_type=ScalarType.BOOLEAN)
-POSITION = PairSchema(description="a position [x, y]")
-LABEL_POSITION = PairSchema(description="a position [fraction, offset]")
-NAMES = ListSchema(description="a list of names", item_schema=lambda: NAME, flow_width=FLOW_WIDTH)
-ASSIGNMENTS = MapSchema(description="a mapping of names to expressions", value_schema=EXPRESSION, flow_width=FLOW_WIDTH)
-ARGUMENTS = MapSchema(
-    description="a mapping of parameters to expressions", value_schema=EXPRESSION, flow_width=FLOW_WIDTH
-)
-CODE = MapSchema(
-    description="code, or a mapping of languages to code",
-    value_schema=TEXT,
-    shorthand_key="python",
-    allowed_keys=tuple(LANGUAGES),
-    wrapper=Code,
-)
-
-VERSION_KEY = KeySchema(
-    "vicode", ScalarSchema(scalar_type=ScalarType.VERSION), "version of the format, 1", required=True, constant=VERSION
-)
-DOC_KEY = KeySchema("doc", TEXT, "description; becomes the docstring of generated code")
-XABSL_NAME_KEY = KeySchema("xabsl_name", TEXT, "name in XABSL")
-_ID = KeySchema("id", NAME, "identifier that does not change with edits; written by the editor")
-_POSITION = KeySchema("at", POSITION, "center on the canvas")
-_COLOR = KeySchema("color", ScalarSchema(scalar_type=ScalarType.NAME, choices=STATE_COLORS), "color in diagrams")
-FREQUENCY_KEY = KeySchema("frequency", FREQUENCY, "frequency in Hz; default: runs on every step", field="frequency_hz")
-
-
-def _declaration(name: str, value_key: str, meaning: str, *more: KeySchema) -> RecordSchema:
-    return RecordSchema(
-        name=name,
-        description=f"a declaration, or just its type or {value_key} value",
-        model=Declaration,
-        shorthand_key=value_key,
-        shorthand_words=dict.fromkeys(("bool", "int", "float"), "type"),
-        flow_width=FLOW_WIDTH,
-        synonyms={word: value_key for word in ("default", "initial", "value") if word != value_key},
-        keys=(
-            KeySchema("type", NAME, "bool, int, float or an enumeration; default: type of the value"),
-            KeySchema(value_key, EXPRESSION, meaning, field="initial"),
-            KeySchema("unit", TEXT, "unit of the value, such as mm"),
-            KeySchema(
-                "range", PairSchema(description="a range [low, high]"), "lowest and highest value, both included"
-            ),
-            DOC_KEY,
-            XABSL_NAME_KEY,
-            *more,
-        ),
-    )
-
-
-def declarations(record: RecordSchema) -> MapSchema:
-    return MapSchema(description="a mapping of names to declarations", value_schema=record, name_field="name")
-
-
-_TUNABLE = KeySchema(
-    "tunable", FLAG, "whether the live view of robots shows a slider for it, from end to end of `range`"
-)
-PARAMETER = _declaration("parameter", "default", "value if the caller does not set it", _TUNABLE)
-VARIABLE = _declaration("variable", "initial", "initial value")
-CONSTANT = _declaration("constant", "value", "value", _TUNABLE)
-ARGUMENT = _declaration("argument", "default", "value if the caller does not set it")
-OUTPUT = _declaration(
-    "output",
-    "initial",
-    "initial value",
-    KeySchema(
-        "arguments",
-        MapSchema(
-            description="a mapping of names to declarations",
-            value_schema=ARGUMENT,
-            name_field="name",
-            flow_width=FLOW_WIDTH,
-        ),
-        "makes the output a function with these arguments, even if empty",
-        keeps_empty=True,
-    ),
 )
 
 USE = RecordSchema(
@@ -132,7 +67,7 @@ USE = RecordSchema(
     flow_width=FLOW_WIDTH,
     keys=(
         KeySchema("component", NAME, "name of the component", required=True),
-        _POSITION,
+        POSITION_KEY,
     ),
 )
 ACTION = RecordSchema(
@@ -152,7 +87,7 @@ ACTION = RecordSchema(
         KeySchema("call", NAME, "the used component to step", field="alias"),
         KeySchema("with", ARGUMENTS, "its parameters; others have their defaults", field="arguments"),
         KeySchema("code", CODE, "code to run", keeps_empty=True),
-        _ID,
+        ID_KEY,
     ),
 )
 ACTIONS = ListSchema(description="code, or a list of actions", item_schema=lambda: ACTION, single_item_key="code")
@@ -186,7 +121,7 @@ DECISION: RecordSchema = RecordSchema(
         KeySchema("when", EXPRESSION, "condition", field="guard.when"),
         KeySchema("after", EXPRESSION, "minimum time in the state, in seconds or in `time_unit`", field="guard.after"),
         DOC_KEY,
-        _ID,
+        ID_KEY,
         KeySchema(
             "label_at",
             LABEL_POSITION,
@@ -228,9 +163,10 @@ STATE = RecordSchema(
     },
     keys=(
         DOC_KEY,
-        _POSITION,
-        _COLOR,
+        POSITION_KEY,
+        COLOR_KEY,
         KeySchema("final", FLAG, "final state: the component reports that it is done", default=False),
+        KeySchema("failed", FLAG, "final state: the component has ended without success", default=False),
         KeySchema(
             "capacity", COUNT, "maximum number of robots of a team in the state at the same time", keeps_empty=True
         ),
@@ -238,22 +174,10 @@ STATE = RecordSchema(
             "synchronized", COUNT, "minimum number of robots of a team that enter the state together", keeps_empty=True
         ),
         KeySchema("disabled", FLAG, "the state has no effect but stays in the design", default=False),
-        _ID,
+        ID_KEY,
         XABSL_NAME_KEY,
         KeySchema("requires", NAMES, "used components stepped before the state runs"),
-        KeySchema(
-            "modulates",
-            MapSchema(
-                description="a mapping of used components to parameters",
-                value_schema=ARGUMENTS,
-                allows_name_list=True,
-                flow_width=FLOW_WIDTH,
-                name_field="alias",
-                entry_model=Call,
-                value_field="arguments",
-            ),
-            "parameters by used component; short for calls at the end of `actions`",
-        ),
+        KeySchema("modulates", CALLS, "parameters by used component; short for calls at the end of `actions`"),
         KeySchema("enter", ACTIONS, "run when the state is entered"),
         *_ACTIONS_KEYS,
         KeySchema("leave", ACTIONS, "run when the state is left"),
@@ -264,7 +188,7 @@ COMMON = RecordSchema(
     name="common",
     description="actions and transitions of all states",
     model=CommonSection,
-    keys=(DOC_KEY, _POSITION, *_ACTIONS_KEYS, _TRANSITIONS),
+    keys=(DOC_KEY, POSITION_KEY, *_ACTIONS_KEYS, _TRANSITIONS),
 )
 PROPERTY = RecordSchema(
     name="property",
@@ -295,7 +219,7 @@ NOTE = RecordSchema(
     model=DiagramNote,
     shorthand_key="text",
     flow_width=FLOW_WIDTH,
-    keys=(KeySchema("text", TEXT, "the text, with line breaks"), _POSITION),
+    keys=(KeySchema("text", TEXT, "the text, with line breaks"), POSITION_KEY),
 )
 FRAME = RecordSchema(
     name="frame",
@@ -304,7 +228,7 @@ FRAME = RecordSchema(
     shorthand_key="states",
     flow_width=FLOW_WIDTH,
     synonyms={"colour": "color"},
-    keys=(_COLOR, KeySchema("states", NAMES, "the states around which it is drawn")),
+    keys=(COLOR_KEY, KeySchema("states", NAMES, "the states around which it is drawn")),
 )
 
 DESIGN = RecordSchema(
@@ -352,6 +276,22 @@ DESIGN = RecordSchema(
             MapSchema(description="a mapping of names to states", value_schema=STATE, name_field="name"),
             "states by name, in display order",
         ),
+        KeySchema(
+            "latches",
+            MapSchema(description="a mapping of names to latches", value_schema=LATCH, name_field="name"),
+            "bools with hysteresis (docs/architectures.md)",
+        ),
+        KeySchema(
+            "interrupts",
+            ListSchema(description="a list of interrupts", item_schema=lambda: INTERRUPT),
+            "rules that interrupt many states, the most urgent first (docs/architectures.md)",
+        ),
+        KeySchema("competence", COMPETENCE, "steps towards a goal, instead of states (docs/architectures.md)"),
+        KeySchema(
+            "layers",
+            MapSchema(description="a mapping of names to layers", value_schema=LAYER, name_field="name"),
+            "layers of a subsumption architecture, the lowest first, instead of states (docs/architectures.md)",
+        ),
         KeySchema("properties", PROPERTIES, "what the behavior promises (docs/analysis.md)"),
         KeySchema(
             "frames",
@@ -369,6 +309,11 @@ DESIGN = RecordSchema(
 DESIGN_RECORDS = (
     DESIGN,
     STATE,
+    LATCH,
+    INTERRUPT,
+    COMPETENCE,
+    STEP,
+    LAYER,
     PROPERTY,
     FRAME,
     NOTE,

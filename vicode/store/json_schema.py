@@ -2,7 +2,8 @@
 
 from typing import cast
 
-from vicode.store.format import DESIGN, VERSION
+from vicode.store.format import DESIGN
+from vicode.store.format_values import VERSION
 from vicode.store.project_format import PROJECT
 from vicode.store.schema_types import (
     KeySchema,

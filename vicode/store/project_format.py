@@ -11,7 +11,7 @@ from vicode.model.project import (
     RemoteReference,
     TopicReference,
 )
-from vicode.store.format import (
+from vicode.store.format_values import (
     ARGUMENT,
     CONSTANT,
     COUNT,

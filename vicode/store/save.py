@@ -5,6 +5,7 @@ import sys
 from collections import Counter
 
 from vicode.model.design import Design
+from vicode.model.lowering import describe_origin, find_lost_edit
 from vicode.model.project import Project
 from vicode.store.codec import encode_design, encode_project
 from vicode.store.documents import read_record
@@ -31,8 +32,12 @@ def save_design(design: Design, old_text: str = "") -> str:
 
     Raises:
         UnreadContentError: Content of the old text that was not understood would be lost.
-        ValueError: States, uses or declarations have duplicate names, or a name is longer than YAML allows.
+        ValueError: An edit of something derived (`vicode.model.lowering`) would be lost; states, uses or declarations
+            have duplicate names, or a name is longer than YAML allows.
     """
+    origin = find_lost_edit(design)
+    if origin:
+        raise ValueError(f"the change is in a part that is derived from {describe_origin(origin)}; change that instead")
     text = _save(DESIGN, encode_design(design), old_text)
     if text is None:
         text = _save(DESIGN, encode_design(sanitize_design(design)), old_text)

@@ -4,7 +4,7 @@ import math
 import re
 
 from vicode.findings import DesignPath, did_you_mean
-from vicode.store.format import VERSION
+from vicode.store.format_values import VERSION
 from vicode.store.line_index import ReadReport
 from vicode.store.schema_types import FormatValue, PairSchema, ScalarSchema, ScalarType
 from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar, YamlSequence

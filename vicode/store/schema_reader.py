@@ -6,7 +6,7 @@ rest of a file can be shown and edited.
 """
 
 from vicode.findings import DesignPath, did_you_mean
-from vicode.store.format import VERSION
+from vicode.store.format_values import VERSION
 from vicode.store.line_index import ReadReport
 from vicode.store.scalar_reader import ScalarReader, node_span, shorten
 from vicode.store.schema_types import (

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 
 from vicode.findings import DesignPath, SourceLocation, Span
+from vicode.model.design import Design
+from vicode.model.lowering import source_path
 from vicode.store.line_index import LineIndex
 from vicode.store.typed_node import TypedNode, YamlNotation
 from vicode.store.yaml_tree import YamlMapping, YamlNode, YamlScalar
@@ -12,11 +14,12 @@ _ESCAPE_LENGTHS = {"x": 4, "u": 6, "U": 10}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourceMap:
-    """The locations of the nodes of one file."""
+    """The locations of the nodes of one file; paths are those of the lowered `design`, if it is one."""
 
     file: str
     line_index: LineIndex
     root: TypedNode | None
+    design: Design | None = None
 
     def locate(self, path: DesignPath = (), span: Span | None = None, *, of_key: bool = False) -> SourceLocation:
         """The location of a node or of its nearest existing ancestor.
@@ -26,7 +29,7 @@ class SourceMap:
             span: Start and end offset in the text of the node.
             of_key: Whether to locate the key of the node.
         """
-        read, is_exact = self._find(path)
+        read, is_exact = self._find(self._source_path(path))
         if read is None:
             return self.line_index.locate(0, 1)
         node = read.node
@@ -42,7 +45,10 @@ class SourceMap:
         return self.line_index.locate(node.start, node.end)
 
     def contains(self, path: DesignPath) -> bool:
-        return self._find(path)[1]
+        return self._find(self._source_path(path))[1]
+
+    def _source_path(self, path: DesignPath) -> DesignPath:
+        return source_path(self.design, path) if self.design is not None else path
 
     def _find(self, path: DesignPath) -> tuple[TypedNode | None, bool]:
         read = self.root

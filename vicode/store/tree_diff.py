@@ -10,7 +10,7 @@ import itertools
 from collections.abc import Iterable, Iterator
 from typing import cast
 
-from vicode.store.format import FLOW_WIDTH
+from vicode.store.format_values import FLOW_WIDTH
 from vicode.store.matching import match_items, match_names
 from vicode.store.member_spans import end_of_deeper_comments, first_attached_comment, line_start, next_line_start
 from vicode.store.schema_types import (

@@ -6,7 +6,7 @@ import pytest
 
 from vicode.editor.session.forms import fields as form_fields
 from vicode.editor.session.forms.nodes import Check, TextField
-from vicode.store.format import COUNT, FLAG, FREQUENCY, NAMES, POSITION, TEXT
+from vicode.store.format_values import COUNT, FLAG, FREQUENCY, NAMES, POSITION, TEXT
 from vicode.store.schema_types import KeySchema, RecordSchema, ScalarSchema, ScalarType
 
 SIZES = ScalarSchema(scalar_type=ScalarType.NAME, choices=("small", "large"))

@@ -9,6 +9,9 @@ from vicode.model.design import (
     CommonSection,
     Design,
     DiagramFrame,
+    Interrupt,
+    Latch,
+    Layer,
     RunCode,
     State,
 )
@@ -22,13 +25,26 @@ from vicode.model.diff.item_diff import (
     diff_values,
 )
 from vicode.model.edits import rename_state, rename_use
+from vicode.model.lowering import lift_design
 from vicode.model.merge.matching import find_renamed_states, find_renamed_uses
-from vicode.model.words import describe_action, describe_property, describe_value
+from vicode.model.words import describe_action, describe_fields, describe_property, describe_value
 
 _SECTIONS = ("parameters", "outputs", "variables")
 _PHASES = {"enter": "enter action", "actions": "action", "leave": "leave action"}
 _APART = {
-    Design: ("component", "uses", *_SECTIONS, "common", "states", "properties", "frames", "notes"),
+    Design: (
+        "component",
+        "uses",
+        *_SECTIONS,
+        "common",
+        "states",
+        "latches",
+        "interrupts",
+        "layers",
+        "properties",
+        "frames",
+        "notes",
+    ),
     State: ("name", "requires", "modulates", *_PHASES, "transitions"),
     CommonSection: ("actions", "transitions"),
 }
@@ -43,6 +59,7 @@ def diff_designs(old: Design, new: Design) -> tuple[Change, ...]:
     """
     if old == new:
         return ()
+    old, new = lift_design(old), lift_design(new)
     changes: list[Change] = []
     if old.component != new.component:
         subject = f"component {new.component}"
@@ -95,6 +112,7 @@ def _diff_content(old: Design, new: Design) -> Iterator[Change]:
         content=_describe_state,
         compare=_diff_state,
     )
+    yield from _diff_constructs(old, new)
     yield from diff_ordered(
         ("properties",),
         old.properties,
@@ -118,6 +136,37 @@ def _diff_content(old: Design, new: Design) -> Iterator[Change]:
         subject=lambda note: f"note {note.name}",
         content=lambda note: str(note.text),
         compare=lambda here, before, after: diff_fields(here, f"note {after.name}", before, after),
+    )
+
+
+def _describe_construct(construct: Latch | Interrupt | Layer) -> str:
+    return "; ".join(describe_fields(construct, ("name",)))
+
+
+def _diff_constructs(old: Design, new: Design) -> Iterator[Change]:
+    yield from diff_keyed(
+        ("latches",),
+        old.latches,
+        new.latches,
+        subject=lambda latch: f"latch {latch.name}",
+        content=_describe_construct,
+        compare=lambda here, before, after: diff_fields(here, f"latch {after.name}", before, after),
+    )
+    yield from diff_ordered(
+        ("interrupts",),
+        old.interrupts,
+        new.interrupts,
+        subject=lambda interrupt: f"interrupt by {interrupt.do}",
+        content=_describe_construct,
+        compare=lambda _there, here, before, after: diff_fields(here, f"interrupt by {after.do}", before, after, ()),
+    )
+    yield from diff_keyed(
+        ("layers",),
+        old.layers,
+        new.layers,
+        subject=lambda layer: f"layer {layer.name}",
+        content=_describe_construct,
+        compare=lambda here, before, after: diff_fields(here, f"layer {after.name}", before, after),
     )
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from vicode.findings import did_you_mean
 from vicode.model.design import Declaration
 from vicode.model.expressions.functions import FUNCTIONS, NUMBER, BuiltinFunction
-from vicode.model.expressions.tree import FLOAT, INT, UNKNOWN, Done, Expr, FunctionCall, OutputRef
+from vicode.model.expressions.tree import BOOL, FLOAT, INT, UNKNOWN, Done, Expr, FunctionCall, Logic, Not, OutputRef
 
 if TYPE_CHECKING:
     from vicode.model.expressions.binder import ExpressionBinder
@@ -21,12 +21,14 @@ class CallBinder:
     def bind(self, syntax: ast.Call) -> Expr | None:
         """Return the node of a call, None after an error."""
         match syntax.func:
-            case ast.Name(id="done"):
-                return self._bind_done(syntax)
+            case ast.Name(id="done" | "failed" as name):
+                return self._bind_end(name, syntax)
             case ast.Name(id=name) if name in FUNCTIONS:
                 return self._bind_function_call(FUNCTIONS[name], syntax)
             case ast.Name(id=name):
-                fix = did_you_mean(name, [*FUNCTIONS, "done"], "use a built-in function or a 'code' predicate")
+                fix = did_you_mean(
+                    name, [*FUNCTIONS, "done", "failed"], "use a built-in function or a 'code' predicate"
+                )
                 self.binder.report("E303", f"unknown function '{name}'", fix, syntax.func)
             case ast.Attribute(value=ast.Name(id=alias), attr=name) if alias in self.binder.scope.uses:
                 return self._bind_output_call(alias, name, syntax)
@@ -37,18 +39,32 @@ class CallBinder:
                 self.binder.report("E302", "only functions and outputs can be called", "", syntax)
         return None
 
-    def _bind_done(self, syntax: ast.Call) -> Expr | None:
+    def _bind_end(self, name: str, syntax: ast.Call) -> Expr | None:
+        """Bind done(x) or failed(x)."""
         match syntax.args:
             case [ast.Name(id=alias)] if alias in self.binder.scope.uses and not syntax.keywords:
-                return Done(alias=alias, span=self.binder.get_span(syntax))
-            case [ast.Name(id=alias) as name]:
+                return self._end_of(alias, name, syntax)
+            case [ast.Name(id=alias) as argument]:
                 fix = did_you_mean(alias, self.binder.scope.uses, "declare it in 'uses'")
-                self.binder.report("E303", f"'{alias}' is not a used component", fix, name)
+                self.binder.report("E303", f"'{alias}' is not a used component", fix, argument)
             case _:
-                self.binder.report(
-                    "E305", "done takes one argument, the alias of a used component", "use done(alias)", syntax
-                )
+                message = f"{name} takes one argument, the alias of a used component"
+                self.binder.report("E305", message, f"use {name}(alias)", syntax)
         return None
+
+    def _end_of(self, alias: str, name: str, syntax: ast.Call) -> Expr | None:
+        """Whether a component is in a final state, and its derived output tells that it is a failed one or not."""
+        span, interface = self.binder.get_span(syntax), self.binder.scope.uses[alias]
+        done = Done(alias=alias, span=span)
+        if interface is None or any(each.origin for each in interface.outputs):
+            failed = OutputRef(alias=alias, output="failed", type=BOOL, span=span)
+            test = failed if name == "failed" else Not(operand=failed, span=span)
+            return done if interface is None else Logic(operator="and", operands=(done, test), span=span)
+        if name == "failed":
+            fix = f"add 'failed: true' to a state of {interface.component}, or use done"
+            self.binder.report("E303", f"'{interface.component}' has no failed state", fix, syntax)
+            return None
+        return done
 
     def _bind_function_call(self, function: BuiltinFunction, syntax: ast.Call) -> Expr | None:
         arguments = [self.binder.bind(argument) for argument in syntax.args]

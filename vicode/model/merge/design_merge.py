@@ -14,6 +14,7 @@ from typing import Any
 from vicode.findings import DesignPath
 from vicode.model.design import Call, Declaration, Design, Transition
 from vicode.model.edits import rename_state, rename_use
+from vicode.model.lowering import lift_design, lower_design
 from vicode.model.merge.list_merge import ListVersions, merge_lists
 from vicode.model.merge.matching import find_renamed_states, find_renamed_uses, item_key
 from vicode.model.merge.text_merge import merge_lines
@@ -21,7 +22,7 @@ from vicode.model.project import Project
 from vicode.model.traversal import iter_actions, iter_transitions
 
 _POSITIONS = (("at",), ("label_at",))
-_ORDERED = {"transitions", "then", "otherwise", "enter", "actions", "leave", "properties"}
+_ORDERED = {"transitions", "then", "otherwise", "enter", "actions", "leave", "properties", "interrupts"}
 # File keys that differ from field names. Empty: the field has no key in the file.
 _FILE_KEYS: dict[str, DesignPath] = {
     "guard": (),
@@ -72,6 +73,7 @@ def merge_designs(base: Design, ours: Design, theirs: Design, *, theirs_at: Coll
         return MergeResult(design=ours)
     if ours == base:
         return MergeResult(design=theirs)
+    base, ours, theirs = map(lift_design, (base, ours, theirs))
     renaming = _Merger(frozenset(theirs_at))
     base, ours, theirs = _unify_names(renaming, base, ours, theirs)
     contested: frozenset[DesignPath] = frozenset()
@@ -80,7 +82,7 @@ def merge_designs(base: Design, ours: Design, theirs: Design, *, theirs_at: Coll
         design = merger.merge_record((), base, ours, theirs)
         broken = _broken_references(design, base, (ours, theirs)) - contested
         if not broken:
-            return MergeResult(design=design, conflicts=(*renaming.conflicts, *merger.conflicts))
+            return MergeResult(design=lower_design(design), conflicts=(*renaming.conflicts, *merger.conflicts))
         contested |= broken
 
 

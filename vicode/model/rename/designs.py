@@ -2,28 +2,37 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any, TypeVar
 
 from vicode.model.design import (
     Action,
     Assign,
     Call,
     Code,
+    Competence,
+    CompetenceStep,
     Decision,
     DecisionGroup,
     Declaration,
     Design,
     Guard,
+    Interrupt,
     InvariantProperty,
+    Latch,
+    Layer,
     Property,
     ReachProperty,
     RunCode,
     State,
 )
+from vicode.model.lowering import lower_design
 from vicode.model.rename.cpp import declares_in_cpp, rename_in_cpp
 from vicode.model.rename.expressions import rename_in_expression
 from vicode.model.rename.python import declares_in_python, rename_in_python
 from vicode.model.rename.references import ReferenceKind, ReferenceRename
 
+_Record = TypeVar("_Record", Latch, Interrupt, CompetenceStep, Competence, Layer)
+_Layer = TypeVar("_Layer", CompetenceStep, Layer)
 _Pairs = tuple[tuple[str, str], ...]
 
 
@@ -38,12 +47,13 @@ def rename_in_design(design: Design, rename: ReferenceRename) -> Design:
         )
         return replace(code, texts=tuple(texts))
 
-    return replace(
+    renamed = replace(
         _rewrite(design, _ReferenceRewriter(rename, in_code)),
         parameters=rename_in_declarations(design.parameters, rename),
         outputs=rename_in_declarations(design.outputs, rename),
         variables=rename_in_declarations(design.variables, rename),
     )
+    return lower_design(renamed)
 
 
 def map_code(design: Design, change: Callable[[Code, str], Code]) -> Design:
@@ -78,6 +88,10 @@ def _rewrite(design: Design, rewriter: "_ReferenceRewriter") -> Design:
         members=rewriter.code(design.members, "members"),
         common=common,
         states=tuple(rewriter.state(state) for state in design.states),
+        latches=tuple(rewriter.expressions(each, "on", "off", "hold") for each in design.latches),
+        interrupts=tuple(rewriter.expressions(each, "when", "until", "every") for each in design.interrupts),
+        competence=rewriter.competence(design.competence) if design.competence else None,
+        layers=tuple(rewriter.layer(each) for each in design.layers),
         properties=tuple(rewriter.promised(each) for each in design.properties),
     )
 
@@ -156,6 +170,26 @@ class _ReferenceRewriter:
     def _guard(self, guard: Guard) -> Guard:
         code = self.code(guard.code, "predicate") if guard.code else None
         return replace(guard, when=self.expression(guard.when), after=self.expression(guard.after), code=code)
+
+    def expressions(self, record: _Record, *names: str) -> _Record:
+        """Rewrite the fields of a record that hold expressions."""
+        changes: dict[str, Any] = {name: self.expression(getattr(record, name)) for name in names}
+        return replace(record, **changes)
+
+    def layer(self, layer: _Layer) -> _Layer:
+        names = ("when", "hold") if hasattr(layer, "hold") else ("when",)
+        changes: dict[str, Any] = {
+            "requires": tuple(self.alias(alias) for alias in layer.requires),
+            "modulates": tuple(self.call(call) for call in layer.modulates),
+        }
+        return replace(self.expressions(layer, *names), **changes)
+
+    def competence(self, competence: Competence) -> Competence:
+        return replace(
+            self.expressions(competence, "goal"),
+            requires=tuple(self.alias(alias) for alias in competence.requires),
+            steps=tuple(self.layer(step) for step in competence.steps),
+        )
 
     def promised(self, promised: Property) -> Property:
         match promised:

@@ -37,7 +37,7 @@ def _is_reference(word: _Identifier, rename: ReferenceRename) -> bool:
         case ReferenceKind.OWN | ReferenceKind.CONSTANT:
             return not word.is_behind_dot and word.after not in (".", "(", "=")
         case ReferenceKind.ALIAS:
-            return not word.is_behind_dot and (word.after == "." or word.inside == "done")
+            return not word.is_behind_dot and (word.after == "." or word.inside in ("done", "failed"))
         case ReferenceKind.ENUMERATION:
             # An enumeration alone is the type of a declaration in its short form.
             return not word.is_behind_dot and word.after in ("", ".")

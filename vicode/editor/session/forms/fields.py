@@ -33,7 +33,8 @@ from vicode.model.names import is_valid_name
 from vicode.model.project import Agent, Enumeration, Interface, Project
 from vicode.model.words import field_word
 from vicode.services import messages
-from vicode.store.format import DESIGN_RECORDS, NAMES
+from vicode.store.format import DESIGN_RECORDS
+from vicode.store.format_values import NAMES
 from vicode.store.project_format import PROJECT_RECORDS
 from vicode.store.schema_types import KeySchema, ListSchema, RecordSchema, ScalarSchema, ScalarType
 

@@ -1,0 +1,73 @@
+"""Competences: a state for each step, one that chooses the next step, and two ends.
+
+`Choose` and each step go to the first possible step that is more urgent than their own. A step whose component is done
+goes back to `Choose`, so that the component restarts if the step is begun again.
+"""
+
+from dataclasses import replace
+
+from vicode.model.design import Assign, CompetenceStep, Decision, Declaration, Design, Guard, State, Transition
+from vicode.model.lowering.additions import add_variables, all_of, names_of, negated, reset_at_restart
+from vicode.model.names import snake_case
+
+CHOOSE, DONE, FAILED_STATE = COMPETENCE_STATES = ("Choose", "Done", "Failed")
+"""The states of a competence besides those of its steps."""
+
+
+def lower_competence(design: Design) -> Design:
+    competence = design.competence
+    if competence is None or design.states or not competence.goal:
+        return design
+    steps = [each for each in competence.steps if each.name not in COMPETENCE_STATES]
+    origin = ("competence",)
+    goal = Transition(to=DONE, guard=Guard(when=competence.goal), origin=origin)
+    choose = State(
+        name=CHOOSE,
+        requires=competence.requires,
+        transitions=(goal, *map(_way_to, steps), Transition(to=FAILED_STATE, origin=origin)),
+        doc=competence.doc,
+        origin=origin,
+    )
+    states = [choose]
+    for index, step in enumerate(steps):
+        states.append(_step_state(design, step, (goal, *map(_way_to, steps[:index]))))
+    states += [State(name=DONE, final=True, origin=origin), State(name=FAILED_STATE, failed=True, origin=origin)]
+    design = replace(design, states=tuple(states), initial=CHOOSE)
+    for step in steps:
+        name = tries_name(step)
+        if step.retries is not None and name not in names_of(design):
+            where = ("competence", "steps", step.name)
+            design = add_variables(design, Declaration(name=name, type="int", initial="0", origin=where))
+            design = reset_at_restart(design, name, "0", where)
+    return design
+
+
+def tries_name(step: CompetenceStep) -> str:
+    """The variable that counts how often a step was begun."""
+    return f"{snake_case(step.name)}_tries"
+
+
+def _way_to(step: CompetenceStep) -> Transition:
+    limit = "" if step.retries is None else f"{tries_name(step)} < {step.retries}"
+    return Transition(
+        to=step.name, guard=Guard(when=all_of(step.when, limit)), origin=("competence", "steps", step.name)
+    )
+
+
+def _step_state(design: Design, step: CompetenceStep, urgent: tuple[Decision, ...]) -> State:
+    assert design.competence is not None
+    origin = ("competence", "steps", step.name)
+    calls_designs = bool(step.modulates)
+    ends = [Transition(to=CHOOSE, guard=Guard(when="action_done"), origin=origin)] if calls_designs else []
+    ends += [Transition(to=CHOOSE, guard=Guard(when=negated(step.when)), origin=origin)] if step.when else []
+    name = tries_name(step)
+    count = (Assign(values=((name, f"{name} + 1"),), origin=origin),) if step.retries is not None else ()
+    return State(
+        name=step.name,
+        doc=step.doc,
+        requires=tuple(dict.fromkeys((*design.competence.requires, *step.requires))),
+        modulates=step.modulates,
+        enter=count,
+        transitions=(*urgent, *ends),
+        origin=origin,
+    )

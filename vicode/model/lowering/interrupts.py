@@ -1,0 +1,185 @@
+"""Interrupts: transitions from each interrupted state to the state that handles it, and back.
+
+The first ones of the list are the most urgent: the states of earlier interrupts are not interrupted by later ones. To
+resume, each state sets a number when it is left, by which the handling state finds the way back.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from fnmatch import fnmatchcase
+
+from vicode.model.design import (
+    Assign,
+    Decision,
+    DecisionGroup,
+    Declaration,
+    Design,
+    Guard,
+    Interrupt,
+    State,
+    Transition,
+)
+from vicode.model.lowering.additions import (
+    LONG_AGO,
+    add_variables,
+    change_state,
+    elapsed_variable,
+    names_of,
+    negated,
+    reset_at_restart,
+)
+from vicode.model.names import snake_case
+from vicode.model.traversal import iter_state_decisions
+
+
+def lower_interrupts(design: Design) -> Design:
+    """Add the transitions of all interrupts, those of the most urgent one first."""
+    design = _add_variables(design)
+    for number in reversed(range(len(design.interrupts))):
+        interrupt = design.interrupts[number]
+        states = interrupted_states(design, number)
+        if states and interrupt.when:
+            design = _lower_interrupt(design, number, states)
+    return design
+
+
+def interrupted_states(design: Design, number: int) -> tuple[State, ...]:
+    """The states that an interrupt leaves; none if the state that handles it does not exist."""
+    interrupt = design.interrupts[number]
+    if design.state(interrupt.do) is None:
+        return ()
+    urgent = {each.do for each in design.interrupts[: number + 1]}
+    candidates = (each for each in design.states if each.name not in urgent and not each.disabled)
+    if not interrupt.during:
+        return tuple(each for each in candidates if not each.is_end)
+    return tuple(each for each in candidates if any(fnmatchcase(each.name, name) for name in interrupt.during))
+
+
+def find_target(design: Design, interrupt: Interrupt, state: State) -> str:
+    """The state that follows an interrupt of a state; empty if there is not exactly one."""
+    match interrupt.then or "resume":
+        case "resume":
+            return state.name
+        case "restart":
+            return design.initial
+        case "skip":
+            return _next_state(state)
+        case "done":
+            return _single(each.name for each in design.states if each.final and not each.failed)
+        case "fail":
+            return _single(each.name for each in design.states if each.failed)
+        case name:
+            return name if design.state(name) is not None else ""
+
+
+def interrupt_names(design: Design) -> tuple[tuple[str, int], ...]:
+    """The names of the variables that interrupts need, each with the number of the first interrupt that needs it."""
+    found: dict[str, int] = {}
+    for number, interrupt in enumerate(design.interrupts):
+        if _remembers(interrupt):
+            found.setdefault(_from_name(interrupt), number)
+        if interrupt.every:
+            found.setdefault(_last_name(interrupt), number)
+    return tuple(found.items())
+
+
+def _add_variables(design: Design) -> Design:
+    for name, number in interrupt_names(design):
+        if name in names_of(design) or not interrupted_states(design, number):
+            continue
+        interrupt, origin = design.interrupts[number], ("interrupts", number)
+        if name == _last_name(interrupt):
+            last = Assign(values=((name, "component_time"),), origin=origin)
+            design = add_variables(design, elapsed_variable(name, origin))
+            design = reset_at_restart(design, name, LONG_AGO, origin)
+            handling = design.state(interrupt.do)
+            assert handling is not None
+            design = change_state(design, replace(handling, actions=(last, *handling.actions)))
+        else:
+            design = add_variables(design, Declaration(name=name, type="int", initial="0", origin=origin))
+            design = _remember_source(design, interrupt, name, number)
+    return design
+
+
+def _remember_source(design: Design, interrupt: Interrupt, variable: str, number: int) -> Design:
+    """Let each state set its number when it is left, those that go to the handling state on their own set 0."""
+    left: set[str] = set()
+    for other, each in enumerate(design.interrupts):
+        if each.do == interrupt.do:
+            left |= {state.name for state in interrupted_states(design, other)}
+
+    def remember(index: int, state: State) -> State:
+        goes_there = any(
+            isinstance(each.decision, Transition) and each.decision.to == interrupt.do
+            for each in iter_state_decisions(state)
+        )
+        if state.name == interrupt.do or (state.name not in left and not goes_there):
+            return state
+        # A state that can be interrupted may also go there by its own transition: then it comes back as well.
+        values = ((variable, str(index if state.name in left else 0)),)
+        return replace(state, leave=(Assign(values=values, origin=("interrupts", number)), *state.leave))
+
+    return replace(design, states=tuple(remember(index, each) for index, each in enumerate(design.states, start=1)))
+
+
+def _lower_interrupt(design: Design, number: int, states: tuple[State, ...]) -> Design:
+    interrupt, origin = design.interrupts[number], ("interrupts", number)
+    way_in: Decision = Transition(to=interrupt.do, guard=Guard(when=interrupt.when), doc=interrupt.doc, origin=origin)
+    if interrupt.every:
+        allowed = f"component_time - {_last_name(interrupt)} >= {interrupt.every}"
+        inner = Transition(to=interrupt.do, guard=Guard(when=allowed), doc=interrupt.doc, origin=origin)
+        way_in = DecisionGroup(guard=Guard(when=interrupt.when), then=(inner,), origin=origin)
+    interrupted = {each.name for each in states}
+    back = _ways_back(design, interrupt, states, number)
+
+    def change(state: State) -> State:
+        if state.name in interrupted:
+            return replace(state, transitions=(way_in, *state.transitions))
+        return replace(state, transitions=(*back, *state.transitions)) if state.name == interrupt.do else state
+
+    return replace(design, states=tuple(map(change, design.states)))
+
+
+def _ways_back(design: Design, interrupt: Interrupt, states: tuple[State, ...], number: int) -> tuple[Decision, ...]:
+    origin = ("interrupts", number)
+    guard = Guard(when=interrupt.until or negated(interrupt.when))
+    targets = {each.name: find_target(design, interrupt, each) for each in states}
+    if not _remembers(interrupt):
+        return tuple(Transition(to=to, guard=guard, origin=origin) for to in sorted(set(targets.values()) - {""}))
+    numbers = {each.name: index for index, each in enumerate(design.states, start=1)}
+    variable = _from_name(interrupt)
+    choices = tuple(
+        Transition(to=to, guard=Guard(when=f"{variable} == {numbers[name]}"), origin=origin)
+        for name, to in targets.items()
+        if to
+    )
+    return (DecisionGroup(guard=guard, then=choices, origin=origin),) if choices else ()
+
+
+def _remembers(interrupt: Interrupt) -> bool:
+    """Whether what follows depends on the interrupted state."""
+    return (interrupt.then or "resume") in ("resume", "skip")
+
+
+def _next_state(state: State) -> str:
+    """The target of the transition that is taken when the work of a state is done, or of its only one."""
+    transitions = [
+        each.decision
+        for each in iter_state_decisions(state)
+        if isinstance(each.decision, Transition) and not each.decision.origin
+    ]
+    ends = [each.to for each in transitions if "done(" in each.guard.when or "action_done" in each.guard.when]
+    return ends[0] if ends else _single(dict.fromkeys(each.to for each in transitions))
+
+
+def _single(names: Iterable[str]) -> str:
+    found = list(names)
+    return found[0] if len(found) == 1 else ""
+
+
+def _from_name(interrupt: Interrupt) -> str:
+    return f"{snake_case(interrupt.do)}_from"
+
+
+def _last_name(interrupt: Interrupt) -> str:
+    return f"{snake_case(interrupt.do)}_last"

@@ -1,0 +1,52 @@
+"""Layers: a state for each, named after it. The state of the highest layer that wants to command is active.
+
+All components of all layers are required in each state, so lower layers keep running while they are suppressed.
+"""
+
+from dataclasses import replace
+
+from vicode.model.design import Assign, Design, Guard, Layer, State, Transition
+from vicode.model.lowering.additions import (
+    LONG_AGO,
+    add_first_action,
+    add_variables,
+    elapsed_variable,
+    names_of,
+    reset_at_restart,
+)
+from vicode.model.names import snake_case
+
+
+def lower_layers(design: Design) -> Design:
+    if not design.layers or design.states or design.competence is not None:
+        return design
+    requires = tuple(dict.fromkeys(alias for layer in design.layers for alias in layer.requires))
+    states = tuple(
+        State(
+            name=layer.name, doc=layer.doc, requires=requires, modulates=layer.modulates, origin=("layers", layer.name)
+        )
+        for layer in design.layers
+    )
+    ways = tuple(_way_to(layer, is_lowest=layer is design.layers[0]) for layer in reversed(design.layers))
+    common = replace(design.common, transitions=(*ways, *design.common.transitions))
+    design = replace(design, states=states, initial=design.layers[0].name, common=common)
+    for layer in design.layers[1:]:
+        name = last_name(layer)
+        if layer.hold and layer.when and name not in names_of(design):
+            origin = ("layers", layer.name)
+            last = Assign(values=((name, f"component_time if {layer.when} else {name}"),), origin=origin)
+            design = add_variables(design, elapsed_variable(name, origin))
+            design = reset_at_restart(add_first_action(design, last), name, LONG_AGO, origin)
+    return design
+
+
+def last_name(layer: Layer) -> str:
+    """The variable for the time when a layer last wanted to command."""
+    return f"{snake_case(layer.name)}_last"
+
+
+def _way_to(layer: Layer, *, is_lowest: bool) -> Transition:
+    when = "" if is_lowest else layer.when
+    if when and layer.hold:
+        when = f"({when}) or component_time - {last_name(layer)} < {layer.hold}"
+    return Transition(to=layer.name, guard=Guard(when=when), origin=("layers", layer.name))
