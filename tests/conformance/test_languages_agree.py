@@ -30,6 +30,7 @@ FEATURES = {
     *("order", "groups", "timers", "common transitions", "requires and modulates", "restart", "resume", "periods"),
     *("nested components", "parameters", "enumerations", "arithmetic", "final states", "outputs and variables"),
     *("code", "arithmetic: xabsl", "time_unit: ms", "teams", "disabled", "names", "times"),
+    *("failed states", "latches", "interrupts", "competences", "layers"),
 }
 
 

@@ -16,7 +16,8 @@ from vicode.store.project_format import PROJECT_RECORDS
 from vicode.store.schema_types import ListSchema, MapSchema, RecordSchema, ValueSchema
 
 RECORDS = {record.name: record for record in (*DESIGN_RECORDS, *PROJECT_RECORDS)}
-NOT_IN_FILE = {"Interface.remote", "Interface.tunable", "Project.designs", "Project.unreadable"}
+DERIVED = {f"{name}.origin" for name in ("Declaration", "Transition", "Stay", "DecisionGroup", "Assign", "State")}
+NOT_IN_FILE = {*DERIVED, "Interface.remote", "Interface.tunable", "Project.designs", "Project.unreadable"}
 MODEL_CLASSES = [
     value
     for module in (design_model, project_model)

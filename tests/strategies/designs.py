@@ -12,6 +12,8 @@ from vicode.model.design import (
     Call,
     Code,
     CommonSection,
+    Competence,
+    CompetenceStep,
     Decision,
     DecisionGroup,
     Declaration,
@@ -19,7 +21,10 @@ from vicode.model.design import (
     DiagramFrame,
     DiagramNote,
     Guard,
+    Interrupt,
     InvariantProperty,
+    Latch,
+    Layer,
     NeverProperty,
     Property,
     ReachProperty,
@@ -30,6 +35,7 @@ from vicode.model.design import (
     Transition,
     Use,
 )
+from vicode.model.lowering import lower_design
 from vicode.model.project import (
     Agent,
     BridgeSettings,
@@ -143,6 +149,7 @@ states: st.SearchStrategy[State] = st.builds(
     at=points,
     color=st.sampled_from(("", *STATE_COLORS)),
     final=st.booleans(),
+    failed=st.booleans(),
     capacity=counts,
     synchronized=counts,
     disabled=st.booleans(),
@@ -160,6 +167,28 @@ properties: st.SearchStrategy[Property] = (
     | st.builds(RecoveryProperty, can_reach=names)
     | st.builds(InvariantProperty, holds=expressions)
 )
+_optional = st.just("") | expressions
+_doc = st.just("") | texts
+latches = st.builds(Latch, name=names, on=expressions, off=_optional, hold=_optional, doc=_doc)
+interrupts = st.builds(
+    Interrupt,
+    do=names,
+    during=_tuples(names, 2),
+    when=expressions,
+    until=_optional,
+    then=_no_name,
+    every=_optional,
+    doc=_doc,
+)
+_work = {"doc": _doc, "when": _optional, "requires": _tuples(names, 2), "modulates": _unique(calls, "alias", 2)}
+competences = st.builds(
+    Competence,
+    goal=expressions,
+    doc=_doc,
+    requires=_tuples(names, 2),
+    steps=_unique(st.builds(CompetenceStep, name=names, retries=counts, **_work), "name", 2),
+)
+layers = st.builds(Layer, name=names, hold=_optional, **_work)
 uses = st.builds(Use, alias=names, component=names, at=points)
 _fields: dict[str, st.SearchStrategy[Any]] = {
     "component": names,
@@ -174,6 +203,10 @@ _fields: dict[str, st.SearchStrategy[Any]] = {
     "outputs": _unique(outputs, "name", 2),
     "variables": _unique(declarations(), "name", 2),
     "initial": st.just("") | names,
+    "latches": _unique(latches, "name", 1),
+    "interrupts": _tuples(interrupts, 1),
+    "competence": st.none() | st.none() | competences,
+    "layers": _unique(layers, "name", 1),
     "properties": _tuples(properties, 2),
     "module": code,
     "members": code,
@@ -191,8 +224,8 @@ _fields: dict[str, st.SearchStrategy[Any]] = {
         transitions=_tuples(decisions, 2),
     ),
 }
-designs = st.builds(Design, **_fields, states=_unique(states, "name", 3))
-designs_with_states = st.builds(Design, **_fields, states=_unique(states, "name", 3, smallest=1))
+designs = st.builds(Design, **_fields, states=_unique(states, "name", 3)).map(lower_design)
+designs_with_states = st.builds(Design, **_fields, states=_unique(states, "name", 3, smallest=1)).map(lower_design)
 enumerations = st.builds(
     Enumeration,
     name=names,

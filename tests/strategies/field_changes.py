@@ -7,6 +7,8 @@ from itertools import count
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 Place = tuple[str | int, ...]
+NOT_WRITTEN = "origin"
+"""The field that marks what is derived, and not in the file."""
 
 
 def full_value(hint: Any) -> Any:
@@ -17,7 +19,7 @@ def full_value(hint: Any) -> Any:
 def iter_changes(value: Any, left_out: frozenset[str] = frozenset()) -> Iterator[tuple[Place, Any]]:
     """The value with one field changed, in each way for each field of each dataclass in it; without some fields."""
     for field in fields(value):
-        if not field.init or field.name in left_out:
+        if not field.init or field.name in (*left_out, NOT_WRITTEN):
             continue
         hint, content = get_type_hints(type(value))[field.name], getattr(value, field.name)
         for other in _others(hint, content):
@@ -97,5 +99,5 @@ class _Builder:
 
     def _build_record(self, kind: type, owners: tuple[type, ...]) -> Any:
         hints = get_type_hints(kind)
-        names = [field.name for field in fields(kind) if field.init]  # type: ignore[arg-type]
+        names = [field.name for field in fields(kind) if field.init and field.name != NOT_WRITTEN]  # type: ignore[arg-type]
         return kind(**{name: self.build(hints[name], owners) for name in names})

@@ -11,11 +11,11 @@ from itertools import zip_longest
 
 from vicode.findings import DesignPath
 from vicode.model.design import Action, Call, Decision, Declaration, Design, Origin, RunCode, State
-from vicode.model.lowering.competences import COMPETENCE_STATES, lower_competence, tries_name
+from vicode.model.lowering.competences import COMPETENCE_STATES, LATEST, lower_competence, tries_name
 from vicode.model.lowering.ends import FAILED, lower_ends
 from vicode.model.lowering.interrupts import find_target, interrupt_names, interrupted_states, lower_interrupts
 from vicode.model.lowering.latches import latch_names, lower_latches
-from vicode.model.lowering.layers import last_name, lower_layers
+from vicode.model.lowering.layers import lower_layers, until_name
 
 __all__ = [
     "COMPETENCE_STATES",
@@ -54,7 +54,7 @@ def lift_design(design: Design) -> Design:
         design,
         outputs=_written(design.outputs),
         variables=_written(design.variables),
-        initial="" if is_whole and (initial is None or initial.origin) else design.initial,
+        initial="" if is_whole and initial is not None and initial.origin else design.initial,
         common=replace(
             design.common,
             actions=_written_actions(design.common.actions),
@@ -88,9 +88,10 @@ def derived_variables(design: Design) -> tuple[tuple[str, Origin], ...]:
         found += [(name, ("latches", latch.name)) for name in latch_names(latch)]
     found += [(name, ("interrupts", number)) for name, number in interrupt_names(design)]
     if design.competence is not None:
-        limited = (step for step in design.competence.steps if step.retries is not None)
+        limited = [step for step in design.competence.steps if step.retries is not None]
+        found += [(LATEST, ("competence",))] if limited else []
         found += [(tries_name(step), ("competence", "steps", step.name)) for step in limited]
-    found += [(last_name(layer), ("layers", layer.name)) for layer in design.layers[1:] if layer.hold and layer.when]
+    found += [(until_name(layer), ("layers", layer.name)) for layer in design.layers[1:] if layer.hold and layer.when]
     return tuple(found)
 
 

@@ -19,20 +19,17 @@ def change_state(design: Design, state: State) -> Design:
     return replace(design, states=tuple(state if each.name == state.name else each for each in design.states))
 
 
-def reset_at_restart(design: Design, variable: str, value: str, origin: Origin) -> Design:
-    """Give a variable its value at each restart: the initial state is entered, and component_time is 0."""
-    reset = Assign(values=((variable, f"{value} if component_time <= 0 else {variable}"),), origin=origin)
-    initial = design.state(design.initial)
-    return design if initial is None else change_state(design, replace(initial, enter=(reset, *initial.enter)))
+def add_time(design: Design, name: str, origin: Origin) -> Design:
+    """Add a variable for a component_time in the future, which is 0 after each restart."""
+    return add_variables(design, Declaration(name=name, type="float", origin=origin))
 
 
-def elapsed_variable(name: str, origin: Origin) -> Declaration:
-    """A variable for a time in the past, at first long ago."""
-    return Declaration(name=name, type="float", initial=LONG_AGO, origin=origin)
+def since_restart(value: str) -> str:
+    """A value kept from earlier iterations, but 0 in the iteration of a restart.
 
-
-LONG_AGO = "-1e9"
-"""A component_time before each start."""
+    The states of XABSL have no enter actions, which would be the place to reset it.
+    """
+    return f"0 if component_time <= 0 else {value}"
 
 
 def names_of(design: Design) -> set[str]:

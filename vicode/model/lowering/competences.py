@@ -7,11 +7,13 @@ goes back to `Choose`, so that the component restarts if the step is begun again
 from dataclasses import replace
 
 from vicode.model.design import Assign, CompetenceStep, Decision, Declaration, Design, Guard, State, Transition
-from vicode.model.lowering.additions import add_variables, all_of, names_of, negated, reset_at_restart
+from vicode.model.lowering.additions import add_first_action, add_variables, all_of, names_of, negated, since_restart
 from vicode.model.names import snake_case
 
 CHOOSE, DONE, FAILED_STATE = COMPETENCE_STATES = ("Choose", "Done", "Failed")
 """The states of a competence besides those of its steps."""
+LATEST = "latest_step"
+"""A variable of competences that limit how often a step is begun."""
 
 
 def lower_competence(design: Design) -> Design:
@@ -33,13 +35,29 @@ def lower_competence(design: Design) -> Design:
         states.append(_step_state(design, step, (goal, *map(_way_to, steps[:index]))))
     states += [State(name=DONE, final=True, origin=origin), State(name=FAILED_STATE, failed=True, origin=origin)]
     design = replace(design, states=tuple(states), initial=CHOOSE)
-    for step in steps:
-        name = tries_name(step)
-        if step.retries is not None and name not in names_of(design):
-            where = ("competence", "steps", step.name)
-            design = add_variables(design, Declaration(name=name, type="int", initial="0", origin=where))
-            design = reset_at_restart(design, name, "0", where)
-    return design
+    return _add_counters(design, steps)
+
+
+def _add_counters(design: Design, steps: list[CompetenceStep]) -> Design:
+    """Count how often each step with a limit was begun; `LATEST` is the number of the latest state."""
+    counted = [each for each in steps if each.retries is not None]
+    if not counted or LATEST in names_of(design):
+        return design
+    origin = ("competence",)
+    names = [LATEST, *map(tries_name, counted)]
+    reset = Assign(values=tuple((name, since_restart(name)) for name in names), origin=origin)
+    variables = (Declaration(name=name, type="int", initial="0", origin=origin) for name in names)
+    design = add_first_action(add_variables(design, *variables), reset)
+
+    def count(number: int, state: State) -> State:
+        values = [(LATEST, str(number))]
+        for step in counted:
+            if step.name == state.name:
+                name = tries_name(step)
+                values.insert(0, (name, f"{name} if {LATEST} == {number} else {name} + 1"))
+        return replace(state, actions=(Assign(values=tuple(values), origin=origin),))
+
+    return replace(design, states=tuple(count(number, each) for number, each in enumerate(design.states)))
 
 
 def tries_name(step: CompetenceStep) -> str:
@@ -48,7 +66,7 @@ def tries_name(step: CompetenceStep) -> str:
 
 
 def _way_to(step: CompetenceStep) -> Transition:
-    limit = "" if step.retries is None else f"{tries_name(step)} < {step.retries}"
+    limit = "" if step.retries is None else f"component_time <= 0 or {tries_name(step)} < {step.retries}"
     return Transition(
         to=step.name, guard=Guard(when=all_of(step.when, limit)), origin=("competence", "steps", step.name)
     )
@@ -60,14 +78,11 @@ def _step_state(design: Design, step: CompetenceStep, urgent: tuple[Decision, ..
     calls_designs = bool(step.modulates)
     ends = [Transition(to=CHOOSE, guard=Guard(when="action_done"), origin=origin)] if calls_designs else []
     ends += [Transition(to=CHOOSE, guard=Guard(when=negated(step.when)), origin=origin)] if step.when else []
-    name = tries_name(step)
-    count = (Assign(values=((name, f"{name} + 1"),), origin=origin),) if step.retries is not None else ()
     return State(
         name=step.name,
         doc=step.doc,
         requires=tuple(dict.fromkeys((*design.competence.requires, *step.requires))),
         modulates=step.modulates,
-        enter=count,
         transitions=(*urgent, *ends),
         origin=origin,
     )

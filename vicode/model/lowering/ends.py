@@ -24,7 +24,7 @@ def lower_ends(design: Design) -> Design:
         if not state.is_end:
             return state
         value = "true" if state.failed else "false"
-        return replace(state, final=True, enter=(Assign(values=((FAILED, value),), origin=origin), *state.enter))
+        return replace(state, final=True, actions=(Assign(values=((FAILED, value),), origin=origin), *state.actions))
 
     return replace(
         design, outputs=(*design.outputs, output), states=tuple(lower_state(state) for state in design.states)

@@ -1,7 +1,7 @@
 """Interrupts: transitions from each interrupted state to the state that handles it, and back.
 
 The first ones of the list are the most urgent: the states of earlier interrupts are not interrupted by later ones. To
-resume, each state sets a number when it is left, by which the handling state finds the way back.
+resume, each state sets a number, by which the handling state finds the way back.
 """
 
 from collections.abc import Iterable
@@ -20,13 +20,13 @@ from vicode.model.design import (
     Transition,
 )
 from vicode.model.lowering.additions import (
-    LONG_AGO,
+    add_first_action,
+    add_time,
     add_variables,
     change_state,
-    elapsed_variable,
     names_of,
     negated,
-    reset_at_restart,
+    since_restart,
 )
 from vicode.model.names import snake_case
 from vicode.model.traversal import iter_state_decisions
@@ -79,7 +79,7 @@ def interrupt_names(design: Design) -> tuple[tuple[str, int], ...]:
         if _remembers(interrupt):
             found.setdefault(_from_name(interrupt), number)
         if interrupt.every:
-            found.setdefault(_last_name(interrupt), number)
+            found.setdefault(_again_name(interrupt), number)
     return tuple(found.items())
 
 
@@ -88,21 +88,24 @@ def _add_variables(design: Design) -> Design:
         if name in names_of(design) or not interrupted_states(design, number):
             continue
         interrupt, origin = design.interrupts[number], ("interrupts", number)
-        if name == _last_name(interrupt):
-            last = Assign(values=((name, "component_time"),), origin=origin)
-            design = add_variables(design, elapsed_variable(name, origin))
-            design = reset_at_restart(design, name, LONG_AGO, origin)
-            handling = design.state(interrupt.do)
-            assert handling is not None
-            design = change_state(design, replace(handling, actions=(last, *handling.actions)))
+        if name == _again_name(interrupt):
+            design = add_time(design, name, origin)
+            reset = Assign(values=((name, since_restart(name)),), origin=origin)
+            last = Assign(values=((name, f"component_time + {interrupt.every}"),), origin=origin)
+            design = _add_state_action(add_first_action(design, reset), interrupt.do, last)
         else:
             design = add_variables(design, Declaration(name=name, type="int", initial="0", origin=origin))
             design = _remember_source(design, interrupt, name, number)
     return design
 
 
+def _add_state_action(design: Design, name: str, action: Assign) -> Design:
+    state = design.state(name)
+    return design if state is None else change_state(design, replace(state, actions=(action, *state.actions)))
+
+
 def _remember_source(design: Design, interrupt: Interrupt, variable: str, number: int) -> Design:
-    """Let each state set its number when it is left, those that go to the handling state on their own set 0."""
+    """Let each interrupted state set its number; others that go to the handling state set 0."""
     left: set[str] = set()
     for other, each in enumerate(design.interrupts):
         if each.do == interrupt.do:
@@ -117,7 +120,7 @@ def _remember_source(design: Design, interrupt: Interrupt, variable: str, number
             return state
         # A state that can be interrupted may also go there by its own transition: then it comes back as well.
         values = ((variable, str(index if state.name in left else 0)),)
-        return replace(state, leave=(Assign(values=values, origin=("interrupts", number)), *state.leave))
+        return replace(state, actions=(Assign(values=values, origin=("interrupts", number)), *state.actions))
 
     return replace(design, states=tuple(remember(index, each) for index, each in enumerate(design.states, start=1)))
 
@@ -126,7 +129,7 @@ def _lower_interrupt(design: Design, number: int, states: tuple[State, ...]) -> 
     interrupt, origin = design.interrupts[number], ("interrupts", number)
     way_in: Decision = Transition(to=interrupt.do, guard=Guard(when=interrupt.when), doc=interrupt.doc, origin=origin)
     if interrupt.every:
-        allowed = f"component_time - {_last_name(interrupt)} >= {interrupt.every}"
+        allowed = f"component_time <= 0 or component_time >= {_again_name(interrupt)}"
         inner = Transition(to=interrupt.do, guard=Guard(when=allowed), doc=interrupt.doc, origin=origin)
         way_in = DecisionGroup(guard=Guard(when=interrupt.when), then=(inner,), origin=origin)
     interrupted = {each.name for each in states}
@@ -181,5 +184,5 @@ def _from_name(interrupt: Interrupt) -> str:
     return f"{snake_case(interrupt.do)}_from"
 
 
-def _last_name(interrupt: Interrupt) -> str:
-    return f"{snake_case(interrupt.do)}_last"
+def _again_name(interrupt: Interrupt) -> str:
+    return f"{snake_case(interrupt.do)}_again"

@@ -2,12 +2,11 @@
 
 from vicode.model.design import Assign, Declaration, Design, Latch
 from vicode.model.lowering.additions import (
-    LONG_AGO,
     add_first_action,
+    add_time,
     add_variables,
-    elapsed_variable,
     names_of,
-    reset_at_restart,
+    since_restart,
 )
 
 
@@ -21,7 +20,7 @@ def lower_latches(design: Design) -> Design:
 
 def latch_names(latch: Latch) -> tuple[str, ...]:
     """The names of its variables."""
-    more = (f"{latch.name}_changes", f"{latch.name}_since") if latch.hold else ()
+    more = (f"{latch.name}_changes", f"{latch.name}_until") if latch.hold else ()
     return (latch.name, *more)
 
 
@@ -33,16 +32,16 @@ def _lower_latch(design: Design, latch: Latch) -> Design:
     if not latch.hold:
         value = f"({latch.on}) or {name} and not ({off})" if latch.off else latch.on
         return add_first_action(design, Assign(values=((name, value),), origin=origin))
-    _name, changes, since = latch_names(latch)
+    _name, changes, until = latch_names(latch)
     values = (
         (
             changes,
-            f"component_time - {since} >= {latch.hold} and (({off}) and not ({latch.on}) if {name} else ({latch.on}))",
+            f"(component_time <= 0 or component_time >= {until}) and "
+            f"({name} and ({off}) and not ({latch.on}) or not {name} and ({latch.on}))",
         ),
-        (name, f"{name} != {changes}"),
-        (since, f"component_time if {changes} else {since}"),
+        (name, f"{name} and not {changes} or not {name} and {changes}"),
+        (until, f"component_time + {latch.hold} if {changes} else {since_restart(until)}"),
     )
     flag = Declaration(name=changes, type="bool", initial="false", origin=origin)
-    design = add_variables(design, flag, elapsed_variable(since, origin))
-    design = add_first_action(design, Assign(values=values, origin=origin))
-    return reset_at_restart(design, since, LONG_AGO, origin)
+    design = add_time(add_variables(design, flag), until, origin)
+    return add_first_action(design, Assign(values=values, origin=origin))

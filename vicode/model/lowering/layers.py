@@ -7,12 +7,10 @@ from dataclasses import replace
 
 from vicode.model.design import Assign, Design, Guard, Layer, State, Transition
 from vicode.model.lowering.additions import (
-    LONG_AGO,
     add_first_action,
-    add_variables,
-    elapsed_variable,
+    add_time,
     names_of,
-    reset_at_restart,
+    since_restart,
 )
 from vicode.model.names import snake_case
 
@@ -31,22 +29,22 @@ def lower_layers(design: Design) -> Design:
     common = replace(design.common, transitions=(*ways, *design.common.transitions))
     design = replace(design, states=states, initial=design.layers[0].name, common=common)
     for layer in design.layers[1:]:
-        name = last_name(layer)
+        name = until_name(layer)
         if layer.hold and layer.when and name not in names_of(design):
             origin = ("layers", layer.name)
-            last = Assign(values=((name, f"component_time if {layer.when} else {name}"),), origin=origin)
-            design = add_variables(design, elapsed_variable(name, origin))
-            design = reset_at_restart(add_first_action(design, last), name, LONG_AGO, origin)
+            value = f"component_time + {layer.hold} if {layer.when} else {since_restart(name)}"
+            design = add_first_action(design, Assign(values=((name, value),), origin=origin))
+            design = add_time(design, name, origin)
     return design
 
 
-def last_name(layer: Layer) -> str:
-    """The variable for the time when a layer last wanted to command."""
-    return f"{snake_case(layer.name)}_last"
+def until_name(layer: Layer) -> str:
+    """The variable for the time until which a layer commands."""
+    return f"{snake_case(layer.name)}_until"
 
 
 def _way_to(layer: Layer, *, is_lowest: bool) -> Transition:
     when = "" if is_lowest else layer.when
     if when and layer.hold:
-        when = f"({when}) or component_time - {last_name(layer)} < {layer.hold}"
+        when = f"({when}) or component_time > 0 and component_time < {until_name(layer)}"
     return Transition(to=layer.name, guard=Guard(when=when), origin=("layers", layer.name))
