@@ -5,7 +5,6 @@ a hypothesis is fit if the pixels inside its window have the ball's color and th
 images from different angles judge a hypothesis, so that a patch of color in one of them is not taken for the ball.
 """
 
-import math
 from random import Random
 
 from field.geometry import Point
@@ -13,7 +12,6 @@ from field.simulated_images import HEIGHT, WIDTH, BallImage
 
 POPULATION = 30
 GENERATIONS = 4
-RANGE_MM = 5000.0
 CONFIRMED = 0.35
 
 _ALPHA = 1.0
@@ -37,10 +35,10 @@ class GeneticBallTracker:
         self._unseen = _TRACKED_IMAGES
 
     def update(self, image: BallImage) -> Point | None:
-        """Evolve the population with a new image; return the position of the ball, or None if it is not in the image."""
+        """Evolve the population with a new image; return the position of the ball, or None if it is not there."""
         self._images = [image, *self._images[: _IMAGES - 1]]
         is_lost = self._unseen >= _TRACKED_IMAGES
-        population = [*self._population, *self._from_scan_lines(image)] if is_lost else self._population
+        population = [*self._population, *_from_scan_lines(image)] if is_lost else self._population
         ranked = self._ranked(population)
         for _ in range(GENERATIONS):
             ranked = self._ranked(self._next_generation(ranked))
@@ -76,12 +74,12 @@ class GeneticBallTracker:
     def _next_generation(self, ranked: list[tuple[float, Point]]) -> list[Point]:
         """Keep the elite; children are weighted means of two parents, mutated."""
         elite = [place for _, place in ranked[:_ELITE]]
+        immigrant = self._random_place()
         if not elite:
-            return [place for _ in range(POPULATION) if (place := self._random_place()) is not None]
+            return [] if immigrant is None else [immigrant]
         weights = [fitness for fitness, _ in ranked]
         parents = self._noise.choices([place for _, place in ranked], weights, k=2 * (POPULATION - _ELITE))
         children = [self._child(*pair) for pair in zip(parents[::2], parents[1::2], strict=True)]
-        immigrant = self._random_place()
         return [*elite, *children[1:], children[0] if immigrant is None else immigrant]
 
     def _child(self, mother: Point, father: Point) -> Point:
@@ -97,28 +95,22 @@ class GeneticBallTracker:
             x + (sight.x * along - sight.y * across) / distance, y + (sight.y * along + sight.x * across) / distance
         )
 
-    def _from_scan_lines(self, image: BallImage) -> list[Point]:
-        """Return places of positive pixels on every third row; the first hypotheses about a ball that is not tracked."""
-        seeds = []
-        for row in range(0, HEIGHT, _SCAN_LINE_PX):
-            bits = image.rows[row]
-            while bits:
-                first = (bits & -bits).bit_length() - 1
-                run = ((bits >> first) + 1 & -((bits >> first) + 1)).bit_length() - 1
-                bits &= ~(((1 << run) - 1) << first)
-                seeds.append(image.optics.place(first + run / 2, row + 0.5))
-        return [place for place in seeds if place is not None and _distance(place, image) < RANGE_MM]
-
     def _random_place(self) -> Point | None:
-        image = self._images[0]
-        place = image.optics.place(self._noise.uniform(0, WIDTH), self._noise.uniform(0, HEIGHT))
-        return place if place is not None and _distance(place, image) < RANGE_MM else None
+        return self._images[0].optics.place(self._noise.uniform(0, WIDTH), self._noise.uniform(0, HEIGHT))
+
+
+def _from_scan_lines(image: BallImage) -> list[Point]:
+    """Return places of positive pixels on every third row, the first hypotheses about a ball that is not tracked."""
+    rows = [row for row in range(0, HEIGHT, _SCAN_LINE_PX) if image.rows[row]]
+    pixels = [(column, row) for row in rows for column in range(WIDTH) if image.rows[row] >> column & 1]
+    places = (image.optics.place(column + 0.5, row + 0.5) for column, row in pixels)
+    return [place for place in places if place is not None]
 
 
 def density(place: Point, image: BallImage) -> float | None:
     """Return how well a hypothesis fits an image: 0 to 1; None if it is outside.
 
-    The windows are those of two cubes around the ball whose faces are parallel to the image; the outer cube is twice as large.
+    The windows are those of two cubes around the ball with faces parallel to the image, the outer one twice as large.
     """
     projection = image.optics.project(place)
     if projection is None:
@@ -136,10 +128,6 @@ def _count(image: BallImage, column: float, row: float, radius: float) -> tuple[
     left, top = round(column - radius), round(row - radius)
     right, bottom = max(round(column + radius), left + 1), max(round(row + radius), top + 1)
     return image.count(left, top, right, bottom), (right - left) * (bottom - top)
-
-
-def _distance(place: Point, image: BallImage) -> float:
-    return math.hypot(place.x - image.optics.x, place.y - image.optics.y)
 
 
 def _estimate(ranked: list[tuple[float, Point]]) -> Point | None:

@@ -36,7 +36,7 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sighting:
-    """A detected landmark in the frame of the robot: degrees to the left, and mm; a post without its foot has no distance."""
+    """A detected landmark: degrees to the left of ahead, and mm; a post whose foot is not in view has no distance."""
 
     kind: Kind
     bearing: float

@@ -1,9 +1,9 @@
 """Self-localization by an evolutionary algorithm (BICA paper, section VI.C).
 
 Several races, groups of similar poses, compete. Explorers look for poses that explain the landmarks and are not near a
-race; the best one founds a race. The exploiters of a race refine its pose. The pose of the robot is that of the race that
-has been the best one most often, so symmetric places of the field stay alive until a landmark distinguishes them.
-The paper outlines the algorithm only; population sizes, operators and rules of the races are chosen here.
+race; the best one founds a race. The exploiters of a race refine its pose. The pose of the robot is that of the race
+that has been the best one most often, so symmetric places of the field stay alive until a landmark distinguishes them.
+The paper only outlines the algorithm; population sizes, operators and rules of the races are chosen here.
 """
 
 import math
@@ -13,7 +13,7 @@ from random import Random
 
 from field import pitch
 from field.camera import CAMERA_HEIGHT_MM
-from field.geometry import Point, Pose, normalized
+from field.geometry import ORIGIN, Point, Pose, normalized
 from field.landmarks import LANDMARKS, Kind, Sighting
 
 RACES = 6
@@ -32,12 +32,12 @@ _WEAK = 0.6
 
 
 @dataclass(slots=True, kw_only=True)
-class Memory:
-    """A landmark in the odometry frame: where the camera was, the direction to it in degrees, and the distance in mm."""
+class Clue:
+    """A remembered landmark in the frame of the robot: place of the camera, direction, and distance in mm."""
 
     kind: Kind
     camera: Point
-    direction: float
+    ray: Point
     distance: float | None
     seen_s: float
     sightings: int = 1
@@ -45,19 +45,8 @@ class Memory:
     @property
     def place(self) -> Point:
         """Where the landmark is; for one without distance, a place in its direction."""
-        ray = Point(self.distance or 1000.0, 0.0).turned(self.direction)
-        return Point(self.camera.x + ray.x, self.camera.y + ray.y)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Clue:
-    """A memory in the frame of the robot, with the possible landmarks."""
-
-    landmarks: tuple[Point, ...]
-    camera: Point
-    ray: Point
-    distance: float | None
-    weight: float
+        distance = self.distance or 3000.0
+        return Point(self.camera.x + self.ray.x * distance, self.camera.y + self.ray.y * distance)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -85,7 +74,7 @@ class EvolutionaryLocalization:
     noise: Random
     odometry: Pose
     races: list[Race] = field(default_factory=list)
-    _memories: list[Memory] = field(default_factory=list)
+    _clues: list[Clue] = field(default_factory=list)
     _selected: Race | None = None
 
     @property
@@ -99,10 +88,9 @@ class EvolutionaryLocalization:
         self._remember(sightings, now_s)
         if not sightings:
             return
-        clues = [self._clue(memory) for memory in self._memories]
-        self._explore(clues)
+        self._explore()
         for race in self.races:
-            self._evolve(race, clues)
+            self._evolve(race)
         self._merge()
         self._select()
 
@@ -110,41 +98,36 @@ class EvolutionaryLocalization:
         step = self.odometry.to_local(Point(odometry.x, odometry.y))
         turn = normalized(odometry.heading - self.odometry.heading)
         self.odometry = odometry
-        if step.length > 0.0 or turn != 0.0:
-            for race in self.races:
-                race.exploiters = [pose.moved(step.x, step.y, turn) for pose in race.exploiters]
+        if step == ORIGIN and turn == 0.0:
+            return
+        for race in self.races:
+            race.exploiters = [pose.moved(step.x, step.y, turn) for pose in race.exploiters]
+        for clue in self._clues:
+            clue.camera, clue.ray = clue.camera.minus(step).turned(-turn), clue.ray.turned(-turn)
 
     def _remember(self, sightings: Sequence[Sighting], now_s: float) -> None:
         """Keep the latest landmarks; one that is seen again is replaced."""
-        camera = Point(self.odometry.x, self.odometry.y)
-        for sighting in sightings:
-            direction = self.odometry.heading + sighting.bearing
-            new = Memory(
-                kind=sighting.kind, camera=camera, direction=direction, distance=sighting.distance, seen_s=now_s
-            )
-            known = next((memory for memory in self._memories if _is_same(memory, new)), None)
+        for seen in sightings:
+            ray = Point(1.0, 0.0).turned(seen.bearing)
+            new = Clue(kind=seen.kind, camera=ORIGIN, ray=ray, distance=seen.distance, seen_s=now_s)
+            known = next((clue for clue in self._clues if _is_same(clue, new)), None)
             if known is not None:
                 new.sightings = min(known.sightings + 1, 4)
-                self._memories.remove(known)
-            self._memories.append(new)
-        self._memories = [memory for memory in self._memories if now_s - memory.seen_s <= MEMORY_S][-_MEMORIES:]
+                self._clues.remove(known)
+            self._clues.append(new)
+        self._clues = [clue for clue in self._clues if now_s - clue.seen_s <= MEMORY_S][-_MEMORIES:]
 
-    def _clue(self, memory: Memory) -> Clue:
-        return Clue(
-            landmarks=LANDMARKS[memory.kind],
-            camera=self.odometry.to_local(memory.camera),
-            ray=Point(1.0, 0.0).turned(memory.direction - self.odometry.heading),
-            distance=memory.distance,
-            weight=memory.sightings,
-        )
-
-    def _explore(self, clues: list[Clue]) -> None:
+    def _explore(self) -> None:
         """Let the best explorer found a race, in place of the weakest one if there are too many."""
-        explorers = [self._explorer(clues) for _ in range(EXPLORERS)]
-        free = [pose for pose in explorers if not any(_is_near(pose, race.pose) for race in self.races)]
+        placed = [clue for clue in self._clues if clue.distance is not None]
+        if not placed:
+            return
+        explorers = [self._explorer(placed) for _ in range(EXPLORERS)]
+        taken = [race.pose for race in self.races]
+        free = [pose for pose in explorers if _is_on_field(pose) and not any(_is_near(pose, other) for other in taken)]
         if not free:
             return
-        best_health, best = max(((health(pose, clues), pose) for pose in free), key=lambda entry: entry[0])
+        best_health, best = max(((health(pose, self._clues), pose) for pose in free), key=lambda entry: entry[0])
         if len(self.races) >= RACES:
             weakest = min(self.races, key=lambda race: (race is self._selected, race.health))
             if best_health * _WEAK < weakest.health:
@@ -152,23 +135,18 @@ class EvolutionaryLocalization:
             self.races.remove(weakest)
         self.races.append(Race(exploiters=[best] * EXPLOITERS, health=best_health * _WEAK))
 
-    def _explorer(self, clues: list[Clue]) -> Pose:
-        """Return a pose that explains one landmark, or two if both have a distance; without any, a random pose."""
-        draw = self.noise.uniform
-        heading = draw(-180.0, 180.0)
-        placed = [clue for clue in clues if clue.distance is not None]
-        if not placed:
-            x, y = pitch.HALF_LENGTH_MM, pitch.HALF_WIDTH_MM
-            return Pose(x=draw(-x, x), y=draw(-y, y), heading=heading)
+    def _explorer(self, placed: list[Clue]) -> Pose:
+        """Return a pose that explains two landmarks, or one of them if the robot knows no more."""
         chosen = self.noise.sample(placed, min(2, len(placed)))
-        local = [_local(clue) for clue in chosen]
-        places = [self.noise.choice(clue.landmarks) for clue in chosen]
+        local = [clue.place for clue in chosen]
+        places = [self.noise.choice(LANDMARKS[clue.kind]) for clue in chosen]
+        heading = self.noise.uniform(-180.0, 180.0)
         if len(chosen) == 2:
             heading = normalized(places[1].minus(places[0]).bearing - local[1].minus(local[0]).bearing)
         ray = local[0].turned(heading)
         return Pose(x=places[0].x - ray.x, y=places[0].y - ray.y, heading=heading)
 
-    def _evolve(self, race: Race, clues: list[Clue]) -> None:
+    def _evolve(self, race: Race) -> None:
         """Keep the elite; children are means of two parents, mutated."""
         elite, draw = race.exploiters[:_ELITE], self.noise.gauss
         children = []
@@ -177,20 +155,22 @@ class EvolutionaryLocalization:
             heading = mother.heading + normalized(father.heading - mother.heading) / 2 + draw(0.0, 2.0)
             x, y = (mother.x + father.x) / 2 + draw(0.0, 40.0), (mother.y + father.y) / 2 + draw(0.0, 40.0)
             children.append(Pose(x=x, y=y, heading=normalized(heading)))
-        ranked = sorted(((health(pose, clues), pose) for pose in (*elite, *children)), key=lambda entry: -entry[0])
+        ranked = sorted(
+            ((health(pose, self._clues), pose) for pose in (*elite, *children)), key=lambda entry: -entry[0]
+        )
         race.exploiters = [pose for _, pose in ranked]
         race.health += _SMOOTHING * (ranked[0][0] - race.health)
 
     def _merge(self) -> None:
-        """Delete each race that is near a healthier one, and those outside the field; a selected race passes on its place."""
+        """Delete each race that is near a healthier one, which takes over its victories."""
         kept: list[Race] = []
         for race in sorted(self.races, key=lambda race: -race.health):
             twin = next((other for other in kept if _is_near(race.pose, other.pose)), None)
-            if twin is None and _is_on_field(race.pose):
+            if twin is None:
                 kept.append(race)
-            elif twin is not None:
-                twin.victories = max(twin.victories, race.victories)
-                self._selected = twin if race is self._selected else self._selected
+                continue
+            twin.victories = max(twin.victories, race.victories)
+            self._selected = twin if race is self._selected else self._selected
         self.races = kept
 
     def _select(self) -> None:
@@ -198,9 +178,8 @@ class EvolutionaryLocalization:
             return
         winner = max(self.races, key=lambda race: race.health)
         for race in self.races:
-            change = 1 if race is winner else -1
-            race.victories = max(0, min(_MOST_VICTORIES, race.victories + change))
-        if self._selected not in self.races or winner.victories > self._selected.victories:
+            race.victories = max(0, min(_MOST_VICTORIES, race.victories + (1 if race is winner else -1)))
+        if self._selected is None or winner.victories > self._selected.victories:
             self._selected = winner
 
 
@@ -211,14 +190,14 @@ def health(pose: Pose, clues: Sequence[Clue]) -> float:
     for clue in clues:
         least = math.inf
         ray_x, ray_y = clue.ray
-        for x, y in clue.landmarks:
+        for x, y in LANDMARKS[clue.kind]:
             dx, dy = x - pose.x, y - pose.y
             local_x, local_y = dx * cosine + dy * sine - clue.camera.x, dy * cosine - dx * sine - clue.camera.y
             along, across = local_x * ray_x + local_y * ray_y, local_y * ray_x - local_x * ray_y
             if along > 0.0:
                 least = min(least, _squared_error(along, across, clue.distance))
-        total += clue.weight / (1.0 + least / 4.0)
-        weights += clue.weight
+        total += clue.sightings / (1.0 + least / 4.0)
+        weights += clue.sightings
     return total / weights if weights else 0.0
 
 
@@ -231,17 +210,8 @@ def _squared_error(along: float, across: float, distance: float | None) -> float
     return squared + ((along - distance) / depth_error) ** 2
 
 
-def _local(clue: Clue) -> Point:
-    distance = clue.distance or 0.0
-    return Point(clue.camera.x + clue.ray.x * distance, clue.camera.y + clue.ray.y * distance)
-
-
-def _is_same(known: Memory, new: Memory) -> bool:
-    if known.kind is not new.kind or (known.distance is None) is not (new.distance is None):
-        return False
-    if new.distance is None:
-        return abs(normalized(known.direction - new.direction)) < 8.0
-    return known.place.minus(new.place).length < 150.0 + 0.15 * new.distance
+def _is_same(known: Clue, new: Clue) -> bool:
+    return known.kind is new.kind and known.place.minus(new.place).length < 150.0 + 0.12 * (new.distance or 3000.0)
 
 
 def _is_near(one: Pose, other: Pose) -> bool:
@@ -250,5 +220,4 @@ def _is_near(one: Pose, other: Pose) -> bool:
 
 
 def _is_on_field(pose: Pose) -> bool:
-    border = pitch.BORDER_MM + 200.0
-    return abs(pose.x) < pitch.HALF_LENGTH_MM + border and abs(pose.y) < pitch.HALF_WIDTH_MM + border
+    return abs(pose.x) < pitch.HALF_LENGTH_MM + pitch.BORDER_MM and abs(pose.y) < pitch.HALF_WIDTH_MM + pitch.BORDER_MM

@@ -11,7 +11,7 @@ from random import Random
 
 from field.ball import BALL_RADIUS_MM
 from field.camera import CAMERA_HEIGHT_MM, HALF_WIDTH_OF_VIEW, view_of
-from field.geometry import Point, Pose
+from field.geometry import Point
 from field.world import World
 
 WIDTH = 160
@@ -20,6 +20,7 @@ FOCAL_PX = WIDTH / 2 / math.tan(math.radians(HALF_WIDTH_OF_VIEW))
 JOINT_NOISE_DEG = 0.3
 
 _BALL_HEIGHT_MM = BALL_RADIUS_MM - CAMERA_HEIGHT_MM
+_LEAST_DESCENT = -_BALL_HEIGHT_MM / 5000.0
 _MISSED_IMAGES = 0.05
 _MISSED_PIXELS = 0.1
 _FALSE_PIXELS = 5
@@ -40,7 +41,7 @@ class Optics:
 
     def project(self, ball: Point) -> tuple[float, float, float] | None:
         """Return column and row of the center of a ball and its radius, in pixels; None if it is behind the camera."""
-        depth, left, below = self._in_camera(ball)
+        depth, left, below = self.in_camera(ball)
         if depth < 1.0:
             return None
         return (
@@ -50,18 +51,18 @@ class Optics:
         )
 
     def place(self, column: float, row: float) -> Point | None:
-        """Return where a ball lies whose center is at a pixel; None above the horizon. Inverse of `project`."""
+        """Return where a ball lies whose center is at a pixel; None if it is 5 m away or more."""
         left, below = (WIDTH / 2 - column) / FOCAL_PX, (row - HEIGHT / 2) / FOCAL_PX
         cosine, sine = math.cos(math.radians(self.down)), math.sin(math.radians(self.down))
         descent = sine + below * cosine
-        if descent < 0.01:
+        if descent < _LEAST_DESCENT:
             return None
         scale = -_BALL_HEIGHT_MM / descent
         local = Point((cosine - below * sine) * scale, left * scale).turned(self.pan)
         return Point(self.x + local.x, self.y + local.y)
 
-    def _in_camera(self, ball: Point) -> tuple[float, float, float]:
-        """Distances along the optical axis, to the left and downwards, in mm."""
+    def in_camera(self, ball: Point) -> tuple[float, float, float]:
+        """Return the distances of a ball along the optical axis, to the left and downwards, in mm."""
         x, y = ball.x - self.x, ball.y - self.y
         pan, down = math.radians(self.pan), math.radians(self.down)
         ahead = x * math.cos(pan) + y * math.sin(pan)
@@ -88,6 +89,8 @@ def take_image(world: World, noise: Random, *, is_bottom: bool) -> BallImage:
     """Render what a camera of the robot sees now; its measured place and direction are in the odometry frame."""
     robot = world.robot
     view = view_of(robot.pan, robot.tilt, is_bottom=is_bottom)
+    at = robot.odometry
+    measured = Optics(x=at.x, y=at.y, pan=at.heading + view.pan, down=view.down)
     rows = [0] * HEIGHT
     ball = world.look(is_bottom=is_bottom).ball
     pan, down = view.pan + noise.gauss(0.0, JOINT_NOISE_DEG), view.down + noise.gauss(0.0, JOINT_NOISE_DEG)
@@ -95,16 +98,12 @@ def take_image(world: World, noise: Random, *, is_bottom: bool) -> BallImage:
         for column, row in _render(ball, Optics(x=0.0, y=0.0, pan=pan, down=down)):
             rows[row] |= (noise.random() >= _MISSED_PIXELS) << column
     _add_false_pixels(rows, noise)
-    return BallImage(rows=tuple(rows), optics=_measured(robot.odometry, view.pan, view.down))
-
-
-def _measured(odometry: Pose, pan: float, down: float) -> Optics:
-    return Optics(x=odometry.x, y=odometry.y, pan=odometry.heading + pan, down=down)
+    return BallImage(rows=tuple(rows), optics=measured)
 
 
 def _render(ball: Point, optics: Optics) -> list[tuple[int, int]]:
     """Return the pixels whose ray hits the sphere."""
-    depth, left, below = optics._in_camera(ball)
+    depth, left, below = optics.in_camera(ball)
     if depth < 1.0:
         return []
     center_column, center_row, radius = optics.project(ball) or (0.0, 0.0, 0.0)
