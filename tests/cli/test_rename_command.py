@@ -159,3 +159,18 @@ def test_a_name_that_the_project_no_longer_has_is_found(forward: Path, capsys: p
     assert "forward/field/kicker.py:20:27: warning P212 different-class: 'Side' has no element 'lefft'" in output
     assert "did you mean 'left'?" in output
     assert vicode("run", str(forward / "player.yaml"), "--seconds", "1") == 1
+
+
+def test_profiles_with_topics_are_renamed(tmp_path: Path) -> None:
+    (tmp_path / "project.yaml").write_text(
+        "vicode: 1\nproject: Scouts\ncomponents:\n  Scan: {outputs: {nearest: 9.0}}\n"
+        "profiles:\n  ros2:\n    components:\n"
+        "      Scan: {topic: /scan, type: sensor_msgs/msg/LaserScan, outputs: {nearest: min(ranges)}}\n"
+    )
+    (tmp_path / "scout.yaml").write_text(
+        "vicode: 1\ncomponent: Scout\nuses: {scan: Scan}\ninitial: A\nstates: {A: {requires: [scan]}}\n"
+    )
+    assert vicode("rename", "Scan.nearest", "closest", str(tmp_path)) == 0
+    assert vicode("rename", "Scan", "Laser", str(tmp_path)) == 0
+    text = texts(tmp_path)["project.yaml"]
+    assert "      Laser: {topic: /scan, type: sensor_msgs/msg/LaserScan, outputs: {closest: min(ranges)}}\n" in text

@@ -220,6 +220,7 @@ def test_guards_show_their_truth_and_the_last_transition_is_marked(page: Page, g
     for _press in range(3):
         page.keyboard.press("PageUp")
     expect(guards.nth(2)).to_contain_text("eyes.mood = wild")
+    expect(guards.nth(2)).to_contain_text("eyes.bearing(…) = ")
     expect(page.locator(".diagram .is-last")).to_have_count(0)
     page.get_by_role("button", name="Step").focus()
     page.keyboard.press("Enter")

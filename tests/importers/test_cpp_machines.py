@@ -54,6 +54,7 @@ def transitions_of(text: str) -> list[tuple[str, str]]:
         ("300 >= distance", "robot.distance <= 300"),
         ("state_time > 2000", "state_time > 2000"),
         ("option_time > limit", "component_time > robot.limit"),
+        ("state_time > 20_ms && state_time < 2_s", "state_time > 20 and robot.state_time_ < 2"),
         (
             "mode == Game::State::ready || mode != Game::State::set",
             "robot.mode == State.ready or robot.mode != State.set",
@@ -281,6 +282,21 @@ def test_rows_become_transitions_of_regions_and_machines_inside() -> None:
 
 
 # Mistakes
+
+
+def test_names_of_states_may_have_spaces() -> None:
+    design = design_of("""struct Tcp { auto operator()() const { return make_transition_table(
+      *"established"_s + event<release> = "fin wait 1"_s,
+      "fin wait 1"_s + event<ack> = X); } };""")
+    assert [state.name for state in design.states] == ["established", "fin_wait_1", "X"]
+
+
+def test_regions_use_what_their_own_states_read() -> None:
+    imported = read("""struct Sub { auto operator()() const { return make_transition_table(*"a"_s + event<e> = X); } };
+    struct Two { auto operator()() const { return make_transition_table(
+      *"first"_s = state<Sub>, *"second"_s + event<e> = "third"_s, "third"_s = "second"_s); } };""")
+    uses = {each.component: [use.alias for use in each.uses] for each in imported.result.project.designs}
+    assert uses == {"Sub": ["robot"], "Two": ["Sub"], "Two_2": ["robot"]}
 
 
 @pytest.mark.parametrize(

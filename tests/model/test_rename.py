@@ -23,7 +23,7 @@ from vicode.model.design import (
     Transition,
     Use,
 )
-from vicode.model.project import Project
+from vicode.model.project import Interface, Profile, ProfileClass, Project, TopicReference
 from vicode.model.rename import ReferenceKind, ReferenceRename, SymbolRef, is_declared, rename_symbol, sibling_names
 from vicode.model.rename.cpp import rename_in_cpp
 from vicode.model.rename.designs import rename_in_design
@@ -282,3 +282,16 @@ def test_a_name_that_the_module_redefines_is_kept_in_code(module: str, wanted: s
     design = Design(component="A", module=Code(texts=(("python", module),)), states=(State(name="S", actions=(run,)),))
     (action,) = rename_in_design(design, SHARED).states[0].actions
     assert action == RunCode(code=Code(texts=(("python", f"x = {wanted}"),)))
+
+
+def test_profiles_follow_renamed_components_and_values_of_topics() -> None:
+    scan = Interface(component="Scan", outputs=(Declaration(name="nearest", initial="9.0"),))
+    topic = TopicReference(component="Scan", topic="/scan", outputs=(("nearest", "min(ranges)"),))
+    classes = ProfileClass(component="Scan", implementation="sim:Scan")
+    profiles = (Profile(name="ros2", components=(topic,)), Profile(name="sim", components=(classes,)))
+    project = Project(name="Scouts", components=(scan,), profiles=profiles)
+    project = rename_symbol(project, SymbolRef(component="Scan", section="outputs", name="nearest"), "closest")
+    project = rename_symbol(project, SymbolRef(section="components", name="Scan"), "Laser")
+    (renamed,), (other,) = (each.components for each in project.profiles)
+    assert renamed == replace(topic, component="Laser", outputs=(("closest", "min(ranges)"),))
+    assert other == replace(classes, component="Laser")

@@ -8,8 +8,8 @@ import secrets
 import shutil
 import subprocess
 import sys
-from collections import OrderedDict
-from collections.abc import Sequence
+from collections import Counter, OrderedDict
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ _MAX_TEXT = 100_000
 _MAX_PROPOSALS = 20
 _SUFFIXES = (".yaml", ".yml")
 _COPIED = (*_SUFFIXES, ".py")
+_FORMATS = ("mermaid", "plantuml", "dot", "svg", "png")
 _LINK = re.compile(r"!?\[([^\]\n]*)\]\([^()\s]*\)")
 _ANCHOR = re.compile(r"<a id=\"[^\"]*\"></a>")
 
@@ -55,6 +56,8 @@ class AgentTools:
     may_edit: bool = False
     may_run: bool = False
     _proposals: "OrderedDict[str, _Proposal]" = field(init=False, default_factory=OrderedDict)
+    _outputs: frozenset[Path] | None = field(init=False, default=None)
+    """Where generated files went before the first edit."""
 
     def list_designs(self) -> list[dict[str, Any]]:
         """List the designs: component, file, description, states, used components, and number of findings."""
@@ -114,6 +117,8 @@ class AgentTools:
 
     def render(self, path: str, format: str = "mermaid") -> bytes:  # noqa: A002 - the word of `vicode export`
         """Draw the diagram of a design: mermaid, plantuml, dot or svg as text, or png."""
+        if format not in _FORMATS:
+            raise AgentToolError(f"there is no format {format}; use one of {', '.join(_FORMATS)}")
         return self._vicode_bytes("export", self._inside(path), "--format", format, "-o", "-")
 
     def propose_edit(self, path: str, text: str) -> dict[str, Any]:
@@ -134,8 +139,7 @@ class AgentTools:
             new_file.write_bytes(text.encode())
             after = self._check(copy, ".")
             changes = self._words(place, old, text)
-        known = [_without_place(each) for each in before]
-        new = [each for each in after if _without_place(each) not in known]
+        new = list(_find_added(before, after))
         proposal = _Proposal(path, old, text, sum(each["severity"] == "error" for each in new))
         identifier = secrets.token_hex(4)
         self._proposals[identifier] = proposal
@@ -147,7 +151,7 @@ class AgentTools:
             "diff": "".join(difflib.unified_diff(*lines, path if old is not None else os.devnull, path)),
             "changes": changes,
             "new_findings": new,
-            "solved_findings": [each for each in before if _without_place(each) not in map(_without_place, after)],
+            "solved_findings": list(_find_added(after, before)),
         }
 
     def apply_edit(self, id: str) -> str:  # noqa: A002 - the key of `propose_edit`
@@ -158,8 +162,11 @@ class AgentTools:
             raise AgentToolError(f"there is no proposal {id}; call propose_edit again")
         if proposal.errors:
             raise AgentToolError("the edit causes new errors; see new_findings of propose_edit")
+        file = self._design_file(proposal.path)
+        self._known_outputs()
         try:
-            replace_text(self._design_file(proposal.path), proposal.old, proposal.new)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            replace_text(file, proposal.old, proposal.new)
         except OSError as error:
             raise AgentToolError(f"{proposal.path}: {error.strerror or error}; call propose_edit again") from error
         del self._proposals[id]
@@ -168,6 +175,11 @@ class AgentTools:
     def generate(self, path: str = ".") -> str:
         """Generate the code of a design or of all designs; edits of generated files are kept or reported."""
         self._require(self.may_edit, "--allow-edit")
+        for out in self._output_folders() - self._known_outputs():
+            if not out.is_relative_to(self.folder.resolve()):
+                raise AgentToolError(
+                    f"'generated' in project.yaml leads to {out}; only the user can choose this folder"
+                )
         return self._vicode("gen", self._inside(path))
 
     def run(
@@ -196,9 +208,26 @@ class AgentTools:
 
     def _check(self, folder: Path, path: str, *, deep: bool = False) -> list[dict[str, Any]]:
         options = ["--deep"] if deep else []
-        printed = self._vicode("check", path, "--json", *options, codes=(0, 1), folder=folder)
+        printed = self._vicode_bytes("check", path, "--json", *options, codes=(0, 1), folder=folder)
         findings: list[dict[str, Any]] = json.loads(printed)
         return findings
+
+    def _known_outputs(self) -> frozenset[Path]:
+        if self._outputs is None:
+            self._outputs = self._output_folders()
+        return self._outputs
+
+    def _output_folders(self) -> frozenset[Path]:
+        """The folders of generated files of all projects."""
+        from vicode.services.generation.project_output import output_folder
+        from vicode.services.project_loader import load_projects
+
+        try:
+            loaded = load_projects([str(self.folder)])
+        except OSError:
+            # There is no design yet.
+            return frozenset()
+        return frozenset(output_folder(each).resolve() for each in loaded)
 
     def _words(self, place: Path, old: str | None, new: str) -> str:
         if old is None:
@@ -284,6 +313,15 @@ def _without_links(page: str) -> str:
     """The text of a page of `vicode docs --format markdown`; a picture is a link in a link."""
     plain = _ANCHOR.sub("", _LINK.sub(r"\1", _LINK.sub(r"\1", page)))
     return re.sub(r"\n{3,}", "\n\n", re.sub(r"(?<!`)`( ?)`(?!`)", r"\1", plain)).strip() + "\n"
+
+
+def _find_added(before: Sequence[dict[str, Any]], after: Sequence[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+    """The findings that are new, wherever they are; equal ones count."""
+    known = Counter(map(_without_place, before))
+    for each in after:
+        known[_without_place(each)] -= 1
+        if known[_without_place(each)] < 0:
+            yield each
 
 
 def _without_place(finding: dict[str, Any]) -> tuple[object, ...]:

@@ -22,7 +22,7 @@ from vicode.generators.plan import (
     UnsoundDesignError,
 )
 from vicode.model.design import COMMON
-from vicode.model.expressions import Done, ElapsedTime, Expr, OutputRef, ScopeSymbolKind, StatusFlag, Variable, walk
+from vicode.model.expressions import Expr, OutputRef, read_name, walk
 
 _EXPORT = re.compile(r"^export (?:const|class|function) (?:\{ (.*) \}|(\w+))", re.MULTILINE)
 _NOT_IN_SCRIPTS = re.compile(r"^(?:import .*\n| *(?://|/\*\*).*\n|export )", re.MULTILINE)
@@ -60,7 +60,7 @@ def _guards(component: ComponentPlan) -> Iterator[str]:
         yield f"  [{json.dumps(source)}]: ["
         for decision in _alternatives(decisions):
             nodes = (node for condition in decision.conditions for node in walk(_tree(condition)))
-            reads = {name: printer.print(node).text for node in nodes if (name := _name(node, printer))}
+            reads = {name: printer.print(node).text for node in nodes if (name := _name(node))}
             methods = ", ".join(f"[{json.dumps(name)}]() {{ return {value}; }}" for name, value in reads.items())
             test = f"test() {{ return {printer.guard(decision.conditions)}; }}, " if decision.conditions else ""
             yield f"    {{ id: {json.dumps(decision.id)}, {test}reads: {{ {methods} }} }},"
@@ -83,17 +83,8 @@ def _tree(condition: Condition) -> Expr:
             raise UnsoundDesignError("a guard is written as code")
 
 
-def _name(node: Expr, printer: JavaScriptExpressionPrinter) -> str:
+def _name(node: Expr) -> str:
     """The name of a value as in the design; empty for other nodes."""
-    match node:
-        case Variable(name=name, kind=kind):
-            return "" if kind == ScopeSymbolKind.CONSTANT else name
-        case ElapsedTime(kind=of):
-            return f"{of}_time"
-        case StatusFlag(name=of):
-            return of
-        case Done(alias=alias):
-            return f"done({alias})"
-        case OutputRef(alias=alias, output=output):
-            return printer.print(node).text.replace("this.", "") if node.arguments else f"{alias}.{output}"
-    return ""
+    if isinstance(node, OutputRef) and node.arguments is not None:
+        return f"{node.alias}.{node.output}(…)"
+    return read_name(node)

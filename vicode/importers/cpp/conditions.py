@@ -104,7 +104,10 @@ class CppConditions:
             left, sign, right = right, _MIRRORED[sign], left
         number, first, second = _number(right), compact(left), compact(right)
         if first in TIMES or (number and not _number(left)):
-            quantity = TIMES.get(first) or self._input("float", left, first, number[1] if number else "")
+            unit = number[1] if number else ""
+            # Times of designs are in milliseconds.
+            time = TIMES.get(first) if unit in ("", "ms") else None
+            quantity = time or self._input("float", left, first, unit)
             return _parse(f"{quantity} {sign} {number[0] if number else self._input('float', right, second, '')}")
         if sign in ("==", "!=") and second in ("true", "false", "nullptr", "NULL"):
             return self.read(left) if (second == "true") == (sign == "==") else negate(self.read(left))

@@ -15,6 +15,7 @@ from vicode.importers.cpp.machine import CppMachine
 from vicode.importers.cpp.tree import CppTree, class_name, compact, split
 from vicode.model.design import Code, Decision, Design, Guard, RunCode, State, Stay, Transition
 from vicode.model.names import is_valid_state_name
+from vicode.model.traversal import iter_expressions
 
 TABLE = "make_transition_table"
 _ENTRY, _EXIT, _TERMINATED = "on_entry", "on_exit", "X"
@@ -89,7 +90,10 @@ def read_table(machine: CppMachine, table: Table, macros: Mapping[str, _Name]) -
             initial=start,
             states=tuple(reader.state(name, [row for row in rows if row.source == name], rows) for name in states),
         )
-        yield replace(machine, component=component, design=replace(design, uses=machine.uses()))
+        read = {alias for each in iter_expressions(design) for alias in re.findall(r"\w+(?=\.)", each.text)}
+        used = read.union(*(state.requires for state in design.states))
+        uses = tuple(use for use in machine.uses() if use.alias in used)
+        yield replace(machine, component=component, design=replace(design, uses=uses))
 
 
 class _TableReader:
@@ -144,7 +148,8 @@ class _TableReader:
         return _read_name(nodes) or (self._names.get(nodes[-1].text) if nodes and nodes[-1].kind == WORD else None)
 
     def state(self, name: str, rows: Sequence[_Row], all_rows: Sequence[_Row]) -> State:
-        alias = self._machine.use(name, rows[0].node) if name in self._machine.components and rows else ""
+        node = rows[0].node if rows else self._machine.node
+        alias = self._machine.use(name, node) if name in self._machine.components else ""
         # Rows without event are taken before the next event is processed.
         decided = sorted(
             (row for row in rows if not row.has(_ENTRY) and not row.has(_EXIT)), key=lambda row: bool(row.event)
@@ -158,7 +163,7 @@ class _TableReader:
             leave=tuple(self._code(row) for row in rows if row.has(_EXIT)),
             transitions=tuple(self._decision(alias, row, events) for row in decided),
         )
-        return self._machine.place(state, rows[0].node) if rows else state
+        return self._machine.place(state, node) if rows else state
 
     def _code(self, row: _Row) -> RunCode:
         if row.guard:
@@ -192,7 +197,7 @@ class _TableReader:
 def _read_name(nodes: Sequence[CppTree]) -> _Name | None:
     """The name in `state<class X>`, `sml::event<e>`, `"x"_s` and similar."""
     if len(nodes) == 2 and nodes[0].kind == STRING and nodes[1].text in _LITERALS:
-        name = nodes[0].text.strip('"')
+        name = nodes[0].text.strip('"').replace(" ", "_")
         return (_LITERALS[nodes[1].text], name) if is_valid_state_name(name) else None
     opening = next((index for index, node in enumerate(nodes) if node.text == "<"), 0)
     if not opening or nodes[opening - 1].text not in _KINDS or nodes[-1].text != ">":

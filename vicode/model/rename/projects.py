@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import TypeVar
 
 from vicode.model.design import Declaration, Design
-from vicode.model.project import Enumeration, Interface, Project
+from vicode.model.project import Elsewhere, Enumeration, Interface, Profile, ProfileClass, Project, TopicReference
 from vicode.model.rename.designs import rename_in_declarations, rename_in_design
 from vicode.model.rename.expressions import rename_in_expression
 from vicode.model.rename.references import ReferenceKind, ReferenceRename, SymbolRef
@@ -18,7 +18,8 @@ def rename_symbol(project: Project, symbol: SymbolRef, new: str) -> Project:
     if not is_declared(project, symbol) or symbol.name == new:
         return project
     designs = tuple(_rename_in_one_design(design, project, symbol, new) for design in project.designs)
-    project = replace(project, designs=designs)
+    profiles = tuple(_rename_in_profile(each, symbol, new) for each in project.profiles)
+    project = replace(project, designs=designs, profiles=profiles)
     if not symbol.component:
         return _rename_in_project_file(project, symbol, new)
     components = tuple(
@@ -180,11 +181,33 @@ def _rename_in_project_file(project: Project, symbol: SymbolRef, new: str) -> Pr
             return replace(project, agents=tuple(named))
 
 
-def _rename_element(enumeration: Enumeration, old: str, new: str) -> Enumeration:
-    def named(pairs: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
-        return tuple((new if name == old else name, text) for name, text in pairs)
+def _rename_in_profile(profile: Profile, symbol: SymbolRef, new: str) -> Profile:
+    """Rename a component, or an output or parameter that a topic has."""
 
-    return replace(enumeration, elements=named(enumeration.elements), xabsl_elements=named(enumeration.xabsl_elements))
+    def renamed(each: ProfileClass | Elsewhere) -> ProfileClass | Elsewhere:
+        if symbol.section == "components" and each.component == symbol.name:
+            return replace(each, component=new)
+        if not isinstance(each, TopicReference) or each.component != symbol.component:
+            return each
+        if symbol.section == "outputs":
+            return replace(each, outputs=_rename_in_pairs(each.outputs, symbol.name, new))
+        if symbol.section == "parameters":
+            return replace(each, parameters=_rename_in_pairs(each.parameters, symbol.name, new))
+        return each
+
+    return replace(profile, components=tuple(map(renamed, profile.components)))
+
+
+def _rename_element(enumeration: Enumeration, old: str, new: str) -> Enumeration:
+    return replace(
+        enumeration,
+        elements=_rename_in_pairs(enumeration.elements, old, new),
+        xabsl_elements=_rename_in_pairs(enumeration.xabsl_elements, old, new),
+    )
+
+
+def _rename_in_pairs(pairs: tuple[tuple[str, str], ...], old: str, new: str) -> tuple[tuple[str, str], ...]:
+    return tuple((new if name == old else name, text) for name, text in pairs)
 
 
 def _rename_in_project_declarations(project: Project, rename: ReferenceRename) -> Project:

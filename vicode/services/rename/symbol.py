@@ -30,7 +30,7 @@ from vicode.store import (
 )
 
 _KINDS = {"uses": "alias"}
-_PROJECT_SECTIONS = ("enumerations", "constants", "components", "agents")
+_PROJECT_SECTIONS = ("enumerations", "constants", "components", "agents", "profiles")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -173,6 +173,7 @@ def _project_change(file: Path, renamed: Project) -> FileChange:
         constants=renamed.constants,
         components=renamed.components,
         agents=renamed.agents,
+        profiles=renamed.profiles,
     )
     new = save_project_file(changed, text)
     return FileChange(file=file, old=text, new=new, summary=messages.line_summary(file.name, _changed_lines(text, new)))
