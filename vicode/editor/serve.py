@@ -66,9 +66,11 @@ def serve(
     open_browser: bool = True,
     tour: bool = True,
     editor_command: tuple[str, ...] = (),
-    robots: tuple[str, str] | None = None,
+    robots: tuple[str, str, str] | None = None,
 ) -> None:
-    """Serve the editor for the projects at `path` until the process is stopped; `robots` is an address with its token.
+    """Serve the editor for the projects at `path` until the process is stopped.
+
+    `robots` is an address, its token, and the component whose design is opened first.
 
     Raises:
         OSError: The path cannot be read.
@@ -85,7 +87,7 @@ def serve(
 
     library = _open_library(path, address, editor_command, robots)
     _prepare_process()
-    start = address.page_url(_first_page(library))
+    start = address.page_url(_first_page(library, robots[2] if robots else ""))
     register_pages(library, _start_autosave(library), tour=tour)
     _configure_app(app, address)
     app.on_startup(lambda: background_tasks.create(_announce(path, address, start), name="announce"))
@@ -117,7 +119,7 @@ def _set_storage_folder() -> None:
 
 
 def _open_library(
-    path: Path, address: ServerAddress, editor_command: tuple[str, ...], robots: tuple[str, str] | None
+    path: Path, address: ServerAddress, editor_command: tuple[str, ...], robots: tuple[str, str, str] | None
 ) -> "Library":
     from vicode.editor.session import Library
     from vicode.editor.session.external_editor import ExternalEditor, find_command
@@ -128,7 +130,7 @@ def _open_library(
     library = Library(path, external_editor=ExternalEditor(arguments=arguments, is_local=is_local))
     library.remove_leftovers()
     if robots is not None:
-        library.robots.open(*robots)
+        library.robots.open(*robots[:2])
     return library
 
 
@@ -178,11 +180,11 @@ def _startup_message(path: Path, address: ServerAddress, start: str) -> str:
     return f"Serving {path} at {start} (press Ctrl-C to stop)"
 
 
-def _first_page(library: "Library") -> str:
-    """Path of the initial page: the design of the file, else the root of the first agent, else the home page."""
+def _first_page(library: "Library", root: str) -> str:
+    """Path of the initial page: the design of the file, of `root` or of the first agent, else the home page."""
     from vicode.editor.view.page_urls import design_url
 
-    first = library.initial_design
+    first = library.find_initial_design(root)
     return design_url(first[0].key, first[1]) if first else "/"
 
 
