@@ -7,8 +7,10 @@ import os
 import secrets
 import signal
 import socket
+import sys
 import tempfile
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -78,6 +80,7 @@ def serve(
     # Imported objects stay alive: collecting during the imports takes a tenth of the startup time.
     gc.disable()
     _set_storage_folder()
+    _skip_http_client()
     from nicegui import app, background_tasks, ui
     from starlette.middleware.gzip import GZipMiddleware
 
@@ -116,6 +119,15 @@ def serve(
 def _set_storage_folder() -> None:
     """By default, NiceGUI creates its folder in the working directory, which is the user's project."""
     os.environ.setdefault(STORAGE_VARIABLE, str(Path(tempfile.gettempdir()) / f"vicode{user_id()}"))
+
+
+def _skip_http_client() -> None:
+    """Import the socket library of NiceGUI without the HTTP client of its client part, which serves no page."""
+    if "aiohttp" not in sys.modules:
+        # None makes the import fail, which engineio allows: aiohttp is optional there.
+        sys.modules["aiohttp"] = None  # type: ignore[assignment]
+        import_module("engineio.async_client")
+        del sys.modules["aiohttp"]
 
 
 def _open_library(
