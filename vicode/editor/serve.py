@@ -79,8 +79,7 @@ def serve(
     """
     # Imported objects stay alive: collecting during the imports takes a tenth of the startup time.
     gc.disable()
-    _set_storage_folder()
-    _skip_http_client()
+    _prepare_nicegui()
     from nicegui import app, background_tasks, ui
     from starlette.middleware.gzip import GZipMiddleware
 
@@ -116,15 +115,11 @@ def serve(
     )
 
 
-def _set_storage_folder() -> None:
-    """By default, NiceGUI creates its folder in the working directory, which is the user's project."""
+def _prepare_nicegui() -> None:
+    """Choose its folder, which is in the user's project by default, and skip an import that it does not need."""
     os.environ.setdefault(STORAGE_VARIABLE, str(Path(tempfile.gettempdir()) / f"vicode{user_id()}"))
-
-
-def _skip_http_client() -> None:
-    """Import the socket library of NiceGUI without the HTTP client of its client part, which serves no page."""
     if "aiohttp" not in sys.modules:
-        # None makes the import fail, which engineio allows: aiohttp is optional there.
+        # engineio needs aiohttp only in its client, and runs without it; None makes the import fail.
         sys.modules["aiohttp"] = None  # type: ignore[assignment]
         import_module("engineio.async_client")
         del sys.modules["aiohttp"]
