@@ -70,9 +70,7 @@ def serve(
     editor_command: tuple[str, ...] = (),
     robots: tuple[str, str, str] | None = None,
 ) -> None:
-    """Serve the editor for the projects at `path` until the process is stopped.
-
-    `robots` is an address, its token, and the component whose design is opened first.
+    """Serve the editor for `path` until it is stopped; `robots` is an address, its token, and the design to open first.
 
     Raises:
         OSError: The path cannot be read.
