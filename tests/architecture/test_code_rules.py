@@ -25,7 +25,6 @@ PACKAGE_OF_LIBRARY = {
     "fastapi": "editor",
     "graphviz": "diagram",
     "jinja2": "templating",
-    "networkx": "check",
     "nicegui": "editor",
     "lsprotocol": "xabsl",
     "markdown_it": "docsite",

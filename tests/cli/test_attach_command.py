@@ -1,9 +1,13 @@
 """`vicode attach` prints the state changes of a running robot, and says in one line why it cannot."""
 
 import contextlib
+import os
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -76,6 +80,26 @@ def test_the_token_may_be_in_the_environment(
         monkeypatch.setenv("VICODE_WATCH_TOKEN", server.token)
         assert vicode("attach", server.address, "--print") == 1
     assert "attached to" in capsys.readouterr().err
+
+
+def test_the_editor_opens_the_design_of_the_robot(tmp_path: Path) -> None:
+    for name in ("Blinker", "Anchor"):
+        (tmp_path / f"{name.lower()}.yaml").write_text(f"vicode: 1\ncomponent: {name}\n", encoding="utf-8")
+    agents = "{First: {root: Anchor}, Second: {root: Blinker}}"
+    (tmp_path / "project.yaml").write_text(f"vicode: 1\nproject: Two\nagents: {agents}\n", encoding="utf-8")
+    kept = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "NICEGUI"))}
+    state = {"VICODE_STATE": str(tmp_path / "state"), "NICEGUI_STORAGE_PATH": str(tmp_path / "storage")}
+    with Root(Blinker) as root:
+        server = root.watch()
+        options = ["attach", server.address, str(tmp_path), "--token", server.token, "--no-open"]
+        command = [sys.executable, "-m", "vicode", *options]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**kept, **state}) as editor:
+            try:
+                assert editor.stdout is not None
+                shown = [editor.stdout.readline() for _line in range(3)]
+            finally:
+                editor.kill()
+    assert shown[-1].endswith(f"/design/{tmp_path.name}/Blinker\n"), shown
 
 
 @pytest.mark.parametrize("options", [(), ("--print",)])

@@ -16,7 +16,6 @@ from typing import Any
 
 # What an editor imports when it starts and with its first page.
 LATE = (
-    "networkx",
     "uvicorn.lifespan.on",
     "uvicorn.loops.auto",
     "uvicorn.protocols.http.auto",

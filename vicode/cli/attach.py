@@ -43,8 +43,7 @@ def run(args: argparse.Namespace) -> int:
     token = args.token if args.token is not None else os.environ.get(TOKEN_VARIABLE, "")
     if args.print:
         return asyncio.run(_print_changes(address, token))
-    asyncio.run(_try(address, token))
-    return _edit(args, address, token)
+    return _edit(args, address, token, asyncio.run(_try(address, token)))
 
 
 def _print_robots() -> int:
@@ -59,16 +58,18 @@ def _print_robots() -> int:
     return 0 if robots else 1
 
 
-async def _try(address: "RobotAddress", token: str) -> None:
+async def _try(address: "RobotAddress", token: str) -> str:
+    """Connect once; returns the root component of the robot that the editor shows first."""
     from vicode.robots import connect
 
     transport, hello = await connect(address, token)
     transport.close()
     await transport.wait_closed()
     print(_describe(address, hello), flush=True)
+    return hello.robots[0].root if hello.robots else ""
 
 
-def _edit(args: argparse.Namespace, address: "RobotAddress", token: str) -> int:
+def _edit(args: argparse.Namespace, address: "RobotAddress", token: str, root: str) -> int:
     from vicode.cli.edit import serve_editor
 
     serve_editor(
@@ -77,7 +78,7 @@ def _edit(args: argparse.Namespace, address: "RobotAddress", token: str) -> int:
         args.port,
         open_browser=not args.no_open,
         tour=False,
-        robots=(str(address), token),
+        robots=(str(address), token, root),
     )
     return 0
 

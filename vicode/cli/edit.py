@@ -56,7 +56,7 @@ def serve_editor(
     open_browser: bool,
     tour: bool,
     editor_command: tuple[str, ...] = (),
-    robots: tuple[str, str] | None = None,
+    robots: tuple[str, str, str] | None = None,
 ) -> None:
     """Serve the editor for a design or folder until it is stopped: the only place where a command starts it.
 

@@ -7,8 +7,10 @@ import os
 import secrets
 import signal
 import socket
+import sys
 import tempfile
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -66,16 +68,16 @@ def serve(
     open_browser: bool = True,
     tour: bool = True,
     editor_command: tuple[str, ...] = (),
-    robots: tuple[str, str] | None = None,
+    robots: tuple[str, str, str] | None = None,
 ) -> None:
-    """Serve the editor for the projects at `path` until the process is stopped; `robots` is an address with its token.
+    """Serve the editor for `path` until it is stopped; `robots` is an address, its token, and the design to open first.
 
     Raises:
         OSError: The path cannot be read.
     """
     # Imported objects stay alive: collecting during the imports takes a tenth of the startup time.
     gc.disable()
-    _set_storage_folder()
+    _prepare_nicegui()
     from nicegui import app, background_tasks, ui
     from starlette.middleware.gzip import GZipMiddleware
 
@@ -85,7 +87,7 @@ def serve(
 
     library = _open_library(path, address, editor_command, robots)
     _prepare_process()
-    start = address.page_url(_first_page(library))
+    start = address.page_url(_first_page(library, robots[2] if robots else ""))
     register_pages(library, _start_autosave(library), tour=tour)
     _configure_app(app, address)
     app.on_startup(lambda: background_tasks.create(_announce(path, address, start), name="announce"))
@@ -111,13 +113,18 @@ def serve(
     )
 
 
-def _set_storage_folder() -> None:
-    """By default, NiceGUI creates its folder in the working directory, which is the user's project."""
+def _prepare_nicegui() -> None:
+    """Choose its folder, which is in the user's project by default, and skip an import that it does not need."""
     os.environ.setdefault(STORAGE_VARIABLE, str(Path(tempfile.gettempdir()) / f"vicode{user_id()}"))
+    if "aiohttp" not in sys.modules:
+        # engineio needs aiohttp only in its client, and runs without it; None makes the import fail.
+        sys.modules["aiohttp"] = None  # type: ignore[assignment]
+        import_module("engineio.async_client")
+        del sys.modules["aiohttp"]
 
 
 def _open_library(
-    path: Path, address: ServerAddress, editor_command: tuple[str, ...], robots: tuple[str, str] | None
+    path: Path, address: ServerAddress, editor_command: tuple[str, ...], robots: tuple[str, str, str] | None
 ) -> "Library":
     from vicode.editor.session import Library
     from vicode.editor.session.external_editor import ExternalEditor, find_command
@@ -128,7 +135,7 @@ def _open_library(
     library = Library(path, external_editor=ExternalEditor(arguments=arguments, is_local=is_local))
     library.remove_leftovers()
     if robots is not None:
-        library.robots.open(*robots)
+        library.robots.open(*robots[:2])
     return library
 
 
@@ -178,11 +185,11 @@ def _startup_message(path: Path, address: ServerAddress, start: str) -> str:
     return f"Serving {path} at {start} (press Ctrl-C to stop)"
 
 
-def _first_page(library: "Library") -> str:
-    """Path of the initial page: the design of the file, else the root of the first agent, else the home page."""
+def _first_page(library: "Library", root: str) -> str:
+    """Path of the initial page: the design of the file, of `root` or of the first agent, else the home page."""
     from vicode.editor.view.page_urls import design_url
 
-    first = library.initial_design
+    first = library.find_initial_design(root)
     return design_url(first[0].key, first[1]) if first else "/"
 
 

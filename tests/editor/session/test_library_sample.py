@@ -11,9 +11,9 @@ from vicode.editor.session.trust import is_trusted
 def test_the_sample_is_a_project_of_the_opened_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("VICODE_STATE", str(tmp_path / "state"))
     library = Library(tmp_path)
-    assert library.initial_design is None
+    assert library.find_initial_design() is None
     added = library.add_sample()
-    assert library.initial_design == (added, "Player")
+    assert library.find_initial_design() == (added, "Player")
     assert added.key == "forward"
     assert [workspace.key for workspace in Library(tmp_path).workspaces] == ["forward"]
 

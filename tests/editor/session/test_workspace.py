@@ -21,12 +21,16 @@ def opened(workspace: Workspace, component: str) -> DocumentSession:
 
 def test_the_initial_design_is_the_root_of_an_agent_or_the_given_file(project: Path) -> None:
     library = Library(project)
-    first = library.initial_design
+    first = library.find_initial_design()
     assert first is not None
     assert (first[0].key, first[1]) == ("forward", "Player")
-    by_file = Library(project / "forward" / "face_ball.yaml").initial_design
+    by_file = Library(project / "forward" / "face_ball.yaml").find_initial_design("Player")
     assert by_file is not None
     assert by_file[1] == "FaceBall"
+    preferred = library.find_initial_design("FaceBall")
+    assert preferred is not None
+    assert preferred[1] == "FaceBall"
+    assert library.find_initial_design("Elsewhere") == first
     assert library.workspace("elsewhere") is None
 
 

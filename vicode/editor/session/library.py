@@ -101,13 +101,15 @@ class Library:
         """The opened folder, or the folder of the opened file."""
         return self.path if self.path.is_dir() else self.path.parent
 
-    @property
-    def initial_design(self) -> tuple[Workspace, str] | None:
-        """The design to open first: the given file, else the root of the first agent, else any design."""
+    def find_initial_design(self, preferred: str = "") -> tuple[Workspace, str] | None:
+        """The design to open first: the given file, else `preferred`, else the root of the first agent, else any."""
         for workspace in self.workspaces:
             component = workspace.component_in_file(self.path) if self.path.is_file() else None
             if component:
                 return workspace, component
+        for workspace in self.workspaces:
+            if workspace.project.design(preferred) is not None:
+                return workspace, preferred
         for workspace in self.workspaces:
             for agent in workspace.project.agents:
                 if workspace.project.design(agent.root) is not None:
