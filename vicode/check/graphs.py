@@ -1,33 +1,44 @@
 """Graphs of the components of a project: which component uses or steps which."""
 
-from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from vicode.findings import DesignPath
 from vicode.model.design import COMMON, Call, Design, State
 from vicode.model.project import Project
 
+if TYPE_CHECKING:
+    import networkx as nx
+
 
 class ComponentGraph:
-    """A directed graph of components, given by the successors of each node."""
+    """A directed graph of components, given by the successors of each node.
+
+    networkx is imported by the first query of a node with successors: most designs have none, and the import takes
+    a tenth of a second.
+    """
 
     def __init__(self, successors: Mapping[str, tuple[str, ...]]) -> None:
         self.successors = successors
         self._trees: dict[str, dict[str, str]] = {}
 
+    @cached_property
+    def _digraph(self) -> "nx.DiGraph[str]":
+        import networkx as nx  # noqa: PLC0415 - see the class
+
+        edges: dict[str, Iterable[str]] = {**self.successors}
+        return nx.DiGraph(edges)
+
     def _search(self, start: str) -> Mapping[str, str]:
         """Each node that can be reached, with the node before it on a shortest path; kept, as each is asked often."""
         if start not in self._trees:
-            tree: dict[str, str] = {}
-            queue = deque([start])
-            while queue:
-                node = queue.popleft()
-                for successor in self.successors.get(node, ()):
-                    if successor not in tree and successor != start:
-                        tree[successor] = node
-                        queue.append(successor)
-            self._trees[start] = tree
+            self._trees[start] = {}
+            if self.successors.get(start):
+                import networkx as nx  # noqa: PLC0415 - see the class
+
+                self._trees[start] = dict(nx.bfs_predecessors(self._digraph, start))
         return self._trees[start]
 
     def descendants(self, start: str) -> set[str]:

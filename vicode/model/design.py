@@ -104,7 +104,6 @@ class Stay:
     doc: str = ""
     id: str = ""
     disabled: bool = False
-    origin: Origin = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,7 +10,7 @@ from dataclasses import replace
 from itertools import zip_longest
 
 from vicode.findings import DesignPath
-from vicode.model.design import Action, Call, Decision, Declaration, Design, Origin, RunCode, State
+from vicode.model.design import Action, Call, Decision, Declaration, Design, Origin, RunCode, State, Stay
 from vicode.model.lowering.competences import COMPETENCE_STATES, LATEST, lower_competence, tries_name
 from vicode.model.lowering.ends import FAILED, lower_ends
 from vicode.model.lowering.interrupts import find_target, interrupt_names, interrupted_states, lower_interrupts
@@ -155,7 +155,7 @@ def _count_derived(owner: object, key: object, index: int) -> int:
 
 
 def _origin(item: Action | Decision | Declaration | State) -> Origin:
-    return () if isinstance(item, Call | RunCode) else item.origin
+    return () if isinstance(item, Call | RunCode | Stay) else item.origin
 
 
 def _written(declarations: tuple[Declaration, ...]) -> tuple[Declaration, ...]:
