@@ -3,6 +3,7 @@
 import random
 import subprocess
 import sys
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -12,10 +13,12 @@ import pytest
 from tests.bica.cpp_robot import LAMP, CppRobot, cpp_control, cpp_program, cpp_robot
 from tests.bica.live_robot import Viewer, close_connections, is_iteration
 from tests.bica.test_live_attacks import FRAMES_PER_CONNECTION, attack, flood
-from vicode.generators import generate
+from vicode.generators import generate, list_outputs
+from vicode.model.project import Project
 from vicode.robots import decode_hello
 from vicode.services.robot_version import find_other_versions
 from vicode.store import open_project
+from vicode.store.documents import read_design
 from vicode.traces.reader import open_trace
 
 __all__ = ["close_connections", "cpp_control", "cpp_program", "cpp_robot"]
@@ -198,7 +201,24 @@ def test_a_record_is_replayed(cpp_program: Path, tmp_path: Path) -> None:
         assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
-def test_generated_code_does_not_include_the_live_view() -> None:
-    files = {file.path: file.text for file in generate(open_project(LAMP).project, languages=["cpp"])}
-    users = [path for path, text in files.items() if "bica_live.hpp" in text and path.endswith((".hpp", ".cpp"))]
-    assert users == ["cpp/bica_live.hpp", "cpp/lamps/live.hpp"]
+def cpp_files(project: Project) -> dict[str, str]:
+    return {file.path: file.text for file in generate(project, languages=["cpp"])}
+
+
+def test_only_projects_that_ask_get_the_live_view() -> None:
+    project = open_project(LAMP).project
+    users = [path for path, text in cpp_files(project).items() if "bica_live.hpp" in text]
+    assert users == ["cpp/bica_live.hpp", "cpp/lamps/CMakeLists.txt", "cpp/lamps/live.hpp"]
+    without = replace(project, live=False)
+    assert not [path for path, text in cpp_files(without).items() if "live" in path.lower() or "code_hash" in text]
+    assert set(list_outputs(project)) - set(list_outputs(without)) == {"cpp/bica_live.hpp", "cpp/lamps/live.hpp"}
+
+
+def test_an_edit_of_an_action_changes_one_file() -> None:
+    project = open_project(LAMP).project
+    before = cpp_files(project)
+    text = (LAMP / "lamp.yaml").read_text(encoding="utf-8").replace("count + 1", "count + 2")
+    design = read_design(text).design
+    assert design is not None
+    after = cpp_files(replace(project, designs=(design,)))
+    assert [path for path in after if after[path] != before[path]] == ["cpp/lamps/lamp.cpp"]

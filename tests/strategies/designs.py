@@ -260,6 +260,7 @@ projects = st.builds(
     name=names,
     doc=st.just("") | texts,
     languages=_tuples(st.sampled_from(["python", "cpp", "xabsl"]), 2),
+    live=st.booleans(),
     world=st.just("") | texts,
     clock=st.sampled_from(["", "world"]),
     generated=st.sampled_from(["generated", "../out", ""]),
