@@ -324,28 +324,7 @@ private:
 
 // JSON
 
-inline std::string json_text(const char* text) {
-    std::string result = "\"";
-    for (const char* at = text; *at != '\0';) {
-        const auto byte = static_cast<unsigned char>(*at);
-        const int more = byte < 0x80 ? 0 : byte >= 0xc2 && byte < 0xe0 ? 1 : byte >= 0xe0 && byte < 0xf0 ? 2 : byte >= 0xf0 && byte < 0xf5 ? 3 : -1;
-        int found = 0;
-        while (found < more && (static_cast<unsigned char>(at[found + 1]) & 0xc0) == 0x80) {
-            ++found;
-        }
-        if (byte < 0x20 || byte == 0x7f || found != more) {
-            std::array<char, 8> code{};
-            std::snprintf(code.data(), code.size(), "\\u%04x", found != more ? 0xfffdU : static_cast<unsigned>(byte));
-            result.append(code.data());
-            ++at;
-            continue;
-        }
-        result.append(byte == '"' || byte == '\\' ? "\\" : "").append(at, static_cast<std::size_t>(more) + 1);
-        at += more + 1;
-    }
-    return result.append("\"");
-}
-
+using bica::json_text;
 inline std::string json_text(const std::string& text) { return json_text(text.c_str()); }
 
 /// The shortest text of a number that reads as the same number, whatever the locale of the program is.
@@ -487,71 +466,38 @@ class JsonReader {
 public:
     explicit JsonReader(const std::string& line) : line_(line) {}
 
-    bool parse(Json& value) {
-        skip();
-        return read(value) && (skip(), at_ == line_.size());
-    }
+    bool parse(Json& value) { return read(value) && at_ == line_.size(); }
 
 private:
     char peek() const { return at_ < line_.size() ? line_[at_] : '\0'; }
-    void skip() {
-        while (at_ < line_.size() && std::strchr(" \t\r\n", line_[at_]) != nullptr && line_[at_] != '\0') {
-            ++at_;
-        }
-    }
+    void skip() { at_ = std::min(line_.find_first_not_of(" \t\r\n", at_), line_.size()); }
     bool accept(const char* word) {
-        if (line_.compare(at_, std::strlen(word), word) != 0) {
-            return false;
-        }
-        at_ += std::strlen(word);
-        return true;
+        const bool is_next = line_.compare(at_, std::strlen(word), word) == 0;
+        at_ += is_next ? std::strlen(word) : 0;
+        return is_next;
     }
     bool read(Json& value) {
+        skip();
         const std::size_t begin = at_;
-        const bool is_valid = read_value(value);
+        const char first = peek();
+        value.kind = first == '{' ? Json::Kind::object : first == '[' ? Json::Kind::list : first == '"' ? Json::Kind::text : Json::Kind::null;
+        const bool is_valid = first == '{' || first == '[' ? read_items(value) : first == '"' ? read_text(value.text) : read_word(value);
         value.raw = line_.substr(begin, at_ - begin);
+        skip();
         return is_valid;
     }
-    bool read_value(Json& value) {
-        switch (peek()) {
-            case '{':
-                value.kind = Json::Kind::object;
-                return read_items('}', [this, &value] {
-                    Json name;
-                    if (peek() != '"' || !read(name) || (skip(), !accept(":"))) {
-                        return false;
-                    }
-                    skip();
-                    Json member;
-                    const bool is_valid = read(member);
-                    value.members[name.text] = std::move(member);
-                    return is_valid;
-                });
-            case '[':
-                value.kind = Json::Kind::list;
-                return read_items(']', [this, &value] {
-                    value.items.emplace_back();
-                    return read(value.items.back());
-                });
-            case '"':
-                value.kind = Json::Kind::text;
-                return read_text(value.text);
-            default:
-                return read_word(value);
-        }
-    }
-    template <class ReadItem>
-    bool read_items(char end, ReadItem read_item) {
+    bool read_items(Json& value) {
+        const bool has_names = value.kind == Json::Kind::object;
+        const char end = has_names ? '}' : ']';
         ++at_;
         skip();
         for (bool is_first = true; peek() != end; is_first = false) {
-            if (!is_first && (!accept(",") || (skip(), false))) {
+            Json name;
+            Json item;
+            if ((!is_first && !accept(",")) || (has_names && (!read(name) || name.kind != Json::Kind::text || !accept(":"))) || !read(item)) {
                 return false;
             }
-            if (!read_item()) {
-                return false;
-            }
-            skip();
+            (has_names ? value.members[name.text] : value.items.emplace_back()) = std::move(item);
         }
         ++at_;
         return true;
@@ -1237,59 +1183,40 @@ private:
     void parse_break() {
         std::string words;
         const Json& places = json_["places"];
-        bool is_valid = places.kind == Json::Kind::list;
-        for (const Json& each : places.items) {
-            is_valid = is_valid && is_place(each);
-        }
-        if (!is_valid) {
+        if (places.kind != Json::Kind::list || !std::all_of(places.items.begin(), places.items.end(), is_place)) {
             error = "'places' must be a list of [component, state] or [component, source, target, id]";
             return;
         }
-        for (const Json& each : places.items) {
-            Place place = read_place(each);
-            if (!error.empty()) {
-                return;
-            }
-            words += request_->places.size() < 10 ? (words.empty() ? "" : ", ") + place.words : "";
-            request_->places.push_back(std::move(place));
+        std::vector<Place>& read = request_->places;
+        for (auto each = places.items.begin(); each != places.items.end() && error.empty(); ++each) {
+            read.push_back(read_place(*each));
+            words += read.size() <= 10 ? (words.empty() ? "" : ", ") + read.back().words : "";
         }
-        const std::size_t count = request_->places.size();
-        words += count > 10 ? " and " + std::to_string(count - 10) + " more" : "";
+        words += read.size() > 10 ? " and " + std::to_string(read.size() - 10) + " more" : "";
         finish("breakpoints: " + (words.empty() ? "none" : words), [](Robot& robot, Request& request) { robot.set_breakpoints(request); });
     }
     static bool is_place(const Json& place) {
-        bool is_valid = place.kind == Json::Kind::list && (place.items.size() == 2 || place.items.size() == 4);
-        for (std::size_t index = 0; is_valid && index < place.items.size(); ++index) {
-            is_valid = place.items[index].kind == Json::Kind::text || (index == 3 && place.items[index].kind == Json::Kind::null);
-        }
-        return is_valid;
+        const auto is_text = [](const Json& each) { return each.kind == Json::Kind::text; };
+        const std::size_t count = place.items.size();
+        return (count == 2 || count == 4) && std::all_of(place.items.begin(), place.items.begin() + (count == 2 ? 2 : 3), is_text) && (count == 2 || is_text(place.items[3]) || place.items[3].kind == Json::Kind::null);
     }
     Place read_place(const Json& json) {
-        Place place;
-        place.words = "errors";
-        place.is_state = json.items.size() == 2;
-        if (json.items[0].text.empty()) {
-            return place;
+        const bool is_state = json.items.size() == 2;
+        const std::string source = is_state ? "" : json.items[1].text;
+        const std::string state = json.items[is_state ? 1 : 2].text;
+        const LiveComponent* component = json.items[0].text.empty() ? nullptr : find_component(json.items[0]);
+        if (component == nullptr) {
+            return {nullptr, "", "", "", is_state, false, "errors"};
         }
-        const LiveComponent* component = find_component(json.items[0]);
-        const std::size_t count = place.is_state ? 1 : 2;
-        for (std::size_t index = 1; component != nullptr && index <= count; ++index) {
-            const std::string& state = json.items[index].text;
-            if (!state.empty() && find_state(*component, state) == component->states.size() && error.empty()) {
-                error = json.items[0].text + " has no state '" + state + "'";
+        for (const std::string& each : {source, state}) {
+            if (!each.empty() && find_state(*component, each) == component->states.size() && error.empty()) {
+                error = json.items[0].text + " has no state '" + each + "'";
             }
         }
-        if (component == nullptr || !error.empty()) {
-            return place;
-        }
-        place.component = component->component->name();
-        place.source = place.is_state ? "" : json.items[1].text;
-        place.state = json.items[count].text;
-        place.has_transition = !place.is_state && json.items[3].kind == Json::Kind::text;
-        place.transition = place.has_transition ? json.items[3].text : "";
-        const auto named = [](const std::string& state) { return state.empty() ? "any state" : state; };
-        place.words = std::string(place.component) + " " + (place.is_state ? "" : named(place.source) + " → ") + named(place.state);
-        return place;
+        const auto named = [](const std::string& name) { return name.empty() ? "any state" : name; };
+        const std::string words = name_of(*component) + " " + (is_state ? "" : named(source) + " → ") + named(state);
+        const bool has_transition = !is_state && json.items[3].kind == Json::Kind::text;
+        return {component->component->name(), source, state, has_transition ? json.items[3].text : "", is_state, has_transition, words};
     }
     void parse_set() {
         LiveComponent* component = find_component();
