@@ -30,6 +30,11 @@ def distance(control: Viewer, value: float) -> None:
     control.ask(do="set", component="Eyes", name="distance", value=value)
 
 
+def start_without_input(program: Path, *arguments: str) -> "subprocess.CompletedProcess[str]":
+    command = [program, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+
+
 def state(line: dict[str, Any]) -> str:
     return str(line["tree"][0]["state"])
 
@@ -144,20 +149,38 @@ def test_a_flood_is_limited_and_then_disconnected(cpp_robot: CppRobot) -> None:
     cpp_robot.end()
 
 
-@pytest.mark.parametrize("token", ["wrong", None, ["x"], "ä"])
-def test_a_wrong_token_ends_the_connection(cpp_robot: CppRobot, token: Any) -> None:
-    viewer = Viewer(cpp_robot, token=token)
-    assert viewer.get(bool) == {"error": "wrong token"}
-    with pytest.raises(ConnectionResetError):
-        viewer.get(bool)
-
-
-def test_a_robot_without_hold_or_with_a_bad_address_says_so(cpp_program: Path) -> None:
+def test_a_bad_address_is_an_error(cpp_program: Path) -> None:
     for address in ("nowhere", "unix:/no/folder/robot.sock"):
-        ended = subprocess.run(
-            [cpp_program, "--watch", address], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL
-        )
+        ended = start_without_input(cpp_program, "--watch", address)
         assert (ended.returncode, ended.stderr.startswith(f"error: cannot be watched at {address}: ")) == (2, True)
+
+
+def test_a_port_in_use_is_an_error(cpp_robot: CppRobot, cpp_program: Path) -> None:
+    port = cpp_robot.address.rpartition(":")[2]
+    assert f"error: cannot be watched at {port}: " in start_without_input(cpp_program, "--watch", port).stderr
+
+
+def test_a_robot_without_hold_is_only_controlled_if_asked_twice(cpp_program: Path) -> None:
+    refused = start_without_input(cpp_program, "--watch", "0", "--control", "--no-hold")
+    assert (refused.returncode, "a paused robot would keep moving" in refused.stderr) == (2, True)
+    for arguments, environment in (
+        (("--control", "--without-hold"), {}),
+        ((), {"VICODE_WATCH_CONTROL": "without-hold"}),
+    ):
+        robot = CppRobot(cpp_program, "--watch", "0", *arguments, "--no-hold", **environment)
+        assert Viewer(robot).ask(do="pause")["done"] == "paused"
+        robot.end()
+
+
+def test_the_robot_is_held_when_it_pauses_and_when_a_viewer_leaves(cpp_robot: CppRobot, cpp_control: Viewer) -> None:
+    cpp_control.ask(do="set", component="Eyes", name="distance", value=4)
+    cpp_control.socket.close()
+    other = Viewer(cpp_robot)
+    other.ask(do="pause")
+    other.get(lambda line: line.get("paused"))
+    other.ask(do="resume")
+    printed, _logged = cpp_robot.end()
+    assert " 2 holds" in printed
 
 
 def test_the_thread_of_the_robot_allocates_nothing(cpp_program: Path, tmp_path: Path) -> None:
