@@ -11,6 +11,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 from benchmarks.cpp import _FLAGS
@@ -87,7 +88,8 @@ def main() -> None:
 
 
 def build(folder: Path, ticks: int) -> Path:
-    for file in generate(make_project(make_machine(6, 2, acts=False), senses="", counts=True), languages=["cpp"]):
+    project = make_project(make_machine(6, 2, acts=False), senses="", counts=True)
+    for file in generate(replace(project, live=True), languages=["cpp"]):
         target = folder / file.path
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(file.text, encoding="utf-8")

@@ -1212,6 +1212,29 @@ private:
     std::size_t depth_ = 0;
 };
 
+/// The text as a literal of JSON; bytes that are no UTF-8 become U+FFFD.
+inline std::string json_text(const char* text) {
+    std::string result = "\"";
+    while (*text != '\0') {
+        const auto byte = static_cast<unsigned char>(*text);
+        const int more = byte < 0x80 ? 0 : byte >= 0xc2 && byte < 0xe0 ? 1 : byte >= 0xe0 && byte < 0xf0 ? 2 : byte >= 0xf0 && byte < 0xf5 ? 3 : -1;
+        int found = 0;
+        while (found < more && (static_cast<unsigned char>(text[found + 1]) & 0xc0) == 0x80) {
+            ++found;
+        }
+        if (byte < 0x20 || byte == 0x7f || found != more) {
+            std::array<char, 8> code{};
+            std::snprintf(code.data(), code.size(), "\\u%04x", found != more ? 0xfffdU : static_cast<unsigned>(byte));
+            result.append(code.data());
+            ++text;
+            continue;
+        }
+        result.append(byte == '"' || byte == '\\' ? "\\" : "").append(text, static_cast<std::size_t>(more) + 1);
+        text += more + 1;
+    }
+    return result.append("\"");
+}
+
 /// Writes a trace (docs/traces.md): one line per iteration.
 class TraceWriter final : public Observer {
 public:
@@ -1246,10 +1269,10 @@ public:
             steps_.emplace_back();
         }
         std::string& text = steps_[size_];
-        text.assign("{\"component\": ").append(quoted(component.name()));
-        text.append(", \"by\": ").append(active_.empty() ? "null" : quoted(active_.back().component->name()));
+        text.assign("{\"component\": ").append(json_text(component.name()));
+        text.append(", \"by\": ").append(active_.empty() ? "null" : json_text(active_.back().component->name()));
         const char* link = is_modulated ? "modulates" : "requires";
-        text.append(", \"link\": ").append(quoted(active_.empty() ? "root" : link));
+        text.append(", \"link\": ").append(json_text(active_.empty() ? "root" : link));
         text.append(", \"worked\": ").append(works ? "true" : "false").append(", \"parameters\": {");
         if (is_modulated) {
             Values values(text);
@@ -1262,11 +1285,11 @@ public:
     void end_step(const Component& component) override {
         std::string& text = steps_[active_.back().step];
         active_.pop_back();
-        text.append(", \"state\": ").append(quoted(component.state_name()));
+        text.append(", \"state\": ").append(json_text(component.state_name()));
         text.append(", \"state_time_ns\": ").append(std::to_string(component.state_time_ns()));
         text.append(", \"component_time_ns\": ").append(std::to_string(component.component_time_ns()));
-        text.append(", \"changed_from\": ").append(component.left_state() != nullptr ? quoted(component.left_state()) : "null");
-        text.append(", \"transition\": ").append(component.transition() != nullptr ? quoted(component.transition()) : "null");
+        text.append(", \"changed_from\": ").append(component.left_state() != nullptr ? json_text(component.left_state()) : "null");
+        text.append(", \"transition\": ").append(component.transition() != nullptr ? json_text(component.transition()) : "null");
         text.append(", \"done\": ").append(component.is_done() ? "true" : "false").append(", \"values\": {");
         Values values(text);
         component.visit_values(values);
@@ -1274,8 +1297,8 @@ public:
     }
 
     void error(const Component& component, const char* what) override {
-        errors_.append(errors_.empty() ? "" : ", ").append("{\"component\": ").append(quoted(component.name()));
-        errors_.append(", \"state\": ").append(quoted(component.state_name())).append(", \"message\": ").append(quoted(what)).append("}");
+        errors_.append(errors_.empty() ? "" : ", ").append("{\"component\": ").append(json_text(component.name()));
+        errors_.append(", \"state\": ").append(json_text(component.state_name())).append(", \"message\": ").append(json_text(what)).append("}");
     }
 
 private:
@@ -1287,7 +1310,7 @@ private:
     void read_inputs() {
         input_text_.assign(", \"inputs\": {");
         for (const Component* component : inputs_) {
-            input_text_.append(input_text_.back() == '{' ? "" : ", ").append(quoted(component->name())).append(": {");
+            input_text_.append(input_text_.back() == '{' ? "" : ", ").append(json_text(component->name())).append(": {");
             Values values(input_text_);
             component->visit_inputs(values);
             input_text_.append("}");
@@ -1312,12 +1335,12 @@ private:
             text.append(std::strpbrk(digits.data(), ".e") == nullptr ? ".0" : "");
         }
         void visit(const char* name, const char* enumeration, const char* element) override {
-            add(name).append(quoted((std::string(enumeration) + "." + element).c_str()));
+            add(name).append(json_text((std::string(enumeration) + "." + element).c_str()));
         }
 
     private:
         std::string& add(const char* name) {
-            text_.append(text_.back() == '{' ? "" : ", ").append(quoted(name)).append(": ");
+            text_.append(text_.back() == '{' ? "" : ", ").append(json_text(name)).append(": ");
             return text_;
         }
 
@@ -1325,21 +1348,6 @@ private:
     };
 
     static long long to_long(std::int64_t value) { return value; }
-
-    static std::string quoted(const char* text) {
-        std::string result = "\"";
-        for (; *text != '\0'; ++text) {
-            const auto byte = static_cast<unsigned char>(*text);
-            if (byte < 0x20 || byte == 0x7f) {
-                std::array<char, 8> code{};
-                std::snprintf(code.data(), code.size(), "\\u%04x", static_cast<unsigned>(byte));
-                result.append(code.data());
-            } else {
-                result.append(byte == '"' || byte == '\\' ? "\\" : "").push_back(*text);
-            }
-        }
-        return result.append("\"");
-    }
 
     std::FILE* file_;
     std::vector<std::string> steps_;

@@ -108,6 +108,8 @@ struct LiveComponent {
     void (*enter)(Component&, std::size_t state) = nullptr;
     bool (*action_done)(const Component&) = nullptr;
     bool (*conflict)(const Component&) = nullptr;
+    /// The error that replaces the next step; empty if there is none.
+    std::array<char, 201> injected{};
 
     template <class Machine>
     void set_states(const Machine&, std::initializer_list<const char*> names) {
@@ -191,7 +193,9 @@ private:
 namespace live {
 
 using Clock = std::chrono::steady_clock;
-using Text = std::array<char, 201>;
+using Text = decltype(LiveComponent::injected);
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline double now_s() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
 
@@ -201,13 +205,12 @@ inline void copy_text(Text& target, const char* text) { std::snprintf(target.dat
 template <class Item>
 class Queue {
 public:
-    explicit Queue(std::size_t capacity) : items_(capacity) {}
-    std::size_t room() const { return items_.size() - (head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire)); }
+    explicit Queue(std::vector<Item> items) : items_(std::move(items)) {}
     bool add(const Item& item) {
-        if (room() == 0) {
+        const std::size_t head = head_.load(std::memory_order_relaxed);
+        if (head - tail_.load(std::memory_order_acquire) == items_.size()) {
             return false;
         }
-        const std::size_t head = head_.load(std::memory_order_relaxed);
         items_[head % items_.size()] = item;
         head_.store(head + 1, std::memory_order_release);
         return true;
@@ -276,11 +279,6 @@ struct Head {
     std::int64_t team_size = 1;
     std::int64_t errors_total = 0;
     std::int64_t dropped = 0;
-    std::size_t steps = 0;
-    std::size_t values = 0;
-    std::size_t errors = 0;
-    std::size_t inputs = 0;
-    std::size_t still_done = 0;
     bool is_paused = false;
 };
 
@@ -296,20 +294,13 @@ public:
         inputs.reserve(components);
         still_done.reserve(components);
     }
+    std::size_t bytes() const { return sizeof(*this) + steps.capacity() * sizeof(Step) + values.capacity() * sizeof(LiveValue) + errors.capacity() * sizeof(Error); }
     void clear() {
         steps.clear();
         values.clear();
         errors.clear();
         inputs.clear();
         still_done.clear();
-    }
-    Head& finish() {
-        head.steps = steps.size();
-        head.values = values.size();
-        head.errors = errors.size();
-        head.inputs = inputs.size();
-        head.still_done = still_done.size();
-        return head;
     }
     void visit(const char* name, bool value) override { add({name, LiveValue::Kind::boolean, value ? 1 : 0}); }
     void visit(const char* name, std::int64_t value) override { add({name, LiveValue::Kind::integer, value}); }
@@ -333,28 +324,7 @@ private:
 
 // JSON
 
-inline std::string json_text(const char* text) {
-    std::string result = "\"";
-    for (const char* at = text; *at != '\0';) {
-        const auto byte = static_cast<unsigned char>(*at);
-        const int more = byte < 0x80 ? 0 : byte >= 0xc2 && byte < 0xe0 ? 1 : byte >= 0xe0 && byte < 0xf0 ? 2 : byte >= 0xf0 && byte < 0xf5 ? 3 : -1;
-        int found = 0;
-        while (found < more && (static_cast<unsigned char>(at[found + 1]) & 0xc0) == 0x80) {
-            ++found;
-        }
-        if (byte < 0x20 || byte == 0x7f || found != more) {
-            std::array<char, 8> code{};
-            std::snprintf(code.data(), code.size(), "\\u%04x", found != more ? 0xfffdU : static_cast<unsigned>(byte));
-            result.append(code.data());
-            ++at;
-            continue;
-        }
-        result.append(byte == '"' || byte == '\\' ? "\\" : "").append(at, static_cast<std::size_t>(more) + 1);
-        at += more + 1;
-    }
-    return result.append("\"");
-}
-
+using bica::json_text;
 inline std::string json_text(const std::string& text) { return json_text(text.c_str()); }
 
 /// The shortest text of a number that reads as the same number, whatever the locale of the program is.
@@ -496,71 +466,38 @@ class JsonReader {
 public:
     explicit JsonReader(const std::string& line) : line_(line) {}
 
-    bool parse(Json& value) {
-        skip();
-        return read(value) && (skip(), at_ == line_.size());
-    }
+    bool parse(Json& value) { return read(value) && at_ == line_.size(); }
 
 private:
     char peek() const { return at_ < line_.size() ? line_[at_] : '\0'; }
-    void skip() {
-        while (at_ < line_.size() && std::strchr(" \t\r\n", line_[at_]) != nullptr && line_[at_] != '\0') {
-            ++at_;
-        }
-    }
+    void skip() { at_ = std::min(line_.find_first_not_of(" \t\r\n", at_), line_.size()); }
     bool accept(const char* word) {
-        if (line_.compare(at_, std::strlen(word), word) != 0) {
-            return false;
-        }
-        at_ += std::strlen(word);
-        return true;
+        const bool is_next = line_.compare(at_, std::strlen(word), word) == 0;
+        at_ += is_next ? std::strlen(word) : 0;
+        return is_next;
     }
     bool read(Json& value) {
+        skip();
         const std::size_t begin = at_;
-        const bool is_valid = read_value(value);
+        const char first = peek();
+        value.kind = first == '{' ? Json::Kind::object : first == '[' ? Json::Kind::list : first == '"' ? Json::Kind::text : Json::Kind::null;
+        const bool is_valid = first == '{' || first == '[' ? read_items(value) : first == '"' ? read_text(value.text) : read_word(value);
         value.raw = line_.substr(begin, at_ - begin);
+        skip();
         return is_valid;
     }
-    bool read_value(Json& value) {
-        switch (peek()) {
-            case '{':
-                value.kind = Json::Kind::object;
-                return read_items('}', [this, &value] {
-                    Json name;
-                    if (peek() != '"' || !read(name) || (skip(), !accept(":"))) {
-                        return false;
-                    }
-                    skip();
-                    Json member;
-                    const bool is_valid = read(member);
-                    value.members[name.text] = std::move(member);
-                    return is_valid;
-                });
-            case '[':
-                value.kind = Json::Kind::list;
-                return read_items(']', [this, &value] {
-                    value.items.emplace_back();
-                    return read(value.items.back());
-                });
-            case '"':
-                value.kind = Json::Kind::text;
-                return read_text(value.text);
-            default:
-                return read_word(value);
-        }
-    }
-    template <class ReadItem>
-    bool read_items(char end, ReadItem read_item) {
+    bool read_items(Json& value) {
+        const bool has_names = value.kind == Json::Kind::object;
+        const char end = has_names ? '}' : ']';
         ++at_;
         skip();
         for (bool is_first = true; peek() != end; is_first = false) {
-            if (!is_first && (!accept(",") || (skip(), false))) {
+            Json name;
+            Json item;
+            if ((!is_first && !accept(",")) || (has_names && (!read(name) || name.kind != Json::Kind::text || !accept(":"))) || !read(item)) {
                 return false;
             }
-            if (!read_item()) {
-                return false;
-            }
-            skip();
+            (has_names ? value.members[name.text] : value.items.emplace_back()) = std::move(item);
         }
         ++at_;
         return true;
@@ -575,7 +512,6 @@ private:
             return true;
         }
         value.kind = Json::Kind::number;
-        const double infinity = std::numeric_limits<double>::infinity();
         if (accept("NaN") || accept("Infinity") || accept("-Infinity")) {
             value.number = line_[at_ - 1] == 'N' ? nan : line_[at_ - 9] == '-' ? -infinity : infinity;
             return true;
@@ -647,8 +583,8 @@ inline void print_line(const char* kind, std::string text) {
 /// Keeps the last minutes in files FILE.RUN.SEGMENT.jsonl; a thread writes them.
 class Recorder {
 public:
-    Recorder(const std::string& path, double minutes)
-        : path_(std::filesystem::absolute(path)), segment_ns_(nanoseconds(minutes * 6e9)), heads_(4096), steps_(1 << 16), values_(1 << 18), errors_(256), spans_(1 << 15), done_(1 << 14) {
+    Recorder(const std::string& path, double minutes, std::vector<Iteration> waiting)
+        : path_(std::filesystem::absolute(path)), segment_ns_(nanoseconds(minutes * 6e9)), waiting_(std::move(waiting)) {
         find_run();
         has_failed_ = !open_segment();
         if (!has_failed_) {
@@ -674,19 +610,9 @@ public:
     }
 
     /// Queues an iteration, or counts it as dropped; called by the thread of the root.
-    void add(const Iteration& iteration) {
-        Head head = iteration.head;
-        if (heads_.room() == 0 || steps_.room() < head.steps || values_.room() < head.values || errors_.room() < head.errors || spans_.room() < head.inputs || done_.room() < head.still_done) {
-            ++dropped_;
-            return;
-        }
-        head.dropped = std::exchange(dropped_, 0);
-        add_all(steps_, iteration.steps);
-        add_all(values_, iteration.values);
-        add_all(errors_, iteration.errors);
-        add_all(spans_, iteration.inputs);
-        add_all(done_, iteration.still_done);
-        heads_.add(head);
+    void add(Iteration& iteration) {
+        iteration.head.dropped = dropped_;
+        dropped_ = waiting_.add(iteration) ? 0 : dropped_ + 1;
     }
 
 private:
@@ -694,29 +620,9 @@ private:
     static constexpr std::size_t kept_runs_ = 4;
     static constexpr std::size_t most_bytes_ = 512'000'000;
 
-    template <class Item>
-    static void add_all(Queue<Item>& queue, const std::vector<Item>& items) {
-        for (const Item& item : items) {
-            queue.add(item);
-        }
-    }
-    template <class Item>
-    static void take_all(Queue<Item>& queue, std::vector<Item>& items, std::size_t count) {
-        items.resize(count);
-        for (Item& item : items) {
-            queue.take(item);
-        }
-    }
-
     void write_waiting() {
         Iteration iteration;
-        while (heads_.take(iteration.head)) {
-            const Head& head = iteration.head;
-            take_all(steps_, iteration.steps, head.steps);
-            take_all(values_, iteration.values, head.values);
-            take_all(errors_, iteration.errors, head.errors);
-            take_all(spans_, iteration.inputs, head.inputs);
-            take_all(done_, iteration.still_done, head.still_done);
+        while (waiting_.take(iteration)) {
             if (!has_failed_ && !write(iteration)) {
                 has_failed_ = true;
                 print_line("error", "cannot write the record " + path_.string() + "; the run continues without it");
@@ -796,12 +702,7 @@ private:
 
     std::filesystem::path path_;
     Nanoseconds segment_ns_;
-    Queue<Head> heads_;
-    Queue<Step> steps_;
-    Queue<LiveValue> values_;
-    Queue<Error> errors_;
-    Queue<Span> spans_;
-    Queue<const Component*> done_;
+    Queue<Iteration> waiting_;
     std::int64_t dropped_ = 0;
     std::atomic<bool> is_closing_{false};
     bool has_failed_ = false;
@@ -836,23 +737,16 @@ struct Place {
 
 /// A checked request; the thread of the server makes and deletes it, that of the root applies it.
 struct Request {
-    void (*apply)(class Robot& robot, Request& request) = nullptr;
+    std::function<void(class Robot& robot, Request& request)> apply{};
     std::uint64_t viewer = 0;
     bool has_answer = false;
     std::string id = "null";
     std::string done{};
-    LiveComponent* component = nullptr;
-    const LiveField* field = nullptr;
-    LiveValue value{};
-    bool is_held = false;
-    std::int64_t count = 0;
-    double hertz = 0.0;
-    std::size_t state = 0;
-    Text message{};
     std::vector<Place> places{};
     // The answer of the thread of the root.
     Text error{};
     const char* before = nullptr;
+    bool has_ended_pause = false;
 };
 
 /// The robot as its own thread sees it: publishes iterations, and applies requests between them.
@@ -861,7 +755,7 @@ public:
     static constexpr std::size_t most_handled = 4;
 
     Robot(Root& root, const Component& main, LiveProject project_, const LiveOptions& options_)
-        : project(std::move(project_)), options(options_), main_name(main.name()), root_(root), next_(root.observer), injected_(project.components.size()) {
+        : project(std::move(project_)), options(options_), main_name(main.name()), root_(root), next_(root.observer) {
         Iteration count;
         count.values.reserve(1 << 16);
         std::size_t fields = 0;
@@ -871,8 +765,11 @@ public:
             each.component->visit_inputs(count);
             fields += each.fields.all.size();
         }
-        for (Iteration& each : iterations_) {
-            each.reserve(4 * project.components.size() + 32, 4 * count.values.size() + 256, project.components.size());
+        std::vector<Iteration> iterations = make_iterations(3, 4 * count.values.size() + 256);
+        std::move(iterations.begin(), iterations.end(), iterations_.begin());
+        if (!options.record.empty()) {
+            const std::size_t kept = std::clamp<std::size_t>(most_waiting_bytes_ / iterations_[0].bytes(), 64, 4096);
+            recorder_ = std::make_unique<Recorder>(options.record, options.minutes, make_iterations(kept, 4 * count.values.size() + 256));
         }
         active_.reserve(project.components.size() + 64);
         held_.reserve(fields);
@@ -895,9 +792,8 @@ public:
     }
 
     std::atomic<bool> is_watched{false};
-    Recorder* recorder = nullptr;
-    Queue<Change> changes{512};
-    Queue<Text> log{64};
+    Queue<Change> changes{std::vector<Change>(512)};
+    Queue<Text> log{std::vector<Text>(64)};
     /// The requests of one iteration: the server fills them in state 0, the robot answers in state 1, and sets 2.
     std::array<Request*, most_handled> requests{};
     std::atomic<int> requests_state{0};
@@ -940,14 +836,11 @@ public:
     }
 
     bool replaces_step(Component& component) override {
-        if (is_injecting_) {
-            for (std::size_t index = 0; index < injected_.size(); ++index) {
-                if (project.components[index].component == &component && injected_[index][0] != '\0') {
-                    const Text message = std::exchange(injected_[index], Text{});
-                    root_.report(component, message.data());
-                    return true;
-                }
-            }
+        LiveComponent* shown = is_injecting_ ? find(component) : nullptr;
+        if (shown != nullptr && shown->injected[0] != '\0') {
+            const Text message = std::exchange(shown->injected, Text{});
+            root_.report(component, message.data());
+            return true;
         }
         return next_ != nullptr && next_->replaces_step(component);
     }
@@ -996,23 +889,16 @@ public:
         paused_by_ = viewer;
         steps_left_ = steps;
     }
-    void set(const Request& request) {
-        request.field->write(request.field->place, request.value);
-        if (request.is_held) {
-            unset(request.field);
-            held_.push_back({request.viewer, request.component->component, request.field, request.value});
-        }
+    void hold_value(std::uint64_t viewer, const Component* component, const LiveField* field, const LiveValue& value) {
+        unset(field);
+        held_.push_back({viewer, component, field, value});
     }
     void unset(const LiveField* field) {
         held_.erase(std::remove_if(held_.begin(), held_.end(), [field](const Held& each) { return each.field == field; }), held_.end());
     }
-    void inject(Request& request) {
-        for (std::size_t index = 0; index < injected_.size(); ++index) {
-            if (&project.components[index] == request.component) {
-                injected_[index] = request.message;
-                is_injecting_ = true;
-            }
-        }
+    void inject(LiveComponent& component, const Text& message) {
+        component.injected = message;
+        is_injecting_ = true;
     }
     /// Replaces the breakpoints of a viewer; the old ones go back with the request, since this thread frees nothing.
     void set_breakpoints(Request& request) {
@@ -1030,7 +916,7 @@ public:
     void release(Request& request) {
         if (paused_by_ == request.viewer) {
             pause(0, 0);
-            request.count = 1;
+            request.has_ended_pause = true;
         }
         for (Breakpoints& each : breakpoints_) {
             if (each.viewer == request.viewer) {
@@ -1046,6 +932,7 @@ public:
 
 private:
     static constexpr int is_new_ = 4;
+    static constexpr std::size_t most_waiting_bytes_ = 32'000'000;
     static constexpr std::size_t no_step_ = static_cast<std::size_t>(-1);
 
     struct Held {
@@ -1059,12 +946,23 @@ private:
         std::vector<Place> places;
     };
 
+    std::vector<Iteration> make_iterations(std::size_t count, std::size_t most_values) const {
+        std::vector<Iteration> iterations(count);
+        for (Iteration& each : iterations) {
+            each.reserve(4 * project.components.size() + 32, most_values, project.components.size());
+        }
+        return iterations;
+    }
+    LiveComponent* find(const Component& component) {
+        const auto found = std::find_if(project.components.begin(), project.components.end(), [&component](const LiveComponent& each) { return each.component == &component; });
+        return found != project.components.end() ? &*found : nullptr;
+    }
     Iteration* writing() { return &iterations_[static_cast<std::size_t>(write_)]; }
 
     void begin_iteration() {
         last_iteration_ = root_.iteration() - 1;
         apply_requests();
-        is_observing_ = recorder != nullptr || is_watched.load(std::memory_order_acquire);
+        is_observing_ = recorder_ != nullptr || is_watched.load(std::memory_order_acquire);
         if (!is_observing_) {
             return;
         }
@@ -1089,11 +987,9 @@ private:
         step.changed_from = component.left_state();
         step.transition = component.transition();
         step.done = component.is_done();
-        for (const LiveComponent& each : project.components) {
-            if (each.component == &component && (each.action_done != nullptr || each.conflict != nullptr)) {
-                step.action_done = static_cast<signed char>(each.action_done == nullptr ? -1 : each.action_done(component));
-                step.conflict = static_cast<signed char>(each.conflict == nullptr ? -1 : each.conflict(component));
-            }
+        if (const LiveComponent* shown = find(component)) {
+            step.action_done = static_cast<signed char>(shown->action_done == nullptr ? -1 : shown->action_done(component));
+            step.conflict = static_cast<signed char>(shown->conflict == nullptr ? -1 : shown->conflict(component));
         }
         step.values.begin = iteration.values.size();
         component.visit_values(iteration);
@@ -1135,14 +1031,14 @@ private:
             std::snprintf(words.data(), words.size(), "paused at the breakpoint %s", reached_->words.c_str());
             log.add(words);
         }
-        Head& head = iteration.finish();
+        Head& head = iteration.head;
         head.iteration = root_.iteration();
         head.time_ns = root_.now_ns();
         head.team_size = root_.team.size;
         head.errors_total = errors_total_;
         head.is_paused = false;
-        if (recorder != nullptr) {
-            recorder->add(iteration);
+        if (recorder_ != nullptr) {
+            recorder_->add(iteration);
         }
         if (is_paused()) {
             wait_while_paused(iteration);
@@ -1177,37 +1073,34 @@ private:
         }
         for (Request* request : requests) {
             if (request != nullptr) {
-                apply(*request);
+                call(request->error, [this, request] { request->apply(*this, *request); });
             }
         }
         requests_state.store(2, std::memory_order_release);
     }
-    /// The code of states that are entered may throw.
-    void apply(Request& request) {
+    void hold() {
+        Text error{};
+        if (options.hold) {
+            call(error, options.hold);
+        }
+        if (error[0] != '\0') {
+            log.add({"hold() failed; the robot may move"});
+        }
+    }
+    /// Calls code of the program, which may throw.
+    template <class Call>
+    static void call([[maybe_unused]] Text& error, const Call& code) {
 #if defined(__cpp_exceptions)
         try {
-            request.apply(*this, request);
-        } catch (const std::exception& error) {
-            copy_text(request.error, error.what());
+            code();
+        } catch (const std::exception& thrown) {
+            copy_text(error, thrown.what());
         } catch (...) {
-            copy_text(request.error, "unknown exception");
+            copy_text(error, "unknown exception");
         }
 #else
-        request.apply(*this, request);
+        code();
 #endif
-    }
-    void hold() {
-        if (options.hold) {
-#if defined(__cpp_exceptions)
-            try {
-                options.hold();
-            } catch (...) {
-                log.add({"hold() failed; the robot may move"});
-            }
-#else
-            options.hold();
-#endif
-        }
     }
     void hold_values(const Component& component) {
         for (const Held& each : held_) {
@@ -1219,6 +1112,7 @@ private:
 
     Root& root_;
     Observer* next_;
+    std::unique_ptr<Recorder> recorder_;
     std::array<Iteration, 3> iterations_{};
     std::atomic<int> mailbox_{0};
     int write_ = 1;
@@ -1233,7 +1127,6 @@ private:
     std::uint64_t paused_by_ = 0;
     std::int64_t steps_left_ = 0;
     std::vector<Held> held_;
-    std::vector<Text> injected_;
     bool is_injecting_ = false;
     std::vector<Breakpoints> breakpoints_;
     const Place* reached_ = nullptr;
@@ -1278,167 +1171,144 @@ private:
     void parse_resume() { finish("resumed", [](Robot& robot, Request&) { robot.pause(0, 0); }); }
     void parse_release() { finish("", [](Robot& robot, Request& request) { robot.release(request); }); }
     void parse_step() {
-        const Json& count = json_["count"];
-        const bool is_given = json_.members.count("count") != 0;
-        if (is_given && (count.kind != Json::Kind::integer || count.number < 1 || count.number > 1e6)) {
+        const Json& given = json_["count"];
+        const bool is_given = !given.raw.empty();
+        if (is_given && (given.kind != Json::Kind::integer || given.number < 1 || given.number > 1e6)) {
             error = "'count' must be a whole number from 1";
             return;
         }
-        request_->count = is_given ? static_cast<std::int64_t>(count.number) : 1;
-        finish("runs " + std::to_string(request_->count) + " iteration" + (request_->count == 1 ? "" : "s"), [](Robot& robot, Request& request) { robot.pause(request.viewer, request.count); });
+        const auto count = is_given ? static_cast<std::int64_t>(given.number) : 1;
+        finish("runs " + std::to_string(count) + " iteration" + (count == 1 ? "" : "s"), [count](Robot& robot, Request& request) { robot.pause(request.viewer, count); });
     }
     void parse_break() {
         std::string words;
         const Json& places = json_["places"];
-        bool is_valid = places.kind == Json::Kind::list;
-        for (const Json& each : places.items) {
-            is_valid = is_valid && is_place(each);
-        }
-        if (!is_valid) {
+        if (places.kind != Json::Kind::list || !std::all_of(places.items.begin(), places.items.end(), is_place)) {
             error = "'places' must be a list of [component, state] or [component, source, target, id]";
             return;
         }
-        for (const Json& each : places.items) {
-            Place place = read_place(each);
-            if (!error.empty()) {
-                return;
-            }
-            words += request_->places.size() < 10 ? (words.empty() ? "" : ", ") + place.words : "";
-            request_->places.push_back(std::move(place));
+        std::vector<Place>& read = request_->places;
+        for (auto each = places.items.begin(); each != places.items.end() && error.empty(); ++each) {
+            read.push_back(read_place(*each));
+            words += read.size() <= 10 ? (words.empty() ? "" : ", ") + read.back().words : "";
         }
-        const std::size_t count = request_->places.size();
-        words += count > 10 ? " and " + std::to_string(count - 10) + " more" : "";
+        words += read.size() > 10 ? " and " + std::to_string(read.size() - 10) + " more" : "";
         finish("breakpoints: " + (words.empty() ? "none" : words), [](Robot& robot, Request& request) { robot.set_breakpoints(request); });
     }
     static bool is_place(const Json& place) {
-        bool is_valid = place.kind == Json::Kind::list && (place.items.size() == 2 || place.items.size() == 4);
-        for (std::size_t index = 0; is_valid && index < place.items.size(); ++index) {
-            is_valid = place.items[index].kind == Json::Kind::text || (index == 3 && place.items[index].kind == Json::Kind::null);
-        }
-        return is_valid;
+        const auto is_text = [](const Json& each) { return each.kind == Json::Kind::text; };
+        const std::size_t count = place.items.size();
+        return (count == 2 || count == 4) && std::all_of(place.items.begin(), place.items.begin() + (count == 2 ? 2 : 3), is_text) && (count == 2 || is_text(place.items[3]) || place.items[3].kind == Json::Kind::null);
     }
     Place read_place(const Json& json) {
-        Place place;
-        place.words = "errors";
-        place.is_state = json.items.size() == 2;
-        if (json.items[0].text.empty()) {
-            return place;
+        const bool is_state = json.items.size() == 2;
+        const std::string source = is_state ? "" : json.items[1].text;
+        const std::string state = json.items[is_state ? 1 : 2].text;
+        const LiveComponent* component = json.items[0].text.empty() ? nullptr : find_component(json.items[0]);
+        if (component == nullptr) {
+            return {nullptr, "", "", "", is_state, false, "errors"};
         }
-        const LiveComponent* component = find_component(json.items[0]);
-        const std::size_t count = place.is_state ? 1 : 2;
-        for (std::size_t index = 1; component != nullptr && index <= count; ++index) {
-            const std::string& state = json.items[index].text;
-            if (!state.empty() && find_state(*component, state) == component->states.size() && error.empty()) {
-                error = json.items[0].text + " has no state '" + state + "'";
+        for (const std::string& each : {source, state}) {
+            if (!each.empty() && find_state(*component, each) == component->states.size() && error.empty()) {
+                error = json.items[0].text + " has no state '" + each + "'";
             }
         }
-        if (component == nullptr || !error.empty()) {
-            return place;
-        }
-        place.component = component->component->name();
-        place.source = place.is_state ? "" : json.items[1].text;
-        place.state = json.items[count].text;
-        place.has_transition = !place.is_state && json.items[3].kind == Json::Kind::text;
-        place.transition = place.has_transition ? json.items[3].text : "";
-        const auto named = [](const std::string& state) { return state.empty() ? "any state" : state; };
-        place.words = std::string(place.component) + " " + (place.is_state ? "" : named(place.source) + " → ") + named(place.state);
-        return place;
+        const auto named = [](const std::string& name) { return name.empty() ? "any state" : name; };
+        const std::string words = name_of(*component) + " " + (is_state ? "" : named(source) + " → ") + named(state);
+        const bool has_transition = !is_state && json.items[3].kind == Json::Kind::text;
+        return {component->component->name(), source, state, has_transition ? json.items[3].text : "", is_state, has_transition, words};
     }
     void parse_set() {
-        LiveComponent* component = find_component(json_["component"]);
+        LiveComponent* component = find_component();
         const LiveField* field = component != nullptr ? find_field(component->fields) : nullptr;
         if (field == nullptr) {
-            if (component != nullptr) {
-                error = std::string(component->component->name()) + " has no value '" + json_["name"].words() + "' that can be set";
-            }
+            error = component != nullptr ? name_of(*component) + " has no value '" + json_["name"].words() + "' that can be set" : error;
             return;
         }
-        const Json& hold = json_["hold"];
-        request_->component = component;
-        request_->is_held = hold.boolean || !hold.text.empty() || hold.number != 0.0 || !hold.items.empty() || !hold.members.empty();
-        const std::string name = std::string(component->component->name()) + "." + field->name;
-        if (convert(*field, name)) {
-            finish((request_->is_held ? "holds " : "set ") + name + " = " + plain_text(request_->value), [](Robot& robot, Request& request) { robot.set(request); });
+        const bool is_held = json_["hold"].boolean;
+        const std::string name = name_of(*component) + "." + field->name;
+        LiveValue value;
+        if (convert(*field, name, value)) {
+            finish((is_held ? "holds " : "set ") + name + " = " + plain_text(value), [component, field, value, is_held](Robot& robot, Request& request) {
+                field->write(field->place, value);
+                if (is_held) {
+                    robot.hold_value(request.viewer, component->component, field, value);
+                }
+            });
         }
     }
     void parse_unset() {
-        const std::string component = json_["component"].words();
-        for (LiveComponent& each : project_.components) {
-            if (component == each.component->name()) {
-                request_->field = find_field(each.fields);
-            }
-        }
-        finish("released " + component + "." + json_["name"].words(), [](Robot& robot, Request& request) { robot.unset(request.field); });
+        const LiveComponent* component = find_component();
+        const LiveField* field = component != nullptr ? find_field(component->fields) : nullptr;
+        error.clear();
+        finish("released " + json_["component"].words() + "." + json_["name"].words(), [field](Robot& robot, Request&) { robot.unset(field); });
     }
     void parse_enter() {
-        LiveComponent* component = find_component(json_["component"]);
+        LiveComponent* component = find_component();
         if (component == nullptr) {
             return;
         }
-        const std::string name = component->component->name();
-        const std::string state = json_["state"].words();
-        request_->component = component;
-        request_->state = find_state(*component, state);
-        if (request_->state == component->states.size()) {
-            error = name + " has no state '" + state + "'";
+        const std::string asked = json_["state"].words();
+        const std::size_t state = find_state(*component, asked);
+        if (state == component->states.size()) {
+            error = name_of(*component) + " has no state '" + asked + "'";
             return;
         }
-        finish(name + ": ", [](Robot& robot, Request& request) {
-            Component& target = *request.component->component;
+        finish(name_of(*component) + ": … → " + asked, [component, state](Robot& robot, Request& request) {
+            Component& target = *component->component;
             if (!robot.was_stepped(target)) {
                 std::snprintf(request.error.data(), request.error.size(), "%s is not active: it was not stepped in the last iteration", target.name());
                 return;
             }
             request.before = target.state_name();
-            request.component->enter(target, request.state);
+            component->enter(target, state);
         });
     }
     void parse_raise() {
-        request_->component = find_component(json_["component"]);
-        if (request_->component == nullptr) {
+        LiveComponent* component = find_component();
+        if (component == nullptr) {
             return;
         }
         const Json& given = json_["message"];
         const std::string message = given.raw.empty() || given.words().empty() ? "injected error" : given.words();
-        copy_text(request_->message, ("InjectedError: " + message).c_str());
-        finish("the next step of " + std::string(request_->component->component->name()) + " raises: " + message.substr(0, 200), [](Robot& robot, Request& request) { robot.inject(request); });
+        Text text{};
+        copy_text(text, ("InjectedError: " + message).c_str());
+        finish("the next step of " + name_of(*component) + " raises: " + message.substr(0, 200), [component, text](Robot& robot, Request&) { robot.inject(*component, text); });
     }
     void parse_frequency() {
-        request_->component = find_component(json_["component"]);
-        if (request_->component == nullptr) {
+        LiveComponent* component = find_component();
+        const Json& hertz = json_["hz"];
+        if (component == nullptr) {
             return;
         }
-        const Json& hertz = json_["hz"];
-        const std::string name = request_->component->component->name();
         if (!hertz.is_number() || !(hertz.number >= 0.001 && hertz.number <= 10'000.0)) {
             error = "'hz' must be a number from 0.001 to 10000";
-        } else if (!request_->component->states.empty() && request_->component->frequency_hz == 0.0) {
-            error = name + " has no frequency in its design, so its generated code cannot have another one";
+        } else if (!component->states.empty() && component->frequency_hz == 0.0) {
+            error = name_of(*component) + " has no frequency in its design, so its generated code cannot have another one";
         } else {
-            request_->hertz = hertz.number;
             std::array<char, 32> words{};
             std::snprintf(words.data(), words.size(), "%g", hertz.number);
-            finish(name + " works at " + words.data() + " Hz", [](Robot&, Request& request) { request.component->component->set_frequency(request.hertz); });
+            finish(name_of(*component) + " works at " + words.data() + " Hz", [component, hz = hertz.number](Robot&, Request&) { component->component->set_frequency(hz); });
         }
     }
     void parse_tune() {
         const std::string name = json_["name"].words();
         const LiveField* field = find_field(project_.constants);
+        LiveValue value;
         if (field == nullptr) {
             error = "no component uses a constant '" + name + "' that is tunable";
-        } else if (convert(*field, name)) {
-            if (!std::isfinite(request_->value.number)) {
-                error = name + " must be a finite number";
-                return;
-            }
-            finish("constant " + name + " = " + plain_text(request_->value), [](Robot&, Request& request) { request.field->write(request.field->place, request.value); });
+        } else if (convert(*field, name, value)) {
+            error = std::isfinite(value.number) ? "" : name + " must be a finite number";
+            finish("constant " + name + " = " + plain_text(value), [field, value](Robot&, Request&) { field->write(field->place, value); });
         }
     }
 
-    void finish(const std::string& done, void (*apply)(Robot&, Request&)) {
+    void finish(const std::string& done, std::function<void(Robot&, Request&)> apply) {
         request_->done = done;
-        request_->apply = apply;
+        request_->apply = std::move(apply);
     }
+    static std::string name_of(const LiveComponent& component) { return component.component->name(); }
+    LiveComponent* find_component() { return find_component(json_["component"]); }
     LiveComponent* find_component(const Json& name) {
         for (LiveComponent& each : project_.components) {
             if (name.kind == Json::Kind::text && name.text == each.component->name()) {
@@ -1456,23 +1326,21 @@ private:
         return found != fields.all.end() ? &*found : nullptr;
     }
     /// Converts the value of the request to the type of a field.
-    bool convert(const LiveField& field, const std::string& name) {
-        static constexpr std::array<const char*, 3> types{"bool", "int", "float"};
+    bool convert(const LiveField& field, const std::string& name, LiveValue& value) {
         const Json& given = json_["value"];
-        LiveValue& value = request_->value;
-        request_->field = &field;
+        const bool is_infinite = given.text == "inf" || given.text == "-inf";
         value.kind = field.kind;
         value.type = field.type;
         switch (field.kind) {
             case LiveValue::Kind::boolean:
                 value.integer = given.boolean ? 1 : 0;
-                return check(given.kind == Json::Kind::boolean, name, types[0]);
+                return check(given.kind == Json::Kind::boolean, name, "bool");
             case LiveValue::Kind::integer:
                 value.integer = limit(saturate(given.number));
-                return check(given.kind == Json::Kind::integer, name, types[1]);
+                return check(given.kind == Json::Kind::integer, name, "int");
             case LiveValue::Kind::number:
-                value.number = given.text == "nan" ? nan : given.text == "inf" || given.text == "-inf" ? std::copysign(std::numeric_limits<double>::infinity(), given.text[0] == '-' ? -1.0 : 1.0) : given.number;
-                return check(given.is_number() || given.text == "nan" || given.text == "inf" || given.text == "-inf", name, types[2]);
+                value.number = is_infinite ? std::copysign(infinity, given.text[0] == '-' ? -1.0 : 1.0) : given.text == "nan" ? nan : given.number;
+                return check(given.is_number() || is_infinite || given.text == "nan", name, "float");
             case LiveValue::Kind::element:
                 break;
         }
@@ -1928,8 +1796,8 @@ private:
         const bool has_failed = request->error[0] != '\0';
         std::string done = request->done;
         if (request->before != nullptr) {
-            done += std::string(request->before) + " → " + request->component->states[request->state];
-        } else if (request->viewer != 0 && done.empty() && request->count != 0) {
+            done.replace(done.find("…"), std::strlen("…"), request->before);
+        } else if (request->has_ended_pause) {
             done = "resumed, as the viewer that paused has left";
         }
         if (!has_failed && !done.empty()) {
@@ -2051,10 +1919,6 @@ private:
 class Live {
 public:
     Live(Root& root, const Component& main, LiveProject project, const LiveOptions& options = LiveOptions()) : robot_(root, main, std::move(project), options), server_(robot_) {
-        if (!options.record.empty()) {
-            recorder_ = std::make_unique<live::Recorder>(options.record, options.minutes);
-            robot_.recorder = recorder_.get();
-        }
         if (options.watch.empty()) {
             return;
         }
@@ -2072,7 +1936,6 @@ public:
     const std::string& problem() const { return problem_; }
 
 private:
-    std::unique_ptr<live::Recorder> recorder_;
     live::Robot robot_;
     live::Server server_;
     std::string problem_;

@@ -4,12 +4,15 @@ import os
 import re
 import subprocess
 from collections.abc import Iterator
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from tests.bica.live_robot import Viewer
+from tests.bica.live_robot import Background, Viewer
 from tests.cpp_tools import STANDARD, WARNINGS, find_gpp, outputs, start, write_project
+from vicode.bica import Root
 
 LAMP = Path(__file__).with_name("cpp_lamp")
 SECONDS = 20
@@ -74,3 +77,27 @@ def any_control(request: pytest.FixtureRequest) -> Viewer:
     """A viewer that controls a robot in each language; the one in Python is stepped by the viewer."""
     viewer: Viewer = request.getfixturevalue("control" if request.param == "python" else "cpp_control")
     return viewer
+
+
+class AnyRobot:
+    """A robot that may be controlled, in Python (stepped by its viewers or in the background) or in C++."""
+
+    def __init__(self, server: Any, root: Root | None) -> None:
+        self.server, self.root = server, root
+
+    def viewer(self, **first: Any) -> Viewer:
+        return Viewer(self.server, self.root, **first)
+
+    def running(self) -> AbstractContextManager[None]:
+        """The robot without steps by viewers."""
+        running = Background(self.root) if self.root is not None else nullcontext()
+        self.root = None
+        return running
+
+
+@pytest.fixture(params=["python", "cpp"])
+def any_robot(request: pytest.FixtureRequest) -> AnyRobot:
+    if request.param == "cpp":
+        return AnyRobot(request.getfixturevalue("cpp_robot"), None)
+    root: Root = request.getfixturevalue("root")
+    return AnyRobot(root.watch(control=True), root)

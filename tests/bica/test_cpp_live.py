@@ -3,6 +3,7 @@
 import random
 import subprocess
 import sys
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -12,10 +13,12 @@ import pytest
 from tests.bica.cpp_robot import LAMP, CppRobot, cpp_control, cpp_program, cpp_robot
 from tests.bica.live_robot import Viewer, close_connections, is_iteration
 from tests.bica.test_live_attacks import FRAMES_PER_CONNECTION, attack, flood
-from vicode.generators import generate
+from vicode.generators import generate, list_outputs
+from vicode.model.project import Project
 from vicode.robots import decode_hello
 from vicode.services.robot_version import find_other_versions
 from vicode.store import open_project
+from vicode.store.documents import read_design
 from vicode.traces.reader import open_trace
 
 __all__ = ["close_connections", "cpp_control", "cpp_program", "cpp_robot"]
@@ -25,6 +28,11 @@ LIT = [["Lamp", "Lit"]]
 
 def distance(control: Viewer, value: float) -> None:
     control.ask(do="set", component="Eyes", name="distance", value=value)
+
+
+def start_without_input(program: Path, *arguments: str) -> "subprocess.CompletedProcess[str]":
+    command = [program, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
 
 
 def state(line: dict[str, Any]) -> str:
@@ -141,20 +149,38 @@ def test_a_flood_is_limited_and_then_disconnected(cpp_robot: CppRobot) -> None:
     cpp_robot.end()
 
 
-@pytest.mark.parametrize("token", ["wrong", None, ["x"], "ä"])
-def test_a_wrong_token_ends_the_connection(cpp_robot: CppRobot, token: Any) -> None:
-    viewer = Viewer(cpp_robot, token=token)
-    assert viewer.get(bool) == {"error": "wrong token"}
-    with pytest.raises(ConnectionResetError):
-        viewer.get(bool)
-
-
-def test_a_robot_without_hold_or_with_a_bad_address_says_so(cpp_program: Path) -> None:
+def test_a_bad_address_is_an_error(cpp_program: Path) -> None:
     for address in ("nowhere", "unix:/no/folder/robot.sock"):
-        ended = subprocess.run(
-            [cpp_program, "--watch", address], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL
-        )
+        ended = start_without_input(cpp_program, "--watch", address)
         assert (ended.returncode, ended.stderr.startswith(f"error: cannot be watched at {address}: ")) == (2, True)
+
+
+def test_a_port_in_use_is_an_error(cpp_robot: CppRobot, cpp_program: Path) -> None:
+    port = cpp_robot.address.rpartition(":")[2]
+    assert f"error: cannot be watched at {port}: " in start_without_input(cpp_program, "--watch", port).stderr
+
+
+def test_a_robot_without_hold_is_only_controlled_if_asked_twice(cpp_program: Path) -> None:
+    refused = start_without_input(cpp_program, "--watch", "0", "--control", "--no-hold")
+    assert (refused.returncode, "a paused robot would keep moving" in refused.stderr) == (2, True)
+    for arguments, environment in (
+        (("--control", "--without-hold"), {}),
+        ((), {"VICODE_WATCH_CONTROL": "without-hold"}),
+    ):
+        robot = CppRobot(cpp_program, "--watch", "0", *arguments, "--no-hold", **environment)
+        assert Viewer(robot).ask(do="pause")["done"] == "paused"
+        robot.end()
+
+
+def test_the_robot_is_held_when_it_pauses_and_when_a_viewer_leaves(cpp_robot: CppRobot, cpp_control: Viewer) -> None:
+    cpp_control.ask(do="set", component="Eyes", name="distance", value=4)
+    cpp_control.socket.close()
+    other = Viewer(cpp_robot)
+    other.ask(do="pause")
+    other.get(lambda line: line.get("paused"))
+    other.ask(do="resume")
+    printed, _logged = cpp_robot.end()
+    assert " 2 holds" in printed
 
 
 def test_the_thread_of_the_robot_allocates_nothing(cpp_program: Path, tmp_path: Path) -> None:
@@ -198,7 +224,24 @@ def test_a_record_is_replayed(cpp_program: Path, tmp_path: Path) -> None:
         assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
-def test_generated_code_does_not_include_the_live_view() -> None:
-    files = {file.path: file.text for file in generate(open_project(LAMP).project, languages=["cpp"])}
-    users = [path for path, text in files.items() if "bica_live.hpp" in text and path.endswith((".hpp", ".cpp"))]
-    assert users == ["cpp/bica_live.hpp", "cpp/lamps/live.hpp"]
+def cpp_files(project: Project) -> dict[str, str]:
+    return {file.path: file.text for file in generate(project, languages=["cpp"])}
+
+
+def test_only_projects_that_ask_get_the_live_view() -> None:
+    project = open_project(LAMP).project
+    users = [path for path, text in cpp_files(project).items() if "bica_live.hpp" in text]
+    assert users == ["cpp/bica_live.hpp", "cpp/lamps/CMakeLists.txt", "cpp/lamps/live.hpp"]
+    without = replace(project, live=False)
+    assert not [path for path, text in cpp_files(without).items() if "live" in path.lower() or "code_hash" in text]
+    assert set(list_outputs(project)) - set(list_outputs(without)) == {"cpp/bica_live.hpp", "cpp/lamps/live.hpp"}
+
+
+def test_an_edit_of_an_action_changes_one_file() -> None:
+    project = open_project(LAMP).project
+    before = cpp_files(project)
+    text = (LAMP / "lamp.yaml").read_text(encoding="utf-8").replace("count + 1", "count + 2")
+    design = read_design(text).design
+    assert design is not None
+    after = cpp_files(replace(project, designs=(design,)))
+    assert [path for path in after if after[path] != before[path]] == ["cpp/lamps/lamp.cpp"]

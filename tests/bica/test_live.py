@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
+from tests.bica.cpp_robot import AnyRobot, CppRobot, any_robot, cpp_program, cpp_robot
 from tests.bica.live_robot import (
     LIMIT_S,
     MOST_STEPS,
     Background,
-    Eyes,
     Lamp,
     Viewer,
     advance,
@@ -26,7 +26,7 @@ from tests.bica.live_robot import (
 from vicode.bica import Root, live_server
 from vicode.bica.live_server import MAX_VIEWERS, LiveServer
 
-__all__ = ["close_connections", "control", "root"]
+__all__ = ["any_robot", "close_connections", "control", "cpp_program", "cpp_robot", "root"]
 
 
 def test_a_viewer_sees_the_activation_tree(root: Root) -> None:
@@ -43,14 +43,17 @@ def test_a_viewer_sees_the_activation_tree(root: Root) -> None:
     assert steps["Lamp"]["step_ns"] >= steps["Eyes"]["step_ns"] > 0
 
 
-def test_state_changes_between_two_lines_are_told(root: Root) -> None:
-    viewer = Viewer(root.watch(), root, rate_hz=5)
+def test_state_changes_between_two_lines_are_told(any_robot: AnyRobot) -> None:
+    viewer = any_robot.viewer(rate_hz=1)
     viewer.get(is_iteration)
-    eyes = root.component(Eyes)
+    control = any_robot.viewer()
     for number in range(10):
-        eyes.distance = 0.0 if number % 2 == 0 else 5.0
-        advance(root)
-    changes = viewer.get(lambda line: is_iteration(line) and line["changes"])["changes"]
+        control.ask(do="set", component="Eyes", name="distance", value=5 * (number % 2))
+        state = "Dark" if number % 2 else "Lit"
+        control.get(lambda line, state=state: is_iteration(line) and line["tree"][0]["state"] == state)
+    changes: list[dict[str, Any]] = []
+    while len(changes) < 10:
+        changes += viewer.get(lambda line: is_iteration(line) and line["changes"])["changes"]
     assert [(change["source"], change["target"]) for change in changes[:2]] == [("Dark", "Lit"), ("Lit", "Dark")]
     assert [change["number"] for change in changes] == list(range(1, 11))
 
@@ -123,23 +126,35 @@ def test_robots_that_a_viewer_does_not_look_at_are_sent_less_often(monkeypatch: 
 
 
 @pytest.mark.parametrize("first", [{"token": "wrong"}, {"token": None}, {"token": ["x"]}, {"token": "ä"}])
-def test_a_wrong_token_ends_the_connection(root: Root, first: dict[str, Any]) -> None:
-    viewer = Viewer(root.watch(), **first)
+def test_a_wrong_token_ends_the_connection(any_robot: AnyRobot, first: dict[str, Any]) -> None:
+    viewer = any_robot.viewer(**first)
     assert viewer.get(bool) == {"error": "wrong token"}
     with pytest.raises(ConnectionResetError):
         viewer.get(bool)
 
 
-def test_a_unix_socket_needs_no_token_and_is_private(root: Root, tmp_path: Path) -> None:
-    path = tmp_path / "robot.sock"
-    root.watch(f"unix:{path}")
+def expect_private_socket(path: Path) -> None:
     assert path.stat().st_mode & 0o777 == 0o600
     with socket.socket(socket.AF_UNIX) as connection:
         connection.settimeout(LIMIT_S)
         connection.connect(str(path))
         connection.sendall(b"{}\n")
         assert b"vicode-live" in connection.recv(4096)
+
+
+def test_a_unix_socket_needs_no_token_and_is_private(root: Root, tmp_path: Path) -> None:
+    path = tmp_path / "robot.sock"
+    root.watch(f"unix:{path}")
+    expect_private_socket(path)
     root.close()
+    assert not path.exists()
+
+
+def test_a_unix_socket_in_cpp_is_private_too(cpp_program: Path, tmp_path: Path) -> None:
+    path = tmp_path / "robot.sock"
+    robot = CppRobot(cpp_program, "--watch", f"unix:{path}")
+    expect_private_socket(path)
+    robot.end()
     assert not path.exists()
 
 
@@ -153,9 +168,9 @@ def test_a_viewer_that_does_not_read_misses_iterations_but_never_the_newest(root
     assert viewer.get(lambda line: is_iteration(line) and line["iteration"] >= last)["iteration"] >= last
 
 
-def test_random_bytes_harm_nobody(root: Root, capsys: pytest.CaptureFixture[str]) -> None:
-    server = root.watch(control=True)
-    good = Viewer(server, root)
+def test_random_bytes_harm_nobody(any_robot: AnyRobot, capsys: pytest.CaptureFixture[str]) -> None:
+    server = any_robot.server
+    good = any_robot.viewer()
     source = random.Random(1)
     lines = [b"{}", b"[]", b"null", b'{"token":', b"\xff\xfe", b"{" * 5_000, b'{"robot":"Lamp","do":[]}', b"1e999"]
     for number in range(300):
@@ -168,38 +183,35 @@ def test_random_bytes_harm_nobody(root: Root, capsys: pytest.CaptureFixture[str]
             bad.sendall(source.choice(lines) + source.randbytes(source.randrange(50)) + b"\n")
             if number % 10 == 0:
                 bad.sendall(b"x" * 200_000)
-    before = root.iteration
+    before = good.get(is_iteration)["iteration"]
     assert good.get(lambda line: is_iteration(line) and line["iteration"] > before)
     assert "live view ended" not in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("rate_hz", [1e-300, 5e-324, 0, -1, 10**400, float("nan"), "fast", None])
-def test_an_odd_rate_does_not_end_the_server(root: Root, rate_hz: object) -> None:
-    server = root.watch()
-    good = Viewer(server, root)
-    Viewer(server, root, rate_hz=rate_hz).get(is_iteration)
+def test_an_odd_rate_does_not_end_the_server(any_robot: AnyRobot, rate_hz: object) -> None:
+    good = any_robot.viewer()
+    any_robot.viewer(rate_hz=rate_hz).get(is_iteration)
     good.get(is_iteration)
     for _step in range(20):
         good.get(is_iteration)
 
 
-def test_a_viewer_that_never_reads_its_answers_is_disconnected(root: Root) -> None:
-    server = root.watch(control=True)
-    viewer = Viewer(server)
+def test_a_viewer_that_never_reads_its_answers_is_disconnected(any_robot: AnyRobot) -> None:
+    viewer = Viewer(any_robot.server)
     # On a busy machine the server takes longer to answer so many requests.
     viewer.socket.settimeout(6 * LIMIT_S)
     with pytest.raises(OSError, match=r"reset|Broken pipe"):
         viewer.socket.sendall(b'{"robot": 1}\n' * 5_000_000)
-    assert Viewer(server, root).get(is_iteration)
+    assert any_robot.viewer().get(is_iteration)
 
 
-def test_strangers_do_not_keep_viewers_out(root: Root) -> None:
-    server = root.watch()
-    port = int(server.address.rpartition(":")[2])
+def test_strangers_do_not_keep_viewers_out(any_robot: AnyRobot) -> None:
+    port = int(any_robot.server.address.rpartition(":")[2])
     with contextlib.ExitStack() as strangers:
         for _number in range(MAX_VIEWERS):
             strangers.enter_context(socket.create_connection(("127.0.0.1", port)))
-        assert Viewer(server, root).get(is_iteration)
+        assert any_robot.viewer().get(is_iteration)
 
 
 def test_a_root_is_watched_once(root: Root) -> None:

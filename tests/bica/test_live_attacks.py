@@ -12,12 +12,21 @@ from typing import Any
 
 import pytest
 
-from tests.bica.cpp_robot import any_control, cpp_control, cpp_program, cpp_robot
+from tests.bica.cpp_robot import AnyRobot, any_control, any_robot, cpp_control, cpp_program, cpp_robot
 from tests.bica.live_robot import Background, Eyes, Viewer, close_connections, control, is_iteration, root
 from vicode.bica import Root, live_feed, live_viewer
 from vicode.bica.live_server import LiveServer
 
-__all__ = ["any_control", "close_connections", "control", "cpp_control", "cpp_program", "cpp_robot", "root"]
+__all__ = [
+    "any_control",
+    "any_robot",
+    "close_connections",
+    "control",
+    "cpp_control",
+    "cpp_program",
+    "cpp_robot",
+    "root",
+]
 
 FLOOD_LINE = b'{"focus":"x"}\n'
 FRAMES_PER_CONNECTION = 50
@@ -144,9 +153,9 @@ def flood(viewer: Viewer, sent: list[int]) -> None:
             sent.append(viewer.socket.send(FLOOD_LINE * 5_000))
 
 
-def test_a_busy_viewer_is_not_disconnected(root: Root, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_busy_viewer_is_not_disconnected(any_robot: AnyRobot, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(live_viewer, "FLOOD_S", 0.0)
-    viewer = Viewer(root.watch(control=True), root)
+    viewer = any_robot.viewer()
     for _round in range(3):
         places = [["Lamp", "Lit"]] * 100
         assert "done" in viewer.ask(do="break", places=places)

@@ -3,12 +3,13 @@
 import sys
 import time
 from itertools import pairwise
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import pytest
 
-from tests.bica.cpp_robot import any_control, cpp_control, cpp_program, cpp_robot
+from tests.bica.cpp_robot import AnyRobot, CppRobot, any_control, any_robot, cpp_control, cpp_program, cpp_robot
 from tests.bica.live_robot import (
     Background,
     Eyes,
@@ -22,13 +23,28 @@ from tests.bica.live_robot import (
 )
 from vicode.bica import Root
 
-__all__ = ["any_control", "close_connections", "control", "cpp_control", "cpp_program", "cpp_robot", "root"]
+__all__ = [
+    "any_control",
+    "any_robot",
+    "close_connections",
+    "control",
+    "cpp_control",
+    "cpp_program",
+    "cpp_robot",
+    "root",
+]
 
 
 def test_control_needs_permission(root: Root) -> None:
     viewer = Viewer(root.watch(), root)
     assert "may only be watched" in viewer.ask(do="pause")["error"]
     advance(root)
+
+
+def test_control_of_a_robot_in_cpp_needs_permission(cpp_program: Path) -> None:
+    robot = CppRobot(cpp_program, "--watch", "0")
+    assert "may only be watched" in Viewer(robot).ask(do="pause")["error"]
+    robot.end()
 
 
 def test_values_are_set_and_held(root: Root, control: Viewer) -> None:
@@ -152,11 +168,10 @@ def test_a_pause_ends_with_the_viewer(root: Root) -> None:
         viewer.socket.close()
 
 
-def test_missed_iterations_are_those_between_two_lines(root: Root) -> None:
-    viewer = Viewer(root.watch(control=True), root)
-    lines = [viewer.get(is_iteration)]
-    viewer.root = None
-    with Background(root):
+def test_missed_iterations_are_those_between_two_lines(any_robot: AnyRobot) -> None:
+    with any_robot.running():
+        viewer = any_robot.viewer()
+        lines = [viewer.get(is_iteration)]
         viewer.send({"robot": "Lamp", "do": "pause"})
         for _step in range(10):
             before = lines[-1]["iteration"]

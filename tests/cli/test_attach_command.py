@@ -116,3 +116,18 @@ def test_what_is_no_address(net_port: str, capsys: pytest.CaptureFixture[str]) -
     assert capsys.readouterr().err.splitlines() == [
         "vicode: there is no robot 'robot'; write PORT, HOST:PORT or unix:PATH"
     ]
+
+
+@pytest.mark.parametrize(("settings", "words"), [("", "can be watched with 'live: true'"), ("live: true\n", "")])
+def test_a_project_in_cpp_must_ask_for_the_live_view(
+    tmp_path: Path, settings: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "project.yaml").write_text(f"vicode: 1\nproject: Lamps\nlanguages: [cpp]\n{settings}")
+    with Root(Blinker) as root:
+        address = root.watch().address
+    capsys.readouterr()
+    assert vicode("attach", address, str(tmp_path)) == 2
+    err = capsys.readouterr().err
+    assert err.startswith("vicode: no robot listens")
+    assert words in err
+    assert ("live: true" in err) == bool(words)

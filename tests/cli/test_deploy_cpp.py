@@ -70,6 +70,9 @@ def test_a_program_is_built_here_and_runs(
 ) -> None:
     assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot", "--language", "cpp", "--arguments=--fast") == 0
     assert "start it with robot/run\n" in capsys.readouterr().out
+    assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot", "--language", "cpp", "--arguments=--watch 0") == 0
+    assert "vicode: programs in C++ can be watched with 'live: true'" in capsys.readouterr().err
+    assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot", "--language", "cpp", "--arguments=--fast") == 0
     done = subprocess.run(["robot/run", "more"], capture_output=True, text=True, check=True)
     assert done.stdout == "Lit 3 more\n"
     assert (tmp_path / "robot/lamps.service").is_file()
@@ -128,12 +131,15 @@ def test_a_project_without_a_program_is_refused(robot_program: Path, capsys: pyt
     assert "the project has no main.cpp and no CMakeLists.txt" in capsys.readouterr().err
 
 
-def test_a_program_with_the_live_view_is_built_for_it(robot_program: Path) -> None:
+def test_a_program_with_the_live_view_is_built_for_it(robot_program: Path, capsys: pytest.CaptureFixture[str]) -> None:
     main = MAIN.replace("rig/sensor.hpp", 'lamps/live.hpp"\n#include "rig/sensor.hpp')
     live = "    bica::Live live(root, components.lamp, lamps::live_project(components), {count, arguments});\n    for"
     (robot_program / "main.cpp").write_text(main.replace("    for", live))
+    assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot", "--language", "cpp") == 2
+    assert "live.hpp, which does not exist; programs in C++ can be watched with 'live: true'" in capsys.readouterr().err
+    (robot_program / "project.yaml").write_text(PROJECT + "live: true\n")
     assert vicode("deploy", "lamps/lamp.yaml", "--to", "robot", "--language", "cpp") == 0
-    assert "BICA_LIVE" in Path("robot/CMakeLists.txt").read_text()
+    assert "BICA_LIVE" in Path("robot/generated/cpp/lamps/CMakeLists.txt").read_text()
     command = ["robot/run", "--watch", "0", "--record", "log/run.jsonl"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert "watch: vicode attach 127.0.0.1:" in done.stderr

@@ -1,5 +1,6 @@
 """The CMake library of a project in another one: installed, as a subdirectory, and inside of a shared library."""
 
+import json
 import shutil
 from pathlib import Path
 
@@ -55,7 +56,7 @@ def lamp(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of the generated library."""
     find_gpp()
     folder = tmp_path_factory.mktemp("lamp")
-    (folder / "project.yaml").write_text("vicode: 1\nproject: Lamp\nlanguages: [cpp]\n", encoding="utf-8")
+    (folder / "project.yaml").write_text("vicode: 1\nproject: Lamp\nlanguages: [cpp]\nlive: true\n", encoding="utf-8")
     (folder / "lamp.yaml").write_text(LAMP, encoding="utf-8")
     return folder / "cpp" / write_project(folder, folder)
 
@@ -88,3 +89,17 @@ def test_an_installed_library_is_found(lamp: Path, tmp_path: Path, shared: str) 
     (tmp_path / "consumer").mkdir()
     consumer = "find_package(lamp REQUIRED)"
     assert run_consumer(tmp_path / "consumer", consumer, f"-DCMAKE_PREFIX_PATH={prefix}") == "Lit\n"
+
+
+def test_texts_in_traces_are_valid_json(lamp: Path, tmp_path: Path) -> None:
+    source = tmp_path / "texts.cpp"
+    source.write_text(
+        r"""
+#include "bica.hpp"
+int main() { std::puts(bica::json_text("a\xff\"\xc3\xa4\n\xe2\x82").c_str()); }
+"""
+    )
+    program = tmp_path / "texts"
+    outputs([start([find_gpp(), "-std=c++17", f"-I{lamp.parent}", str(source), "-o", str(program)], tmp_path)])
+    (printed,) = outputs([start([str(program)], tmp_path)])
+    assert json.loads(printed) == 'a\ufffd"ä\n\ufffd\ufffd'

@@ -131,7 +131,10 @@ NOT_SHOWN: Mapping[Callable[[Project], object], Mapping[str, str]] = {
     write_forms: {
         "*.id": "written by the editor",
         **dict.fromkeys(("*.at", "*.label_at"), "moved in the diagram"),
-        **dict.fromkeys(("Project.clock", "Project.generated", "Project.xabsl_encoding", "Project.profiles"), _IN_FILE),
+        **dict.fromkeys(
+            ("Project.clock", "Project.generated", "Project.live", "Project.xabsl_encoding", "Project.profiles"),
+            _IN_FILE,
+        ),
         **dict.fromkeys(
             ("Profile.*", "ProfileClass.*", "RemoteReference.*", "TopicReference.*", "BridgeSettings.*"), _IN_FILE
         ),
@@ -141,7 +144,9 @@ NOT_SHOWN: Mapping[Callable[[Project], object], Mapping[str, str]] = {
         **dict.fromkeys(("State.xabsl_name", "Declaration.xabsl_name"), _IN_XABSL),
         **dict.fromkeys(("Agent.xabsl_name", "Enumeration.xabsl_elements"), "of interest to the XABSL engine only"),
         **dict.fromkeys(("Project.world", "Project.clock", "Project.profiles"), _FOR_RUNS),
-        **dict.fromkeys(("Project.generated", "Project.xabsl_encoding"), "of interest to generators only"),
+        **dict.fromkeys(
+            ("Project.generated", "Project.live", "Project.xabsl_encoding"), "of interest to generators only"
+        ),
         **dict.fromkeys(
             ("Profile.*", "ProfileClass.*", "RemoteReference.*", "TopicReference.*", "BridgeSettings.*"), _FOR_RUNS
         ),

@@ -224,7 +224,9 @@ _fields: dict[str, st.SearchStrategy[Any]] = {
         transitions=_tuples(decisions, 2),
     ),
 }
-designs = st.builds(Design, **_fields, states=_unique(states, "name", 3)).map(lower_design)
+written_designs = st.builds(Design, **_fields, states=_unique(states, "name", 3))
+"""Designs as files say them, without anything derived."""
+designs = written_designs.map(lower_design)
 designs_with_states = st.builds(Design, **_fields, states=_unique(states, "name", 3, smallest=1)).map(lower_design)
 enumerations = st.builds(
     Enumeration,
@@ -293,6 +295,7 @@ projects = st.builds(
     name=names,
     doc=st.just("") | texts,
     languages=_tuples(st.sampled_from(["python", "cpp", "xabsl"]), 2),
+    live=st.booleans(),
     world=st.just("") | texts,
     clock=st.sampled_from(["", "world"]),
     generated=st.sampled_from(["generated", "../out", ""]),

@@ -60,8 +60,8 @@ def _check_ends(context: RuleContext, number: int, names: list[str]) -> Iterator
         return
     reasons = {
         "skip": "add a transition with 'done' to it, or leave it out of 'while'",
-        "done": "mark exactly one state with 'final: true'",
-        "fail": "mark exactly one state with 'failed: true'",
+        "done": "mark exactly one state with 'final: true', and not with 'failed'",
+        "fail": "mark exactly one final state with 'failed: true'",
     }
     for state in interrupted_states(design, number):
         if not find_target(design, interrupt, state):
@@ -110,4 +110,12 @@ def find_layer_conditions(context: RuleContext) -> Iterator[Finding]:
             yield context.make_finding("D450", path, message, "add 'when'", is_key=True)
 
 
-RULES = (find_bad_interrupts, find_states_twice, find_taken_names, find_layer_conditions)
+def find_failed_states(context: RuleContext) -> Iterator[Finding]:
+    """D451: only a final state can be a failed one."""
+    for state in context.design.states:
+        if state.failed and not state.final:
+            message = f"'{state.name}' is failed, but not final"
+            yield context.make_finding("D451", ("states", state.name, "failed"), message, "add 'final: true'")
+
+
+RULES = (find_failed_states, find_bad_interrupts, find_states_twice, find_taken_names, find_layer_conditions)

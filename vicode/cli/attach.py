@@ -4,6 +4,7 @@ import argparse
 import asyncio
 import os
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.cli.ports import port_number
@@ -31,7 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Connect once, so that mistakes are reported here; then print, or serve the editor."""
-    from vicode.robots import TOKEN_VARIABLE, parse_address
+    from vicode.deployment.cpp_program import LIVE_HINT
+    from vicode.robots import TOKEN_VARIABLE, AttachError, parse_address
     from vicode.services.robot_search import find_address
 
     if args.find:
@@ -43,7 +45,13 @@ def run(args: argparse.Namespace) -> int:
     token = args.token if args.token is not None else os.environ.get(TOKEN_VARIABLE, "")
     if args.print:
         return asyncio.run(_print_changes(address, token))
-    return _edit(args, address, token, asyncio.run(_try(address, token)))
+    try:
+        root = asyncio.run(_try(address, token))
+    except AttachError as error:
+        if not error.is_final and _needs_live(Path(args.path)):
+            raise AttachError(f"{error}; {LIVE_HINT}") from error
+        raise
+    return _edit(args, address, token, root)
 
 
 def _print_robots() -> int:
@@ -56,6 +64,13 @@ def _print_robots() -> int:
     if not robots:
         print("vicode: no robot was found; connect robots with --net NAME --watch ADDRESS", file=sys.stderr)
     return 0 if robots else 1
+
+
+def _needs_live(path: Path) -> bool:
+    from vicode.store import open_project
+
+    project = open_project(path if path.is_dir() else path.parent).project
+    return "cpp" in project.languages and not project.live
 
 
 async def _try(address: "RobotAddress", token: str) -> str:

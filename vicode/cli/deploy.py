@@ -33,6 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Build the folder in a temporary one and copy it; return 1 if the project has errors."""
+    from vicode.deployment.cpp_program import LIVE_HINT
     from vicode.deployment.program import ProgramOptions, build_program, list_files
     from vicode.deployment.target import copy_program
     from vicode.generators import UnsoundDesignError
@@ -55,6 +56,8 @@ def run(args: argparse.Namespace) -> int:
         copy_program(folder, args.to)
     if topics := find_topics(opened.open_project.project, component):
         print(_describe_needs(topics, args), file=sys.stderr)
+    if args.language == "cpp" and "--watch" in (args.arguments or "") and not opened.open_project.project.live:
+        print(f"vicode: {LIVE_HINT}", file=sys.stderr)
     print(f"deployed {component} to {args.to}: {_next_command(args)}")
     return 0
 

@@ -14,12 +14,7 @@ BUILD_SCRIPT = "build.sh"
 _MAIN, _CMAKE = "main.cpp", "CMakeLists.txt"
 _PROGRAM = re.compile(r"^\s*add_executable\s*\(\s*([\w.+-]+)", re.MULTILINE)
 _LIVE = re.compile(r"^\s*#\s*include\s+.*live\.hpp", re.MULTILINE)
-"""A program that can be watched or recorded."""
-_LIVE_LINES = """\
-target_compile_definitions({library} PUBLIC BICA_LIVE)
-find_package(Threads REQUIRED)
-target_link_libraries({library} PUBLIC Threads::Threads)
-"""
+LIVE_HINT = "programs in C++ can be watched with 'live: true' in project.yaml (docs/cpp.md)"
 _SCRIPT = """\
 #!/bin/sh
 cd "$(dirname "$0")" || exit 1
@@ -59,6 +54,8 @@ def write_cpp_program(opened: OpenProject, component: str, folder: Path) -> Depl
         target = place / file.path
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(file.text, encoding="utf-8")
+    if not project.live and any(_LIVE.search(path.read_text("utf-8", "replace")) for path in folder.glob("*.cpp")):
+        raise OSError(f"the program includes live.hpp, which does not exist; {LIVE_HINT}")
     (package,) = {PurePosixPath(file.path).parts[1] for file in files if file.component == component}
     library = next(file.text for file in files if file.path == f"cpp/{package}/{_CMAKE}")
     if not (folder / _CMAKE).is_file():
@@ -95,8 +92,6 @@ def _library(text: str) -> str:
 def _write_cmake(folder: Path, package: str, library: str, sources: list[str]) -> None:
     program = "robot" if library != "robot" else "robot_program"
     listed = "".join(f'    "{source}"\n' for source in sources)
-    is_live = any(_LIVE.search((folder / each).read_text(encoding="utf-8", errors="replace")) for each in sources)
-    live = _LIVE_LINES.format(library=library) if is_live else ""
     (folder / _CMAKE).write_text(
         f"""\
 cmake_minimum_required(VERSION 3.16)
@@ -107,7 +102,7 @@ add_executable({program}
 {listed})
 target_include_directories({program} PRIVATE ${{CMAKE_CURRENT_SOURCE_DIR}})
 target_link_libraries({program} PRIVATE {library})
-{live}""",
+""",
         encoding="utf-8",
     )
 

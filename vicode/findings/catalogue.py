@@ -130,6 +130,7 @@ _RECORDS = (
     ("D448", "states-twice", Severity.ERROR, "competence or layers beside states"),
     ("D449", "derived-name", Severity.ERROR, "name that a latch, interrupt, competence or layer needs"),
     ("D450", "layer-condition", Severity.ERROR, "layer that always commands, or a lowest layer that does not"),
+    ("D451", "failed-not-final", Severity.ERROR, "failed state that is not final"),
     # XABSL as a target language
     ("L701", "not-in-xabsl", Severity.ERROR, "feature that XABSL does not support"),
     ("L702", "other-result-in-xabsl", Severity.ERROR, "expression with a different result in XABSL"),

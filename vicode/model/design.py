@@ -159,7 +159,7 @@ class State:
     `id` survives renaming and identifies code regions. `modulates` are calls that run after `actions`.
     A `disabled` state stays in the design, but is not generated (`vicode.model.disabled`).
     `color` is one of STATE_COLORS, "" for none; it has no effect but in diagrams.
-    A `failed` state is final, too: the component has ended without success.
+    In a final state that is `failed`, the component has ended without success.
     `capacity` is the maximum number of robots in the state, `synchronized` the number that must enter simultaneously.
     """
 
@@ -181,11 +181,6 @@ class State:
     leave: tuple[Action, ...] = ()
     transitions: tuple[Decision, ...] = ()
     origin: Origin = ()
-
-    @property
-    def is_end(self) -> bool:
-        """Whether the component is done in this state, with or without success."""
-        return self.final or self.failed
 
     @property
     def all_actions(self) -> tuple[Action, ...]:

@@ -165,14 +165,15 @@ class BridgeSettings:
 class Project:
     """The designs and declarations of a folder.
 
-    `world` is "module:Class", `clock` is "world" if the world sets the pace, `generated` the output folder, relative to
-    the project folder, `xabsl_encoding` that of imported XABSL files that are not UTF-8. `unreadable` are pairs of
-    component and file for designs that cannot be read.
+    With `live`, programs in C++ can be watched. `world` is "module:Class", `clock` is "world" if the world sets the
+    pace, `generated` the output folder, relative to the project folder, `xabsl_encoding` that of imported XABSL files
+    that are not UTF-8. `unreadable` are pairs of component and file for designs that cannot be read.
     """
 
     name: str
     doc: str = ""
     languages: tuple[str, ...] = ("python",)
+    live: bool = False
     world: str = ""
     clock: str = ""
     generated: str = "generated"

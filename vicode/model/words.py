@@ -43,6 +43,7 @@ _WORDS = {
     "Layer.requires": "runs",
     "ProfileClass.implementation": "class",
     "Project.generated": "output folder",
+    "Project.live": "live view in C++",
     "Project.name": "project name",
     "Project.xabsl_encoding": "encoding of XABSL files",
     "RemoteReference.max_age": "longest age",

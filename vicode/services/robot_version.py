@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import product
 
 from vicode.generators import UnsoundDesignError, generate, list_component_paths, list_outputs
+from vicode.generators.cpp.live import find_code_hash
 from vicode.model.design import Declaration
 from vicode.model.project import Project, select_profile
 from vicode.robots import RobotDescription
@@ -30,7 +31,7 @@ def find_other_versions(
     """
     project = _with_values_at_start(project, written or {})
     known = {name: each.code for name, each in robot.components.items() if each.code and project.design(name)}
-    project = replace(project, languages=(robot.language,))
+    project = replace(project, languages=(robot.language,), live=True)
     outputs = list_outputs(project)
     paths = {name: list_component_paths(project, name) for name in known}
     paths |= {name: tuple(path for path in outputs if path.endswith(f"/{name}")) for name in robot.shared}
@@ -48,8 +49,9 @@ def find_other_versions(
             )
             texts = {file.path: file.text for file in files}
             for name, found in hashes.items():
-                # A component has one file in Python, and in C++ a header and a source, which share a hash.
-                found.add(_hash("".join(texts[path] for path in paths[name] if path in texts)))
+                # A component has one file in Python; in C++, the source has a hash of it and the header.
+                text = "".join(texts[path] for path in paths[name] if path in texts)
+                found.add(find_code_hash(text) or _hash(text))
     except UnsoundDesignError:
         return None
     return tuple(name for name, code in running.items() if code not in hashes[name])

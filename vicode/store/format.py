@@ -166,7 +166,7 @@ STATE = RecordSchema(
         POSITION_KEY,
         COLOR_KEY,
         KeySchema("final", FLAG, "final state: the component reports that it is done", default=False),
-        KeySchema("failed", FLAG, "final state: the component has ended without success", default=False),
+        KeySchema("failed", FLAG, "of a final state: the component has ended without success", default=False),
         KeySchema(
             "capacity", COUNT, "maximum number of robots of a team in the state at the same time", keeps_empty=True
         ),

@@ -158,6 +158,7 @@ PROJECT = RecordSchema(
         KeySchema("project", NAME, "name of the project", field="name", required=True),
         DOC_KEY,
         KeySchema("languages", NAMES, "languages of the generated code", default=("python",), keeps_empty=True),
+        KeySchema("live", FLAG, "programs in C++ can be watched and recorded (docs/cpp.md)", default=False),
         KeySchema("world", TEXT, "class of the simulated world as module:Class"),
         _CLOCK,
         KeySchema(

@@ -41,7 +41,9 @@ int main(int count, char** words) {
     int holds = 0;
     std::atomic<bool> is_over{false};
     bica::LiveOptions options(count, words);
-    options.hold = [&holds] { ++holds; };
+    if (count == 1 || std::strcmp(words[count - 1], "--no-hold") != 0) {
+        options.hold = [&holds] { ++holds; };
+    }
     options.is_stopping = [&is_over] { return is_over.load(); };
     options.clock = [] { return now_ns; };
     bica::Live live(root, components.lamp, lamps::live_project(components), options);

@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.strategies.commented_texts import commented_texts
-from tests.strategies.designs import designs, projects
+from tests.strategies.designs import projects
+from tests.strategies.designs import written_designs as designs
 from tests.strategies.field_changes import full_value, iter_changes
 from tests.strategies.value_edits import ValueEdit, draw_edit
 from vicode.model import design as design_model

@@ -1,10 +1,10 @@
 """C++ generator: a header and a source per component, on the header-only runtime bica.hpp."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from vicode.generators.cpp.component import CppComponentWriter
-from vicode.generators.cpp.live import build_live
+from vicode.generators.cpp.live import add_code_hash, build_live
 from vicode.generators.cpp.names import RESERVED_MODULES, GlobalNames
 from vicode.generators.cpp.origins import find_origins
 from vicode.generators.cpp.project import build_components, build_declarations, build_interfaces, list_interfaces
@@ -36,7 +36,6 @@ __all__ = [
 ]
 
 LANGUAGE = "cpp"
-_RUNTIME = ("bica.hpp", "bica_live.hpp")
 
 
 def generate_cpp(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ...]:  # noqa: ARG001 - as in other languages
@@ -51,7 +50,7 @@ def generate_cpp(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ..
     files = [
         *(
             OutputFile(path=f"{LANGUAGE}/{name}", text=add_header(read_asset(f"cpp/{name}"), name, "//"))
-            for name in _RUNTIME
+            for name in _list_runtime(plan.project)
         ),
         OutputFile(path=f"{LANGUAGE}/.clang-format", text=add_header(read_asset("cpp/clang-format"), "vicode", "#")),
     ]
@@ -61,9 +60,11 @@ def generate_cpp(plan: ProjectPlan, *, standalone: bool) -> tuple[OutputFile, ..
         files.append(OutputFile(path=f"{LANGUAGE}/{plan.package.name}/{name}", text=add_header(text, source, comment)))
     for component in plan.components:
         files += _component_files(plan, component, names)
-    live = build_live(plan, names, {file.path.rpartition("/")[2]: file.text for file in files})
-    text = add_header(render("cpp/live.hpp.jinja", view=live), source, "//")
-    return (*files, OutputFile(path=f"{LANGUAGE}/{plan.package.name}/live.hpp", text=text))
+    if plan.project.live:
+        live = build_live(plan, names, {file.path.rpartition("/")[2]: file.text for file in files})
+        text = add_header(render("cpp/live.hpp.jinja", view=live), source, "//")
+        files.append(OutputFile(path=f"{LANGUAGE}/{plan.package.name}/live.hpp", text=text))
+    return tuple(files)
 
 
 def component_writer(plan: ProjectPlan) -> Callable[[ComponentPlan], ComponentCode]:
@@ -114,11 +115,16 @@ def list_regions(component: ComponentPlan) -> Iterator[CodePlan]:
 def list_paths(package: PackagePlan, *, standalone: bool) -> tuple[str, ...]:  # noqa: ARG001 - as in other languages
     """List every path that `generate_cpp` may return."""
     folder = f"{LANGUAGE}/{package.name}"
-    shared = ["components.hpp", "CMakeLists.txt", "interfaces.hpp", "live.hpp"]
+    shared = ["components.hpp", "CMakeLists.txt", "interfaces.hpp"]
     shared += ["declarations.hpp"] if package.has_declarations else []
+    shared += ["live.hpp"] if package.project.live else []
     modules = [f"{module}.{suffix}" for module in package.modules.values() for suffix in ("hpp", "cpp")]
-    runtime = (*(f"{LANGUAGE}/{name}" for name in _RUNTIME), f"{LANGUAGE}/.clang-format")
+    runtime = (*(f"{LANGUAGE}/{name}" for name in _list_runtime(package.project)), f"{LANGUAGE}/.clang-format")
     return (*runtime, *(f"{folder}/{name}" for name in (*shared, *modules)))
+
+
+def _list_runtime(project: Project) -> tuple[str, ...]:
+    return ("bica.hpp", "bica_live.hpp") if project.live else ("bica.hpp",)
 
 
 def _component_files(plan: ProjectPlan, component: ComponentPlan, names: GlobalNames) -> tuple[OutputFile, OutputFile]:
@@ -132,4 +138,4 @@ def _component_files(plan: ProjectPlan, component: ComponentPlan, names: GlobalN
         )
         for suffix in ("hpp", "cpp")
     )
-    return header, body
+    return header, replace(body, text=add_code_hash(header.text, body.text))

@@ -22,6 +22,8 @@ from vicode.generators.plan import (
 from vicode.model.expressions import BOOL, FLOAT, INT
 
 _BITS, _MOST_REQUIRED = "std::uint64_t", 64
+CODE_HASH = "@code_hash@"
+"""What stands in the source of a component in the place of its hash while that is not known."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -163,6 +165,8 @@ class CppComponentWriter:
             '    return "";',
         ]
         yield self._define("const char*", "state_name", "", body, "const BICA_NAMED")
+        if self.project.project.live:
+            yield self._define("const char*", "code_hash", "", [f"    return {quoted(CODE_HASH)};"], "const")
         for name, values in (("visit_parameters", plan.parameters), ("visit_values", self._values)):
             if values:
                 body = [f"    {line}" for line in visits(values)]

@@ -1,13 +1,15 @@
 """Writes `live.hpp`: the table of components, states, fields and tunable constants that the live view of a robot needs.
 
-Programs that do not include it pay nothing. It contains the hashes of the other files, by which an editor knows which
-version of a design runs.
+An editor knows by hashes which version of a design runs. The source of each component has its own, so that an edit of a
+design changes no other file; `live.hpp` has those of files that designs share.
 """
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 
+from vicode.generators.cpp.component import CODE_HASH
 from vicode.generators.cpp.expression_printer import format_number
 from vicode.generators.cpp.names import GlobalNames, member_name
 from vicode.generators.cpp.project import component_members, list_interfaces
@@ -41,8 +43,8 @@ class LiveView:
 
 
 def build_live(plan: ProjectPlan, names: GlobalNames, texts: Mapping[str, str]) -> LiveView:
-    """The table of a project; `texts` are the other files of its package by name."""
-    writer = _LiveWriter(plan, names.inside({"component", "components", "project", "shown"}), texts)
+    """The table of a project; `texts` are the files that its designs share, by name."""
+    writer = _LiveWriter(plan, names.inside({"component", "components", "project", "shown"}))
     shared = (
         f'project.shared.emplace_back("{name}", {quoted(_hash(texts[name]))});'
         for name in SHARED_FILES
@@ -60,8 +62,8 @@ def build_live(plan: ProjectPlan, names: GlobalNames, texts: Mapping[str, str]) 
 
 
 class _LiveWriter:
-    def __init__(self, plan: ProjectPlan, names: GlobalNames, texts: Mapping[str, str]) -> None:
-        self._plan, self._names, self._texts = plan, names, texts
+    def __init__(self, plan: ProjectPlan, names: GlobalNames) -> None:
+        self._plan, self._names = plan, names
         self._members = component_members(plan)
 
     def list_components(self) -> Iterator[LiveComponentView]:
@@ -99,8 +101,7 @@ class _LiveWriter:
         lines += ["shown.show_action_done(component);"] if plan.uses_action_done else []
         lines += ["shown.show_conflict(component);"] if any(each.is_cooperative for each in plan.states) else []
         lines += self.add_fields("shown.fields", values, _member)
-        code = hash_component(*(self._texts[f"{plan.module}.{suffix}"] for suffix in ("hpp", "cpp")))
-        arguments = (quoted(plan.source), quoted(code), format_number(float(plan.frequency_hz or 0)))
+        arguments = (quoted(plan.source), "component.code_hash()", format_number(float(plan.frequency_hz or 0)))
         member = f"components.{self._members[plan.component]}"
         return LiveComponentView(member=member, arguments=", ".join(arguments), lines=tuple(lines))
 
@@ -113,9 +114,15 @@ class _LiveWriter:
                 yield f"{owner}.add({quoted(value.name)}, {quoted(value.type)}, {place(value)}, {sizes[value.type]});"
 
 
-def hash_component(header: str, source: str) -> str:
-    """The hash of a component in the description of a robot: SHA-256 of its header and source, one behind the other."""
-    return _hash(header + source)
+def add_code_hash(header: str, source: str) -> str:
+    """The source of a component with the SHA-256 of its header and source in the place of `CODE_HASH`."""
+    return source.replace(f'return "{CODE_HASH}";', f'return "{_hash(header + source)}";', 1)
+
+
+def find_code_hash(source: str) -> str | None:
+    """The hash that `add_code_hash` wrote; None if there is none."""
+    found = re.search(r'::code_hash\(\) const \{\n    return "(\w{64})";', source)
+    return found[1] if found else None
 
 
 def _member(value: ValuePlan) -> str:

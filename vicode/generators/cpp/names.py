@@ -57,6 +57,7 @@ _MEMBERS = frozenset(
         "require",
         "required",
         "required_by",
+        "code_hash",
         "restart_again",
         "record_change",
         "restart_machine",

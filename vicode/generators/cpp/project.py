@@ -87,6 +87,7 @@ def build_components(plan: ProjectPlan, names: GlobalNames) -> ProjectView:
         components=tuple(f"    {inner.class_name(each)} {members[each]};" for each in ordered),
         constructor=tuple(break_list("    ", "Components(", parameters, ")")),
         initializers=tuple(initializers),
+        is_live=plan.project.live,
         sources=tuple(f"{item.module}.cpp" for item in plan.components),
         library=library(plan.package),
         inputs=tuple(members[component] for component in own if interfaces[component].readable),

@@ -90,3 +90,4 @@ class ProjectView:
     sources: Lines = ()
     library: str = ""
     inputs: Lines = ()
+    is_live: bool = False

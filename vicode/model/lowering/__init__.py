@@ -173,7 +173,6 @@ def _written_decisions(decisions: tuple[Decision, ...]) -> tuple[Decision, ...]:
 def _lift_state(state: State) -> State:
     return replace(
         state,
-        final=state.final and not state.failed,
         enter=_written_actions(state.enter),
         actions=_written_actions(state.actions),
         leave=_written_actions(state.leave),

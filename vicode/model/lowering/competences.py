@@ -33,7 +33,10 @@ def lower_competence(design: Design) -> Design:
     states = [choose]
     for index, step in enumerate(steps):
         states.append(_step_state(design, step, (goal, *map(_way_to, steps[:index]))))
-    states += [State(name=DONE, final=True, origin=origin), State(name=FAILED_STATE, failed=True, origin=origin)]
+    states += [
+        State(name=DONE, final=True, origin=origin),
+        State(name=FAILED_STATE, final=True, failed=True, origin=origin),
+    ]
     design = replace(design, states=tuple(states), initial=CHOOSE)
     return _add_counters(design, steps)
 

@@ -14,17 +14,17 @@ FAILED = "failed"
 def lower_ends(design: Design) -> Design:
     failed = next((state for state in design.states if state.failed), None)
     if failed is None or any(each.name == FAILED for _section, each in design.declarations()):
-        return replace(design, states=tuple(replace(each, final=each.is_end) for each in design.states))
+        return design
     origin = failed.origin or ("states", failed.name, FAILED)
     output = Declaration(
         name=FAILED, type="bool", initial="false", doc="Whether it ended without success.", origin=origin
     )
 
     def lower_state(state: State) -> State:
-        if not state.is_end:
+        if not state.final:
             return state
         value = "true" if state.failed else "false"
-        return replace(state, final=True, actions=(Assign(values=((FAILED, value),), origin=origin), *state.actions))
+        return replace(state, actions=(Assign(values=((FAILED, value),), origin=origin), *state.actions))
 
     return replace(
         design, outputs=(*design.outputs, output), states=tuple(lower_state(state) for state in design.states)

@@ -51,7 +51,7 @@ def interrupted_states(design: Design, number: int) -> tuple[State, ...]:
     urgent = {each.do for each in design.interrupts[: number + 1]}
     candidates = (each for each in design.states if each.name not in urgent and not each.disabled)
     if not interrupt.during:
-        return tuple(each for each in candidates if not each.is_end)
+        return tuple(each for each in candidates if not each.final)
     return tuple(each for each in candidates if any(fnmatchcase(each.name, name) for name in interrupt.during))
 
 

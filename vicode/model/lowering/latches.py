@@ -33,12 +33,9 @@ def _lower_latch(design: Design, latch: Latch) -> Design:
         value = f"({latch.on}) or {name} and not ({off})" if latch.off else latch.on
         return add_first_action(design, Assign(values=((name, value),), origin=origin))
     _name, changes, until = latch_names(latch)
+    differs = f"{name} and ({off}) and not ({latch.on}) or not {name} and ({latch.on})"
     values = (
-        (
-            changes,
-            f"(component_time <= 0 or component_time >= {until}) and "
-            f"({name} and ({off}) and not ({latch.on}) or not {name} and ({latch.on}))",
-        ),
+        (changes, f"(component_time <= 0 or component_time >= {until}) and ({differs})"),
         (name, f"{name} and not {changes} or not {name} and {changes}"),
         (until, f"component_time + {latch.hold} if {changes} else {since_restart(until)}"),
     )

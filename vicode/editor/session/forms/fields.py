@@ -227,7 +227,7 @@ def other_nodes(
     return tuple(field_node(owner, name, base, is_committed=is_committed) for name in wanted)
 
 
-_IN_NO_FORM = ("id", "alias", "component", "clock", "generated", "xabsl_encoding")
+_IN_NO_FORM = ("id", "alias", "component", "clock", "generated", "live", "xabsl_encoding")
 """Written by the editor, changed in another way, or edited in the file."""
 
 
