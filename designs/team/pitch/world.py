@@ -10,7 +10,7 @@ from pitch.radio import Packet, Radio
 from vicode.bica import Team
 
 TICK_NS = 100_000_000
-MATCH_S = 120.0
+MATCH_S = 300.0
 ROBOTS = 3
 _SIGHT, _MISSED = 3.0, 0.1
 _ALIVE_S = 0.5
@@ -29,12 +29,12 @@ class Match:
     tick_ns = TICK_NS
 
     def __init__(self, seed: int, *, robots: tuple[int, int] = (ROBOTS, ROBOTS)) -> None:
+        self._ticks = 0
         seats = [(side, number) for side, count in zip((1, -1), robots, strict=True) for number in range(1, count + 1)]
         self.pitch = Pitch([Robot(side=s, number=n, noise=Random(f"{seed}/body {s} {n}")) for s, n in seats])
         radios = {side: Radio(f"{seed}/radio {side}", ROBOTS) for side in (1, -1)}
         worlds = [World(seed, match=self, robot=robot, radio=radios[robot.side]) for robot in self.pitch.robots]
         self.teams = tuple([world for world in worlds if world.robot.side == side] for side in (1, -1))
-        self._ticks = 0
 
     @property
     def finished(self) -> bool:
