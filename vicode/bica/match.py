@@ -1,8 +1,10 @@
-"""Plays a match of two versions of a design in this process: `python -m vicode.bica.match`, which a tournament starts.
+"""Plays a match of two versions of a design: `python -m vicode.bica.match`.
 
-Each robot has its own root. All see the same instant: the world moves on when each has stepped. The two versions have
-modules of the same names, so those of the first are forgotten before the second is imported; the classes keep theirs.
+Each robot has its own root. All see the same instant: the world moves on when each has stepped. Both versions have
+modules of the same names, so those of the first are forgotten before the second is imported; its classes keep them.
 """
+
+from __future__ import annotations
 
 import argparse
 import json
@@ -10,69 +12,38 @@ import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from .clock import SimulatedClock
+from .component import Component
 from .errors import print_error
 from .loader import UserCodeError, load_attribute, load_component, wrap_user_errors
 from .root import Root
-from .team import Team
-
-
-class RobotWorld(Protocol):
-    """The world of one robot in a match: what it perceives and commands, and its radio."""
-
-    def hear(self, team: Team) -> None:
-        """Call `team.prepare()`, and `team.hear` for each message that has arrived."""
-        ...
-
-    def tell(self, team: Team) -> None:
-        """Send `team.tell()` to the other robots."""
-        ...
-
-
-class MatchWorld(Protocol):
-    """What `start_match(seed)` of a world returns.
-
-    Attributes:
-        tick_ns: Time between two iterations in nanoseconds.
-        teams: The worlds of the robots of the home team and of the other one.
-        goals: The goals of both.
-        finished: Whether the match is over.
-    """
-
-    tick_ns: int
-    teams: Sequence[Sequence[RobotWorld]]
-
-    @property
-    def goals(self) -> tuple[int, int]: ...
-    @property
-    def finished(self) -> bool: ...
-    def advance(self, now_ns: int) -> None:
-        """Move robots and ball until `now_ns`."""
-        ...
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description="Play a match; the world is that of the first version.")
-    parser.add_argument("components", nargs=2, help="the root components of both versions, as module:Class")
-    parser.add_argument("--world", required=True, help="the world, as module:Class")
-    parser.add_argument("--path", action="append", default=[], help="folders of the first version, then of the second")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--seconds", type=float, default=600.0, help="end of a match that is not finished")
-    parser.add_argument("--exchange", action="store_true", help="the second version is the home team")
+    """Play a match in the world of the first version, and print its summary as JSON."""
+    parser = argparse.ArgumentParser(description=main.__doc__)
+    add = parser.add_argument
+    add("components", nargs=2, help="the root components of both versions, as module:Class")
+    add("--world", required=True, help="a world with start_match(seed), as module:Class")
+    add(
+        "--path", action="append", default=[], help="folders of modules: those of the first version, then as many again"
+    )
+    add("--seed", type=int, default=1)
+    add("--seconds", type=float, default=600.0, help="end of a match that is not finished")
+    add("--exchange", action="store_true", help="the second version is the home team")
     options = parser.parse_args()
-    half = len(options.path) // 2
+    middle = len(options.path) // 2
+    first, second = options.path[:middle], options.path[middle:]
     try:
-        _enter_folders(options.path[:half])
-        world, first = load_attribute(options.world), load_component(options.components[0])
-        if not callable(getattr(world, "start_match", None)):
-            raise UserCodeError(f"{options.world} has no start_match(seed), which a tournament needs")
-        _leave_folders(options.path[:half])
-        _enter_folders(options.path[half:])
-        classes = [first, load_component(options.components[1])]
+        sys.path[:0] = first
+        world, home = load_attribute(options.world), load_component(options.components[0])
+        _forget_modules(first)
+        sys.path[:0] = second
+        teams = (home, load_component(options.components[1]))
         with wrap_user_errors("the match failed"):
-            summary = play(world.start_match(options.seed), classes, options)
+            summary = play(world.start_match(options.seed), teams, options.seconds, exchange=options.exchange)
     except UserCodeError as error:
         print_error(str(error))
         return 2
@@ -80,29 +51,23 @@ def main() -> int:
     return 0
 
 
-def _enter_folders(folders: Sequence[str]) -> None:
-    sys.path[:0] = folders
+def play(match: Any, teams: Sequence[type[Component]], seconds: float, *, exchange: bool = False) -> dict[str, Any]:
+    """Play a match and return its summary, with the goals of both teams as `goals_a` and `goals_b`.
 
-
-def _leave_folders(folders: Sequence[str]) -> None:
-    sys.path[:] = [folder for folder in sys.path if folder not in folders]
-    for name, module in list(sys.modules.items()):
-        file = getattr(module, "__file__", None) or next(iter(getattr(module, "__path__", ())), "")
-        if any(Path(file).is_relative_to(folder) for folder in folders):
-            del sys.modules[name]
-
-
-def play(match: MatchWorld, classes: Sequence[type[Any]], options: argparse.Namespace) -> dict[str, Any]:
-    """Play a match until it is finished; return its summary, with the goals of both versions."""
-    clock = SimulatedClock()
-    teams = classes[::-1] if options.exchange else classes
+    Args:
+        match: What `start_match` of a world returns (docs/team.md).
+        teams: The root components of the robots of both teams.
+        seconds: When to stop a match that is not finished.
+        exchange: Whether the second team is the home team, whose worlds are the first of the match.
+    """
+    clock, order = SimulatedClock(), -1 if exchange else 1
     with ExitStack() as closing:
         roots = [
-            closing.enter_context(Root(component_class, clock=clock, world=world))
-            for component_class, worlds in zip(teams, match.teams, strict=True)
+            closing.enter_context(Root(team, clock=clock, world=world))
+            for team, worlds in zip(teams[::order], match.teams, strict=True)
             for world in worlds
         ]
-        while not match.finished and clock.now_ns() < options.seconds * 1e9:
+        while not match.finished and clock.now_ns() < seconds * 1e9:
             for root in roots:
                 root.world.hear(root.team)
                 root.step()
@@ -110,16 +75,22 @@ def play(match: MatchWorld, classes: Sequence[type[Any]], options: argparse.Name
                 root.world.tell(root.team)
             clock.advance(match.tick_ns)
             match.advance(clock.now_ns())
-        stopped = "finished" if match.finished else "limit"
-    goals = match.goals[::-1] if options.exchange else match.goals
-    more = getattr(match, "summary", dict)()
-    return {
-        "stopped": stopped,
-        "state": "",
-        "time_ns": clock.now_ns(),
-        "errors": sum(root.errors.total() for root in roots),
-        "world": {**more, "goals_a": goals[0], "goals_b": goals[1]},
-    }
+        goals_a, goals_b = match.goals[::order]
+        return {
+            "stopped": "finished" if match.finished else "limit",
+            "state": "",
+            "time_ns": clock.now_ns(),
+            "errors": sum(root.errors.total() for root in roots),
+            "world": {**match.summary(), "goals_a": goals_a, "goals_b": goals_b},
+        }
+
+
+def _forget_modules(folders: Sequence[str]) -> None:
+    sys.path[:] = [folder for folder in sys.path if folder not in folders]
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None) or next(iter(getattr(module, "__path__", ())), "")
+        if any(Path(file).is_relative_to(folder) for folder in folders):
+            del sys.modules[name]
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ import argparse
 import os
 import re
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import as_completed
 from contextlib import AbstractContextManager
 from dataclasses import replace
@@ -57,8 +57,16 @@ def _address(text: str) -> str:
 
 def run(args: argparse.Namespace) -> int:
     """Do the runs that the folder lacks, and write the table and the page; return 1 if a run has failed."""
+    from vicode.runs.changed_values import ChangedValueError
+
     selected = select_simulated(args.path, args.profile, "sweep")
-    return selected if isinstance(selected, int) else continue_runs(lambda: _sweep(*selected, args))
+    if isinstance(selected, int):
+        return selected
+    try:
+        return _sweep(*selected, args)
+    except ChangedValueError as error:
+        print(f"vicode: {error}", file=sys.stderr)
+        return 2
 
 
 def select_simulated(path: str, profile: str, verb: str) -> tuple[LoadedProject, str] | int:
@@ -76,23 +84,6 @@ def select_simulated(path: str, profile: str, verb: str) -> tuple[LoadedProject,
         print(f"vicode: a {verb} needs a simulated world that does not set the pace; see --profile", file=sys.stderr)
         return 2
     return selected
-
-
-def continue_runs(run_all: Callable[[], int]) -> int:
-    """Call a function that does runs; return its exit code, or 2 if it cannot continue those of the folder."""
-    from vicode.cli.experiment import ending_at_sigterm
-    from vicode.runs.changed_values import ChangedValueError
-    from vicode.runs.sweep import OtherRunsError
-
-    try:
-        with ending_at_sigterm():
-            return run_all()
-    except (ChangedValueError, OtherRunsError) as error:
-        print(f"vicode: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("vicode: stopped; the same command continues", file=sys.stderr)
-        raise
 
 
 def _sweep(opened: LoadedProject, component: str, args: argparse.Namespace) -> int:
@@ -115,16 +106,20 @@ def do_missing(
     runs: "Sequence[SweepRun]", origin: "Row", code: Path, project: Path, args: argparse.Namespace
 ) -> "dict[object, Row]":
     """Do the runs that the folder of the results lacks; return the rows of all, by `run_key`."""
+    from vicode.cli.experiment import ending_at_sigterm
     from vicode.runs.sweep import open_runs
 
-    with open_runs(Path(args.out, "runs.jsonl"), origin, is_new=args.again) as (rows, append):
+    with ending_at_sigterm(), open_runs(Path(args.out, "runs.jsonl"), origin, is_new=args.again) as (rows, append):
         done = {run_key(row["values"], row["seed"]): row for row in rows if not row["error"]}
-        waiting = [run for run in runs if run_key(run.values, run.seed) not in done]
-        if waiting:
-            with _start(project, code, args) as submit:
-                for row in _follow(submit, waiting):
-                    append(row)
-                    done[run_key(row["values"], row["seed"])] = row
+        if waiting := [run for run in runs if run_key(run.values, run.seed) not in done]:
+            try:
+                with _start(project, code, args) as submit:
+                    for row in _follow(submit, waiting):
+                        append(row)
+                        done[run_key(row["values"], row["seed"])] = row
+            except KeyboardInterrupt:
+                print("vicode: stopped; the same command continues", file=sys.stderr)
+                raise
     return done
 
 

@@ -44,7 +44,7 @@ _REMEDY = "move it, or choose another --out"
 _ERROR, _REPEATED = "error: ", " (reported once; repetitions are only counted)"
 
 
-class OtherRunsError(Exception):
+class OtherRunsError(OSError):
     """A file has runs that cannot be continued; the message is one line."""
 
 

@@ -6,16 +6,16 @@ counts once, with the sum of its two goal differences. Equal versions have the s
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import sqrt
-from statistics import NormalDist, fmean, stdev
-from typing import Any
+from statistics import fmean, stdev
 
 from vicode.runs.sweep import Row
+from vicode.runs.sweep_page import SIGNIFICANT
 
-SIGNIFICANT = 0.05
 SIDES = ("A", "B")
-"""The version that is the home team, in the order of the two matches of a seed."""
+"""The home team in the two matches of a seed."""
+_MIN_SEEDS = 5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,7 +24,7 @@ class TournamentResult:
 
     Attributes:
         difference: Mean goal difference per match.
-        interval: Its 95 % confidence interval; None with fewer than two seeds.
+        interval: Its 95 % confidence interval; None with fewer than 5 seeds.
         p: Probability that equal versions differ by this or more.
     """
 
@@ -39,33 +39,38 @@ class TournamentResult:
     p: float
 
     def __str__(self) -> str:
-        verdict = "the difference may be chance"
-        if self.p < SIGNIFICANT:
-            verdict = f"{'A' if self.difference > 0 else 'B'} is better"
-        spread = "" if self.interval is None else "95 % interval {:+.2f} to {:+.2f}, ".format(*self.interval)
-        return f"A wins by {self.difference:+.2f} goals per match on average, {spread}p = {self.p:.2g}: {verdict}."
+        better = f"{'A' if self.difference > 0 else 'B'} is better"
+        verdict = better if self.p < SIGNIFICANT else "the difference may be chance"
+        spread = "" if self.interval is None else " (95 % interval {:+.2f} to {:+.2f})".format(*self.interval)
+        return f"Goal difference of A per match: {self.difference:+.2f}{spread}, p = {self.p:.2g}: {verdict}."
 
-    def as_plain(self) -> dict[str, Any]:
-        return asdict(self)
+    def table(self) -> list[str]:
+        """The lines of a table in Markdown."""
+        goals = f"{self.goals_a} : {self.goals_b}"
+        return [
+            "| goals A : B | A won | drawn | A lost |",
+            "|------------:|------:|------:|-------:|",
+            f"| {goals:>11} | {self.won:5} | {self.drawn:5} | {self.lost:6} |",
+        ]
 
 
 def evaluate(rows: Sequence[Row]) -> TournamentResult:
-    """Compare both versions; a seed counts if neither of its matches has an error."""
-    pairs = [pair for pair in _pair(rows).values() if len(pair) == len(SIDES)]
-    differences = [sum(_difference(row) for row in pair.values()) for pair in pairs]
-    played = [row for pair in pairs for row in pair.values()]
-    signs = Counter((_difference(row) > 0) - (_difference(row) < 0) for row in played)
-    means = [difference / len(SIDES) for difference in differences]
+    """Compare both versions; a seed counts if neither of its matches, which follow each other, has an error."""
+    pairs = [pair for pair in zip(rows[::2], rows[1::2], strict=True) if not any(row["error"] for row in pair)]
+    played = [row for pair in pairs for row in pair]
+    differences = [row["world.goals_a"] - row["world.goals_b"] for row in played]
+    outcomes = Counter((each > 0) - (each < 0) for each in differences)
+    sums = [sum(pair) for pair in zip(differences[::2], differences[1::2], strict=True)]
     return TournamentResult(
         matches=len(played),
         goals_a=sum(row["world.goals_a"] for row in played),
         goals_b=sum(row["world.goals_b"] for row in played),
-        won=signs[1],
-        drawn=signs[0],
-        lost=signs[-1],
-        difference=fmean(means) if means else 0.0,
-        interval=confidence_interval(means) if len(means) > 1 else None,
-        p=permutation_test(differences),
+        won=outcomes[1],
+        drawn=outcomes[0],
+        lost=outcomes[-1],
+        difference=fmean(sums) / 2 if sums else 0.0,
+        interval=confidence_interval([each / 2 for each in sums]) if len(sums) >= _MIN_SEEDS else None,
+        p=permutation_test(sums),
     )
 
 
@@ -73,56 +78,28 @@ def permutation_test(differences: Sequence[int]) -> float:
     """The probability of a sum as far from 0 as this if each difference could as well have the other sign; exact."""
     sums = {0: 1.0}
     for difference in filter(None, differences):
-        halves = [(total + each, part / 2) for total, part in sums.items() for each in (difference, -difference)]
-        sums = {}
-        for total, part in halves:
-            sums[total] = sums.get(total, 0.0) + part
+        known, sums = sums, {}
+        for total, part in known.items():
+            for each in (total + difference, total - difference):
+                sums[each] = sums.get(each, 0.0) + part / 2
     return min(1.0, sum(part for total, part in sums.items() if abs(total) >= abs(sum(differences))))
 
 
-def confidence_interval(values: Sequence[float], level: float = 0.95) -> tuple[float, float]:
-    """The confidence interval of a mean, by the t distribution."""
-    free, z = len(values) - 1, NormalDist().inv_cdf((1 + level) / 2)
-    t = {1: 12.706, 2: 4.303, 3: 3.182}.get(free) if level == 0.95 else None
-    if t is None:
-        # Abramowitz and Stegun, 26.7.5.
-        terms = (z, (z**3 + z) / 4, (5 * z**5 + 16 * z**3 + 3 * z) / 96, (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384)
-        t = sum(term / free**power for power, term in enumerate(terms))
+def confidence_interval(values: Sequence[float]) -> tuple[float, float]:
+    """The 95 % confidence interval of the mean of 5 or more values."""
+    # The quantile of the t distribution: Abramowitz and Stegun, 26.7.5.
+    free = len(values) - 1
+    t = 1.95996 + 2.37227 / free + 2.82250 / free**2 + 2.55585 / free**3
     mean, half = fmean(values), t * stdev(values) / sqrt(len(values))
     return mean - half, mean + half
 
 
-def format_page(versions: Mapping[str, str], seconds: float, rows: Sequence[Row], result: TournamentResult) -> str:
-    """The result and all matches as Markdown."""
-    lines = ["# Tournament", "", *(f"- {side}: `{version}`" for side, version in versions.items()), "", str(result), ""]
-    lines += [*format_result(result), "", f"Matches end when the world is finished, or after {seconds:g} s.", ""]
-    lines += ["| seed | A : B, A at home | A : B, B at home | sum for A |", "|--:|--:|--:|--:|"]
-    for seed, pair in _pair(rows).items():
-        scores = [_score(pair[side]) if side in pair else "failed" for side in SIDES]
-        total = sum(_difference(row) for row in pair.values()) if len(pair) == len(SIDES) else None
-        lines.append(f"| {seed} | {scores[0]} | {scores[1]} | {'' if total is None else f'{total:+d}'} |")
+def format_page(versions: Mapping[str, str], rows: Sequence[Row], result: TournamentResult) -> str:
+    """The result and the matches of each seed as Markdown."""
+    names = [f"- {side}: `{version}`" for side, version in versions.items()]
+    lines = ["# Tournament", "", *names, "", str(result), "", *result.table(), ""]
+    lines += ["| seed | goals A : B, A at home | goals A : B, B at home |", "|-----:|---:|---:|"]
+    for pair in zip(rows[::2], rows[1::2], strict=True):
+        scores = ("failed" if row["error"] else f"{row['world.goals_a']} : {row['world.goals_b']}" for row in pair)
+        lines.append(f"| {pair[0]['seed']} | {' | '.join(scores)} |")
     return "\n".join(lines) + "\n"
-
-
-def format_result(result: TournamentResult) -> list[str]:
-    """The table of both versions, as lines of Markdown."""
-    outcomes = ((result.goals_a, result.won, result.drawn, result.lost), (result.goals_b, result.lost, result.drawn, result.won))
-    lines = [f"| {side} | {' | '.join(f'{number:5}' for number in each)} |" for side, each in zip(SIDES, outcomes, strict=True)]
-    return ["|   | goals |   won | drawn |  lost |", "|---|------:|------:|------:|------:|", *lines]
-
-
-def _pair(rows: Sequence[Row]) -> dict[int, dict[str, Row]]:
-    """The matches without errors by seed and home team."""
-    pairs: dict[int, dict[str, Row]] = {row["seed"]: {} for row in rows}
-    for row in rows:
-        if not row["error"]:
-            pairs[row["seed"]][row["values"]["home"]] = row
-    return pairs
-
-
-def _difference(row: Row) -> int:
-    return int(row["world.goals_a"] - row["world.goals_b"])
-
-
-def _score(row: Row) -> str:
-    return f"{row['world.goals_a']} : {row['world.goals_b']}"

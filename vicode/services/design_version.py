@@ -10,7 +10,7 @@ def find_version(text: str, target: Path) -> Path:
     """The path of a version; the project of a revision is copied to a folder, which must not exist.
 
     Args:
-        text: An existing path, or REVISION:PATH, with a path from the root of the repository or from `./`.
+        text: An existing path, or REVISION:PATH with a path from the root of the repository.
         target: The folder for the copy.
 
     Raises:
@@ -19,19 +19,16 @@ def find_version(text: str, target: Path) -> Path:
     revision, colon, name = text.partition(":")
     if Path(text).exists() or not colon:
         return Path(text)
-    repository = find_repository(Path())
+    repository, path = find_repository(Path()), Path(name)
     commit = repository.resolve(revision)
-    path = Path(repository.relative(Path(name)) if name.startswith(".") else name)
-    blobs = repository.list_blobs(commit)
-    files = [Path(blob) for blob in blobs if Path(blob).is_relative_to(path)]
-    if not files:
-        raise GitError(f"revision {revision} has no '{path.as_posix()}'")
+    files = [Path(blob) for blob in repository.list_blobs(commit)]
+    if not any(file.is_relative_to(path) for file in files):
+        raise GitError(f"revision {revision} has no '{name}'; write the path from the root of the repository")
     folder = path.parent if path in files else path
-    owners = (each for each in (folder, *folder.parents) for file in PROJECT_FILES if (each / file).as_posix() in blobs)
-    folder = next(owners, folder)
-    for blob in blobs:
-        if Path(blob).is_relative_to(folder):
-            file = target / Path(blob).relative_to(folder)
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_bytes(repository.read(commit, blob) or b"")
+    folder = next((up for up in (folder, *folder.parents) if any(up / each in files for each in PROJECT_FILES)), folder)
+    for file in files:
+        if file.is_relative_to(folder):
+            copy = target / file.relative_to(folder)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            copy.write_bytes(repository.read(commit, file.as_posix()) or b"")
     return target / path.relative_to(folder)
