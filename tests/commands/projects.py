@@ -122,6 +122,7 @@ PROJECTS = (
         languages=(PYTHON, CPP),
         needs="a server of the soccer simulator",
     ),
+    TableProject(name="team", kind="sample", write=partial(_sample, "team"), design="player.yaml"),
     TableProject(name="tutorial", kind="page", write=partial(_page, "tutorial.md"), design="patrol.yaml"),
     TableProject(name="own components", kind="page", write=partial(_page, "own-components.md"), design="car.yaml"),
     TableProject(

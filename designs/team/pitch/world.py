@@ -49,6 +49,11 @@ class Match:
         """The goals of the home team and of the other one."""
         return self.pitch.goals[1], self.pitch.goals[-1]
 
+    def place_alone(self, world: "World") -> None:
+        """Let one robot play on the empty pitch."""
+        self.teams[0].append(world)
+        self.pitch = Pitch([world.robot])
+
     def advance(self, now_ns: int) -> None:
         """Execute the commands until `now_ns`, then let all robots look."""
         while (self._ticks + 1) * TICK_NS <= now_ns:
@@ -76,16 +81,14 @@ class World:
         self.ball_x = self.ball_y = self.ball_distance = self.ball_bearing = self.ball_age = 0.0
         self.goal_distance = self.shot_direction = 0.0
         self.mate_to_ball = self.mate_to_goal = _FAR
-        self._own = match is None
         self.match = match or Match(seed, robots=(0, 0))
         self.robot = robot or Robot(side=1, number=ROBOTS, noise=Random(f"{seed}/body"))
         self._radio = radio or Radio(f"{seed}/radio", ROBOTS)
         self._noise = Random(f"{seed}/eyes {self.robot.side} {self.robot.number}")
         self._seen_s, self._ball = 0.0, 0j
         self._heard: dict[int, Packet] = {}
-        if self._own:
-            self.match.teams[0].append(self)
-            self.match.pitch = Pitch([self.robot])
+        if match is None:
+            self.match.place_alone(self)
         self.look()
 
     @classmethod
