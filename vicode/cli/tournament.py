@@ -41,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _even(text: str) -> int:
     number = options.count(text)
-    if number % 2 or number > _MAX_MATCHES:
+    if number % 2 or not 0 < number <= _MAX_MATCHES:
         raise argparse.ArgumentTypeError(f"write an even number up to {_MAX_MATCHES}, as sides are exchanged")
     return number
 
