@@ -111,16 +111,18 @@ def do_missing(
 
     with ending_at_sigterm(), open_runs(Path(args.out, "runs.jsonl"), origin, is_new=args.again) as (rows, append):
         done = {run_key(row["values"], row["seed"]): row for row in rows if not row["error"]}
-        if waiting := [run for run in runs if run_key(run.values, run.seed) not in done]:
-            try:
-                with _start(project, code, args) as submit:
-                    for row in _follow(submit, waiting):
-                        append(row)
-                        done[run_key(row["values"], row["seed"])] = row
-            except KeyboardInterrupt:
-                print("vicode: stopped; the same command continues", file=sys.stderr)
-                raise
-    return done
+        waiting = [run for run in runs if run_key(run.values, run.seed) not in done]
+        if not waiting:
+            return done
+        try:
+            with _start(project, code, args) as submit:
+                for row in _follow(submit, waiting):
+                    append(row)
+                    done[run_key(row["values"], row["seed"])] = row
+        except KeyboardInterrupt:
+            print("vicode: stopped; the same command continues", file=sys.stderr)
+            raise
+        return done
 
 
 def run_key(values: "Row", seed: int) -> object:
