@@ -141,7 +141,7 @@ def test_the_table_is_the_same_on_one_core_on_two_and_on_a_cluster(versions: tup
         pytest.skip("Dask is missing: install the extra cluster")
     from distributed import LocalCluster
 
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address="127.0.0.1:0") as cluster:
         assert tournament("--cluster", cluster.scheduler_address, out="there") == 0
     assert Path("there/runs.csv").read_bytes() == Path("one/runs.csv").read_bytes()
 
