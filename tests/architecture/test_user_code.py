@@ -14,6 +14,7 @@ LOADER_MODULES = {"pkgutil", "runpy"}
 # module -> reason
 RUNS_USER_CODE = {
     "vicode/bica/loader.py": "the runtime: loads classes by their path",
+    "vicode/bica/match.py": "the runtime: the process of a match, with two versions of a design",
     "vicode/bica/reload.py": "the runtime: exchanges modules during a run",
     "vicode/bica/run.py": "the runtime: the process that `vicode run` starts",
     "vicode/bridge/behaviors.py": "`vicode bridge` runs behaviors in its own process",

@@ -144,7 +144,7 @@ def test_a_worker_that_is_killed_loses_nothing(cars: Path, monkeypatch: pytest.M
     assert sweep(out="here") == 0
     killed = cars.with_name("killed")
     monkeypatch.setenv("KILL_ONCE", str(killed))
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address="127.0.0.1:0") as cluster:
         assert sweep("--cluster", cluster.scheduler_address, out="there") == 0
     assert killed.exists()
     assert Path("there/runs.csv").read_bytes() == Path("here/runs.csv").read_bytes()

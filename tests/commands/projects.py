@@ -26,6 +26,7 @@ class TableProject:
         needs: What a run needs besides the project, "" for nothing; such a project is not run.
         has_bridge: Whether its robots may connect to a bridge.
         has_program: Whether it has a main.cpp.
+        has_matches: Whether its world has matches of two teams.
         is_large: Whether only the nightly run takes it; the program of the page drives a circle in real time.
     """
 
@@ -38,6 +39,7 @@ class TableProject:
     needs: str = ""
     has_bridge: bool = False
     has_program: bool = False
+    has_matches: bool = False
     is_large: bool = False
 
     def __str__(self) -> str:
@@ -122,6 +124,7 @@ PROJECTS = (
         languages=(PYTHON, CPP),
         needs="a server of the soccer simulator",
     ),
+    TableProject(name="team", kind="sample", write=partial(_sample, "team"), design="player.yaml", has_matches=True),
     TableProject(name="tutorial", kind="page", write=partial(_page, "tutorial.md"), design="patrol.yaml"),
     TableProject(name="own components", kind="page", write=partial(_page, "own-components.md"), design="car.yaml"),
     TableProject(

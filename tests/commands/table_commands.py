@@ -140,6 +140,12 @@ def sweep(place: Workplace) -> None:
         assert [(row["seed"], row["error"]) for row in rows] == [("1", ""), ("2", "")]
 
 
+def tournament(place: Workplace) -> None:
+    """A project against itself, in two matches of its world."""
+    words = ("--matches", "2", "--seconds", SECONDS, "--out", "results")
+    assert "p = 1: the difference may be chance" in place.run("tournament", place.folder, place.design, *words)
+
+
 def trace_stats(place: Workplace) -> None:
     place.trace()
     assert place.run("trace", "stats", "run.jsonl", "--design", place.folder).startswith("1 run, ")
@@ -306,6 +312,7 @@ COMMANDS = (
     TableCommand(name="compile XABSL", run=compile_xabsl, fits=lambda project: XABSL in project.languages),
     TableCommand(name="run", run=run_with_trace, fits=_runs),
     TableCommand(name="sweep", run=sweep, fits=_runs),
+    TableCommand(name="tournament", run=tournament, fits=lambda project: project.has_matches),
     TableCommand(name="replay", run=replay, fits=_runs),
     TableCommand(name="trace stats", run=trace_stats, fits=_runs),
     TableCommand(name="trace diff", run=trace_diff, fits=_runs),

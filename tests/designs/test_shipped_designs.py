@@ -11,7 +11,7 @@ DESIGNS = Path(__file__).parents[2] / "designs"
 PAPER = {"Player", "SearchBall", "FollowBall", "FaceBall", "SearchNet", "Body", "GoStraight", "Turn", "Fixmove"}
 
 
-@pytest.mark.parametrize("folder", ["forward", "blink", "rescue", "meeting", "soccer2d"])
+@pytest.mark.parametrize("folder", ["forward", "blink", "rescue", "meeting", "soccer2d", "team"])
 def test_there_are_no_findings(folder: str) -> None:
     opened = open_project(DESIGNS / folder)
     findings = (*opened.findings, *check_project(opened.project))

@@ -27,6 +27,7 @@ COMMANDS = (
     "sim",
     "experiment",
     "sweep",
+    "tournament",
     "deploy",
     "replay",
     "trace",

@@ -29,14 +29,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("path", metavar="DESIGN", help="design of the root component, or folder of a project with one agent")
     set_help = "values of a parameter (Component.parameter) or a constant, as 0.2,0.3 or 0.2..0.6:5; may be repeated"
     add("--set", action="append", required=True, metavar="NAME=VALUES", help=set_help)
-    add("--out", metavar="DIR", required=True, help="folder of the results; runs that it has are not done again")
-    add("--again", action="store_true", help="remove the runs that the folder has")
+    add_run_arguments(parser)
     add("--seeds", type=options.count, default=20, metavar="N", help="seeds 1 to N (default: %(default)s)")
     add("--seconds", type=options.seconds, default=60.0, metavar="S", help="stop a run after S seconds (default: 60)")
     add("--until-done", action="store_true", help="stop a run when the root component is done")
     goal = parser.add_mutually_exclusive_group()
     goal.add_argument("--minimize", metavar="FIGURE", help="find the value with the lowest figure, such as time_s")
     goal.add_argument("--maximize", metavar="FIGURE", help="find the value with the highest figure")
+
+
+def add_run_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of all commands that do many runs."""
+    add = parser.add_argument
+    add("--out", metavar="DIR", required=True, help="folder of the results; runs that it has are not done again")
+    add("--again", action="store_true", help="remove the runs that the folder has")
     add("--profile", metavar="NAME", default="", help="use the implementations and the world of this profile")
     add("--jobs", type=options.count, metavar="N", help="number of runs at a time (default: one per processor core)")
     cluster_help = "do the runs on the Dask cluster of this scheduler, tcp://HOST:PORT (docs/sweeps.md)"
@@ -51,56 +57,75 @@ def _address(text: str) -> str:
 
 def run(args: argparse.Namespace) -> int:
     """Do the runs that the folder lacks, and write the table and the page; return 1 if a run has failed."""
-    from vicode.cli.experiment import ending_at_sigterm
     from vicode.runs.changed_values import ChangedValueError
-    from vicode.runs.sweep import OtherRunsError
-    from vicode.services.run_preparation import find_topics, needs_bridge
 
-    selected = select_root(args.path, args.profile, "sweep")
+    selected = select_simulated(args.path, args.profile, "sweep")
     if isinstance(selected, int):
         return selected
-    opened, component = selected
-    project = opened.open_project.project
+    try:
+        return _sweep(*selected, args)
+    except ChangedValueError as error:
+        print(f"vicode: {error}", file=sys.stderr)
+        return 2
+
+
+def select_simulated(path: str, profile: str, verb: str) -> tuple[LoadedProject, str] | int:
+    """The project and the root component, as `select_root`, of a design that runs in simulated time."""
+    from vicode.services.run_preparation import find_topics, needs_bridge
+
+    selected = select_root(path, profile, verb)
+    if isinstance(selected, int):
+        return selected
+    project, component = selected[0].open_project.project, selected[1]
     if topics := find_topics(project, component):
         print(f"vicode: {topics[0]} is a topic, which needs real time; see --profile", file=sys.stderr)
         return 2
     if project.clock == options.WORLD or needs_bridge(project, component):
-        print("vicode: a sweep needs a simulated world that does not set the pace; see --profile", file=sys.stderr)
+        print(f"vicode: a {verb} needs a simulated world that does not set the pace; see --profile", file=sys.stderr)
         return 2
-    try:
-        with ending_at_sigterm():
-            return _sweep(opened, component, args)
-    except (ChangedValueError, OtherRunsError) as error:
-        print(f"vicode: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("vicode: stopped; the same command continues", file=sys.stderr)
-        raise
+    return selected
 
 
 def _sweep(opened: LoadedProject, component: str, args: argparse.Namespace) -> int:
     from vicode.output import temporary_folder
-    from vicode.runs.sweep import check_folder, open_runs
+    from vicode.runs.sweep import check_folder
 
     combinations = _combine(opened, component, args)
     out = Path(args.out)
     check_folder(out / "runs.jsonl", [out / _TABLE, out / _PAGE])
     out.mkdir(parents=True, exist_ok=True)
     origin = _describe_origin(opened, component, args)
-    with open_runs(out / "runs.jsonl", origin, is_new=args.again) as (rows, append), temporary_folder("sweep") as code:
-        done = {_key(row["values"], row["seed"]): row for row in rows if not row["error"]}
+    with temporary_folder("sweep") as code:
         runs = _prepare(opened, component, combinations, code, args)
-        waiting = [run for run in runs if _key(run.values, run.seed) not in done]
-        if waiting:
-            with _start(opened, code, args) as submit:
+        done = do_missing(runs, origin, code, opened.open_project.folder.resolve(), args)
+    seeds = range(1, args.seeds + 1)
+    return _report([(each, [done[run_key(each.values, seed)] for seed in seeds]) for each in combinations], args)
+
+
+def do_missing(
+    runs: "Sequence[SweepRun]", origin: "Row", code: Path, project: Path, args: argparse.Namespace
+) -> "dict[object, Row]":
+    """Do the runs that the folder of the results lacks; return the rows of all, by `run_key`."""
+    from vicode.cli.experiment import ending_at_sigterm
+    from vicode.runs.sweep import open_runs
+
+    with ending_at_sigterm(), open_runs(Path(args.out, "runs.jsonl"), origin, is_new=args.again) as (rows, append):
+        done = {run_key(row["values"], row["seed"]): row for row in rows if not row["error"]}
+        waiting = [run for run in runs if run_key(run.values, run.seed) not in done]
+        if not waiting:
+            return done
+        try:
+            with _start(project, code, args) as submit:
                 for row in _follow(submit, waiting):
                     append(row)
-                    done[_key(row["values"], row["seed"])] = row
-    seeds = range(1, args.seeds + 1)
-    return _report([(each, [done[_key(each.values, seed)] for seed in seeds]) for each in combinations], args)
+                    done[run_key(row["values"], row["seed"])] = row
+        except KeyboardInterrupt:
+            print("vicode: stopped; the same command continues", file=sys.stderr)
+            raise
+        return done
 
 
-def _key(values: "Row", seed: int) -> object:
+def run_key(values: "Row", seed: int) -> object:
     return frozenset(values.items()), seed
 
 
@@ -128,6 +153,14 @@ def _describe_origin(opened: LoadedProject, component: str, args: argparse.Names
     """What must stay the same when a sweep continues."""
     from vicode.model.design_hash import hash_design
     from vicode.runs.sweep import ORIGIN_KEY
+
+    design = f"{component} {hash_design(opened.open_project.project, component)}"
+    limits = {"--seconds": args.seconds, "--until-done": args.until_done}
+    return {ORIGIN_KEY: 1, "design": design, "Python code": hash_code(opened), **limits}
+
+
+def hash_code(opened: LoadedProject) -> str:
+    """The hash of the Python files of a project, without generated ones."""
     from vicode.services.generation.project_output import output_folder
 
     folder, generated = opened.open_project.folder.resolve(), output_folder(opened).resolve()
@@ -135,9 +168,7 @@ def _describe_origin(opened: LoadedProject, component: str, args: argparse.Names
     for file in sorted(folder.rglob("*.py")):
         if not file.is_relative_to(generated) and not any(part[0] == "." for part in file.relative_to(folder).parts):
             code.update(file.relative_to(folder).as_posix().encode() + file.read_bytes())
-    design = f"{component} {hash_design(opened.open_project.project, component)}"
-    limits = {"--seconds": args.seconds, "--until-done": args.until_done}
-    return {ORIGIN_KEY: 1, "design": design, "Python code": code.hexdigest(), **limits}
+    return code.hexdigest()
 
 
 def _prepare(
@@ -149,7 +180,7 @@ def _prepare(
     from vicode.services.run_preparation import generate_for_run
 
     project, runs = opened.open_project.project, []
-    limits = ["--seconds", str(args.seconds)] + ["--until-done"] * args.until_done
+    limits = ["--stream", "--changes", "--seconds", str(args.seconds)] + ["--until-done"] * args.until_done
     limits += ["--world", project.world] if project.world else []
     for number, each in enumerate(combinations):
         changed = replace(opened.open_project, project=apply_values(project, each.changes))
@@ -161,10 +192,9 @@ def _prepare(
     return sorted(runs, key=lambda run: run.seed)
 
 
-def _start(opened: LoadedProject, code: Path, args: argparse.Namespace) -> "AbstractContextManager[Submit]":
+def _start(project: Path, code: Path, args: argparse.Namespace) -> "AbstractContextManager[Submit]":
     from vicode.runs.sweep import local_runs
 
-    project = opened.open_project.folder.resolve()
     if args.cluster is None:
         return local_runs(args.jobs or os.cpu_count() or 1, code, project)
     try:

@@ -44,7 +44,7 @@ _REMEDY = "move it, or choose another --out"
 _ERROR, _REPEATED = "error: ", " (reported once; repetitions are only counted)"
 
 
-class OtherRunsError(Exception):
+class OtherRunsError(OSError):
     """A file has runs that cannot be continued; the message is one line."""
 
 
@@ -59,12 +59,17 @@ class Combination:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SweepRun:
-    """A run to do; `code` is the folder of its generated code, `arguments` are those of the runtime."""
+    """A run to do; `code` is the folder of its generated code, `arguments` are those of the runtime.
+
+    A match (`module`) also has folders of the second version, below that of all generated code.
+    """
 
     values: Mapping[str, Any]
     seed: int
     code: str
     arguments: tuple[str, ...]
+    module: str = "vicode.bica"
+    second: tuple[str, ...] = ()
 
 
 Submit = Callable[[SweepRun], "Future[Row]"]
@@ -194,11 +199,11 @@ def execute(
         project: The folder of the project.
         on_start: Called with the process.
     """
-    paths = [str(code / run.code / "python"), str(project)]
+    paths = [str(code / run.code / "python"), str(project), *(str(code / folder) for folder in run.second)]
     # -P: files in the current folder must not shadow modules.
-    command = [sys.executable, "-P", "-m", "vicode.bica", *run.arguments, "--stream", "--changes"]
+    command = [sys.executable, "-P", "-m", run.module, *run.arguments, "--seed", str(run.seed)]
     child = subprocess.Popen(
-        [*command, "--seed", str(run.seed), "--path", paths[0], "--path", paths[1]],
+        [*command, *(word for path in paths for word in ("--path", path))],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         stdin=subprocess.DEVNULL,
