@@ -101,19 +101,22 @@ def _import_machines(args: argparse.Namespace) -> int:
     name = args.name or default_project_name(args.out.resolve().name)
     files = () if find_cpp_files(args.agents) else find_other_files(args.agents)
     folder = args.agents if args.agents.is_dir() else args.agents.parent
-    converted = load_other(files, folder, name) if files else load_cpp([args.agents], name)
-    print_findings(converted.errors, to_stderr=True)
-    if not converted.result.designs:
-        print("nothing written", file=sys.stderr)
+    if files:
+        result, errors = load_other(files, folder, name)
+    else:
+        converted = load_cpp([args.agents], name)
+        result, errors = converted.result, converted.errors
+    print_findings(errors, to_stderr=True)
+    if files and not result.designs:
         return 1
-    imported = replace(converted.result, project=with_layout(converted.result.project))
+    imported = replace(result, project=with_layout(result.project))
     texts = format_files(imported)
     if _would_overwrite(args, texts):
         return 1
     write_files(args.out, texts)
     print(_summary(imported, args.out))
     _print_notes(imported, Path(), "files" if files else "C++ files")
-    return int(bool(converted.errors))
+    return int(bool(errors))
 
 
 def _import_scxml(args: argparse.Namespace) -> int:

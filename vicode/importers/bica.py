@@ -7,85 +7,70 @@ condition; other code stays C++ text of the design. A `.bica` file has no guards
 import ast
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from textwrap import dedent
 
-from vicode.findings import Finding
-from vicode.importers import ImportNote
 from vicode.importers.cpp.conditions import ALIAS, CppConditions, to_guard
 from vicode.importers.cpp.tree import CppError, CppTree, compact, read_source
 from vicode.importers.design_names import DesignNames
-from vicode.importers.xml_reader import Element, SourceError, read_position, read_xml
+from vicode.importers.sources import SourceError, Sources
+from vicode.importers.xml_reader import Element, read_position, read_xml
+from vicode.languages import LANGUAGES
 from vicode.model.design import Call, Code, Design, Guard, RunCode, State, Transition, Use
 from vicode.model.names import name_from_text, snake_case
 from vicode.model.project import MISSING, Enumeration, Interface, Project
 
 _MARK = re.compile(
-    r"^[ \t]*//BUILDER COMMENT\. DO NOT REMOVE\. (?:(begin|end) (\w+)|(\w+) (begin|end))[ \t]*\r?$", re.MULTILINE
+    r"^[ \t]*//BUILDER COMMENT\. DO NOT REMOVE\. (?:(begin|end) (\w+)|(\w+) (begin|end))\s*$", re.MULTILINE
 )
 _RATE = re.compile(r"\bsetFreqTime\s*\(\s*(\w+)\s*\)")
 _RATES_MS = {"SHORT_RATE": 50, "MEDIUM_RATE": 100, "LONG_RATE": 500}
 _STOPWATCH = re.compile(r"\bgetStopWatch\s*\(\s*\)")
 _INITIAL = "Initial"
+_KEYWORDS = LANGUAGES["cpp"].keywords
 
 
-@dataclass(slots=True, kw_only=True)
 class BicaReader:
-    """Collects the designs of files, with those of the components that they use.
+    """Collects the designs of files, each with its file."""
 
-    Attributes:
-        files: The file of each design.
-    """
+    def __init__(self, sources: Sources) -> None:
+        self.sources = sources
+        self.designs: list[tuple[Design, Path]] = []
+        self.inputs: list[Interface] = []
+        self._types: dict[str, tuple[str, list[str]]] = {}
+        self._names = DesignNames(keywords=_KEYWORDS)
+        self._components: dict[str, str] = {}
 
-    designs: list[Design] = field(default_factory=list)
-    files: list[Path] = field(default_factory=list)
-    notes: list[ImportNote] = field(default_factory=list)
-    errors: list[Finding] = field(default_factory=list)
-    _inputs: list[Interface] = field(default_factory=list)
-    _types: dict[str, tuple[str, list[str]]] = field(default_factory=dict)
-    _names: DesignNames = field(default_factory=DesignNames)
-    _components: dict[str, str] = field(default_factory=dict)
-
-    def read_file(self, path: Path) -> None:
+    def read(self, path: Path, data: bytes) -> None:
         """Read a file, and those beside it that are named after the components that it uses.
 
         Raises:
             SourceError: It cannot be read.
-            OSError: The same.
         """
-        waiting = [path]
-        while waiting:
-            file = waiting.pop(0)
-            if file in self.files:
-                continue
-            try:
-                root = read_xml(file.read_bytes(), ("component",))
-                design = _MachineReader(self, file, root).read()
-            except SourceError as error:
-                if file == path:
-                    raise
-                self.errors.append(error.finding(file))
-                continue
-            self.files.append(file)
-            self.designs.append(design)
-            names = [each.attributes.get("id", "") for each in root.find("dependenceComponent", "component")]
-            waiting += (
-                each for name in names if name and (each := file.parent / f"{Path(name).name}{file.suffix}").is_file()
-            )
+        root = read_xml(data, ("component",))
+        design = _MachineReader(self, path, root).read()
+        if any(each.component == design.component for each, _path in self.designs):
+            raise SourceError("S805", f"another file declares '{design.component}'", root.line)
+        self.designs.append((design, path))
+        for each in root.find("dependenceComponent", "component"):
+            beside = path.parent / f"{Path(each.attributes['id']).name}{path.suffix}"
+            if beside.is_file():
+                self.sources.load(beside, self.read)
 
     def project(self, name: str) -> Project:
-        designed = {each.component for each in self.designs}
-        plain = (Interface(component=each) for each in self._components.values() if each not in designed)
+        designs = {design.component: design for design, _path in self.designs}
+        plain = (Interface(component=each) for each in self._components.values() if each not in designs)
+        enumerations = (
+            Enumeration(name=each, elements=tuple((element, "") for element in elements))
+            for each, elements in self._types.values()
+        )
         return Project(
             name=name,
-            languages=("cpp",) if any(map(_has_code, self.designs)) else ("python", "cpp"),
-            enumerations=tuple(
-                Enumeration(name=each, elements=tuple((element, "") for element in elements))
-                for each, elements in self._types.values()
-            ),
-            components=(*plain, *self._inputs),
-            designs=tuple(self.designs),
+            languages=("cpp",) if any(map(_has_code, designs.values())) else ("python", "cpp"),
+            enumerations=tuple(enumerations),
+            components=(*plain, *self.inputs),
+            designs=tuple(designs.values()),
         )
 
     def component(self, text: str) -> str:
@@ -97,107 +82,94 @@ class BicaReader:
         component = self._names.allocate(f"{machine}Inputs")
         return CppConditions(machine=machine, component=component, names=self._names, types=self._types)
 
-    def add_inputs(self, interface: Interface) -> None:
-        self._inputs.append(interface)
-
 
 class _MachineReader:
     def __init__(self, reader: BicaReader, file: Path, root: Element) -> None:
         self._reader, self._file, self._root = reader, file, root
         self._is_rqt = file.suffix == ".bica"
+        # By name: the file, the line and the text.
         self._regions: dict[str, tuple[Path, int, str]] = {}
-        self._name = root.attributes.get("id") or file.stem
-        self._component = reader.component(self._name)
+        self._component = reader.component(root.attributes.get("id") or file.stem)
         self._conditions = reader.conditions(self._component)
-        names, aliases = DesignNames(), DesignNames(frozenset({ALIAS}))
-        self._elements = {self._id(each, "state"): each for each in reversed([*root.find("state")])}
-        self._elements = dict(reversed(self._elements.items()))
+        names, aliases = DesignNames(keywords=_KEYWORDS), DesignNames(frozenset({ALIAS}), _KEYWORDS)
+        self._elements: dict[str, Element] = {}
+        for each in root.find("state"):
+            name = _INITIAL if _id(each) == "initial" and not self._is_rqt else _id(each)
+            self._elements.setdefault(name, each)
+        if not self._elements:
+            raise SourceError("S805", f"'{self._component}' has no states", root.line)
         self._states = {each: names.allocate(each) for each in self._elements}
-        tag = "component" if self._is_rqt else "dependenceComponent"
         self._uses: dict[str, Use] = {}
-        for each in root.find(tag):
-            name = self._id(each, tag)
-            use = Use(
-                alias=aliases.allocate(snake_case(name)), component=reader.component(name), at=read_position(each)
-            )
-            self._uses.setdefault(name, use)
+        for each in root.find("component" if self._is_rqt else "dependenceComponent"):
+            use = Use(alias=aliases.allocate(snake_case(_id(each))), component=reader.component(_id(each)))
+            self._uses.setdefault(_id(each), replace(use, at=read_position(each)))
 
     def _note(self, line: int, text: str, file: Path | None = None) -> None:
-        self._reader.notes.append(ImportNote(file=file or self._file, line=line, text=text))
-
-    def _id(self, element: Element, what: str) -> str:
-        name = element.attributes.get("id", "")
-        if not name:
-            raise SourceError("S805", f"a {what} has no id", element.line)
-        return _INITIAL if name == "initial" and what == "state" and not self._is_rqt else name
+        self._reader.sources.note(file or self._file, line, text)
 
     def read(self) -> Design:
-        if not self._states:
-            raise SourceError("S805", f"'{self._name}' has no states", self._root.line)
         for suffix in () if self._is_rqt else (".h", ".cpp"):
             self._read_regions(self._file.with_suffix(suffix))
         transitions = self._transitions()
-        states = tuple(self._state(name, each, transitions.get(name, [])) for name, each in self._elements.items())
-        initial = next((name for name, each in self._elements.items() if each.attributes.get("initial") == "true"), "")
-        initial = initial or (_INITIAL if _INITIAL in self._states else next(iter(self._states)))
-        interface = self._conditions.interface()
-        uses = tuple(self._uses.values())
+        states = tuple(self._state(name, each, transitions.get(name, ())) for name, each in self._elements.items())
+        marked = [name for name, each in self._elements.items() if each.attributes.get("initial") == "true"]
+        initial = next((each for each in (*marked, _INITIAL) if each in self._states), next(iter(self._states)))
+        uses, interface = tuple(self._uses.values()), self._conditions.interface()
         if interface:
             uses = (Use(alias=ALIAS, component=interface.component), *uses)
-            self._reader.add_inputs(replace(interface, implementation=MISSING))
+            self._reader.inputs.append(replace(interface, implementation=MISSING))
         design = Design(component=self._component, uses=uses, initial=self._states[initial], states=states)
         return design if self._is_rqt else self._with_code(design)
 
     def _with_code(self, design: Design) -> Design:
-        conf = next(self._root.find("conf"), None)
-        is_restarting = conf is not None and conf.attributes.get("autorestart") == "1"
-        if conf is not None and is_restarting:
+        conf = next((each for each in self._root.find("conf") if each.attributes.get("autorestart") == "1"), None)
+        if conf is not None:
             self._note(
                 conf.line,
-                "auto-restart: the design restarts after one iteration without a step, VICODE after ten periods",
+                "auto-restart: the design restarts after an iteration without a step, VICODE after 10 periods",
             )
-        texts = {name: self._code(name) for name in ("auxinclude.h", "auxinclude.cpp", "auxcode.h")}
-        module = "\n".join(filter(None, (texts["auxinclude.h"], texts["auxinclude.cpp"])))
         for name in ("auxclass.h", "auxcode.cpp"):
             if self._code(name):
-                file, line, _text = self._regions[name]
-                self._note(line, f"not in the design: the region {name.partition('.')[0]}", file)
+                self._note(
+                    self._regions[name][1],
+                    f"not in the design: the region {name[: -len('.h')]}",
+                    self._regions[name][0],
+                )
         rate = _RATE.search("".join(text for _file, _line, text in self._regions.values()))
-        period = (
-            _RATES_MS.get(rate[1]) or (int(rate[1]) if rate[1].isdecimal() and len(rate[1]) < 7 else 0) if rate else 0
-        )
+        word = rate[1] if rate else ""
+        period = _RATES_MS.get(word) or (int(word) if word.isdecimal() and len(word) < 7 else 0)
         return replace(
             design,
             frequency_hz=1000 / period if period else None,
-            resume=not is_restarting,
+            resume=conf is None,
             time_unit="ms",
-            module=_cpp(module),
-            members=_cpp(texts["auxcode.h"]),
+            module=_cpp("\n".join(filter(None, map(self._code, ("auxinclude.h", "auxinclude.cpp"))))),
+            members=_cpp(self._code("auxcode.h")),
         )
 
     def _read_regions(self, path: Path) -> None:
-        """Read the marked regions of a file by name; those with the same name in both files get its suffix."""
+        """Read the marked regions of a file by name; those that both files have get its suffix."""
         if not path.is_file():
             self._note(1, f"{path.name} is not found: its code is left out")
             return
-        text = path.read_bytes().decode("utf-8", errors="replace")
+        text = path.read_bytes().decode("utf-8", errors="replace").replace("\r\n", "\n")
         opened: dict[str, int] = {}
         for found in _MARK.finditer(text):
             name = found[2] or f"{found[3]}{path.suffix}"
-            line = text.count("\n", 0, found.start()) + 1
             if (found[1] or found[4]) == "begin":
                 opened[name] = found.end()
             elif name in opened:
-                line = text.count("\n", 0, opened[name]) + 1
-                code = text[opened.pop(name) : found.start()].replace("\r", "").strip("\n")
-                self._regions[name] = (path, line, code.expandtabs(4) if code.strip() else "")
+                start = opened.pop(name)
+                code = dedent(text[start : found.start()].expandtabs(4)).strip()
+                self._regions[name] = (path, text.count("\n", 0, start) + 1, code)
             else:
+                line = text.count("\n", 0, found.start()) + 1
                 self._note(line, f"the region '{name}' has no begin: its code is left out", path)
         for name, start in opened.items():
             self._note(text.count("\n", 0, start) + 1, f"the region '{name}' has no end: its code is left out", path)
 
     def _code(self, name: str) -> str:
-        return dedent(self._regions[name][2]).strip() if name in self._regions else ""
+        return self._regions[name][2] if name in self._regions else ""
 
     def _state(self, name: str, element: Element, transitions: Sequence[Transition]) -> State:
         code = self._code(f"{name}_state_code")
@@ -211,54 +183,47 @@ class _MachineReader:
         )
 
     def _used(self, element: Element, *tags: str) -> Iterator[str]:
-        names = dict.fromkeys((each.attributes.get("id", ""), each.line) for each in element.find(*tags))
-        for name, line in names:
+        for name, line in {_id(each): each.line for each in element.find(*tags)}.items():
             if name in self._uses:
                 yield self._uses[name].alias
             else:
-                self._note(line, f"'{name}' is no component of '{self._name}': it is left out")
+                self._note(line, f"'{name}' is no component of '{self._component}': it is left out")
 
     def _transitions(self) -> dict[str, list[Transition]]:
         """The transitions by source, in the order of their priorities."""
         ends = ("src", "dst") if self._is_rqt else ("source", "target")
-        found = dict[str, list[Element]]()
-        for each in self._root.find("transition"):
+        result, timed = dict[str, list[Transition]](), set[str]()
+        elements = sorted(self._root.find("transition"), key=_priority)
+        for each in elements:
+            timed |= {each.attributes.get(ends[0], "")} if each.attributes.get("timer") == "true" else set()
+        for each in elements:
             source, target = (each.attributes.get(end, "") for end in ends)
-            if source in self._states and target in self._states:
-                found.setdefault(source, []).append(each)
-            else:
-                unknown = source if source not in self._states else target
-                self._note(each.line, f"a transition has no state '{unknown}': it is left out")
-        result = dict[str, list[Transition]]()
-        for source, elements in found.items():
-            is_timed = any(each.attributes.get("timer") == "true" for each in elements)
-            ordered = sorted(elements, key=_priority)
-            result[source] = [
-                Transition(to=self._states[each.attributes[ends[1]]], guard=self._guard(each, source, is_timed))
-                for each in ordered
-            ]
+            name = f"{source}_2_{target}" if self._is_rqt else each.attributes.get("id", "")
+            for unknown in {source, target} - self._states.keys():
+                self._note(each.line, f"'{unknown}' is no state: the transition '{name}' is left out")
+            if {source, target} <= self._states.keys():
+                guard = self._guard(each, name, source in timed)
+                result.setdefault(source, []).append(Transition(to=self._states[target], guard=guard))
         return result
 
-    def _guard(self, element: Element, source: str, is_timed: bool) -> Guard:
-        name = element.attributes.get("id", "") or f"{source}_2_{element.attributes.get('dst', '')}"
-        code = self._code(f"{name}_transition_code")
+    def _guard(self, element: Element, name: str, is_timed: bool) -> Guard:
+        region = f"{name}_transition_code"
+        code = self._code(region)
         if not code:
             if not self._is_rqt:
                 self._note(element.line, f"the guard of '{name}' has no code: it is an input")
             return to_guard(self._conditions.flag(name))
-        tested = _STOPWATCH.sub("state_time", code) if is_timed else code
-        condition = self._condition(tested)
+        # Only a transition with a timer resets the stopwatch when its state is entered.
+        condition = self._condition(_STOPWATCH.sub("state_time", code) if is_timed else code)
         if condition is not None:
             return Guard() if ast.unparse(condition) == "True" else to_guard(condition)
-        file, line, _text = self._regions[f"{name}_transition_code"]
-        self._note(line, f"the guard of '{name}' stays C++ code", file)
+        self._note(self._regions[region][1], f"the guard of '{name}' stays C++ code", self._regions[region][0])
         return Guard(code=_cpp(_STOPWATCH.sub("state_time()", code) if is_timed else code))
 
     def _condition(self, code: str) -> ast.expr | None:
         """The condition of a guard that is `return X;` or `if(X) return true; return false;`, None for others."""
         try:
-            nodes = read_source(self._file, code).nodes
-            test = _tested(nodes)
+            test = _tested(read_source(self._file, code).nodes)
             return self._conditions.read(test) if test else None
         except (CppError, RecursionError):
             return None
@@ -267,12 +232,18 @@ class _MachineReader:
 def _tested(nodes: Sequence[CppTree]) -> Sequence[CppTree]:
     """The expression that a function returns, empty if there is more in it."""
     texts = [each.text for each in nodes]
-    if len(nodes) > 2 and texts[0] == "return" and ";" in texts and texts.index(";") == len(nodes) - 1:
+    if texts[:1] == ["return"] and ";" in texts and texts.index(";") == len(nodes) - 1:
         return nodes[1:-1]
-    if len(nodes) > 2 and texts[:2] == ["if", "("]:
-        rest = re.sub(r"[{}\s]|else", "", compact(nodes[2:]))
-        return nodes[1].children if rest == "returntrue;returnfalse;" else ()
-    return ()
+    rest = re.sub(r"[{}\s]|else", "", compact(nodes[2:]))
+    is_test = texts[:2] == ["if", "("] and rest == "returntrue;returnfalse;"
+    return nodes[1].children if is_test else ()
+
+
+def _id(element: Element) -> str:
+    name = element.attributes.get("id", "")
+    if not name:
+        raise SourceError("S805", f"<{element.tag}> has no id", element.line)
+    return name
 
 
 def _priority(element: Element) -> int:

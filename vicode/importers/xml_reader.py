@@ -2,11 +2,10 @@
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 from xml.parsers import expat
 
-from vicode.findings import Finding, SourceLocation, get_rule
+from vicode.importers.sources import SourceError
 
 _MAX_BYTES = 2_000_000
 _MAX_DEPTH = 60
@@ -23,18 +22,6 @@ class Element:
 
     def find(self, *tags: str) -> Iterator["Element"]:
         return (child for child in self.children if child.tag in tags)
-
-
-class SourceError(Exception):
-    """A file cannot be imported; `finding` says why and where."""
-
-    def __init__(self, code: str, message: str, line: int, fix: str = "") -> None:
-        super().__init__(message)
-        self.code, self.message, self.line, self.fix = code, message, line, fix
-
-    def finding(self, file: Path) -> Finding:
-        location = SourceLocation(file=str(file), line=self.line, column=1)
-        return Finding(rule=get_rule(self.code), message=self.message, fix=self.fix, location=location)
 
 
 def read_xml(

@@ -10,17 +10,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from vicode.importers.design_names import DesignNames
-from vicode.importers.notes import ImportNote
+from vicode.importers.sources import Sources
+from vicode.languages import LANGUAGES
 from vicode.model.design import Assign, Call, Declaration, Design, Guard, Point, State, Transition, Use
 from vicode.model.names import name_from_text, snake_case
 from vicode.model.project import Enumeration, Interface, Project
 
-__all__ = ["OutcomeMachine", "OutcomeState", "OutcomeTransition", "Place", "convert_machines"]
-
-_RUNNING = "running"
-_OUTCOME = "outcome"
 Place = tuple[Path, int]
 """A file and a line."""
+
+_KEYWORDS = LANGUAGES["cpp"].keywords
+_RUNNING, _OUTCOME = "running", "outcome"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,38 +58,29 @@ class OutcomeMachine:
     ends: Mapping[str, Point] = field(default_factory=dict)
 
 
-def convert_machines(machines: Mapping[str, OutcomeMachine], name: str) -> tuple[Project, tuple[ImportNote, ...]]:
-    """Convert machines, which refer to each other by their keys, to a project, and list what is left out."""
-    converter = _Converter(machines)
-    designs = tuple(converter.design(key) for key in machines)
-    project = Project(
+def convert_machines(machines: Mapping[str, OutcomeMachine], name: str, sources: Sources) -> Project:
+    """Convert machines, which refer to each other by their keys, to a project, and note what is left out."""
+    converter = _Converter(machines, sources)
+    designs = tuple(_DesignWriter(converter, key).write() for key in machines)
+    return Project(
         name=name,
         languages=("python", "cpp"),
         enumerations=tuple(converter.enumerations.values()),
         components=tuple(converter.components),
         designs=designs,
     )
-    return project, tuple(converter.notes)
 
 
 class _Converter:
-    def __init__(self, machines: Mapping[str, OutcomeMachine]) -> None:
-        self._machines = machines
-        self._names = DesignNames()
-        self._designs = {key: self._class_name(each.name) for key, each in machines.items()}
+    def __init__(self, machines: Mapping[str, OutcomeMachine], sources: Sources) -> None:
+        self.machines, self.sources = machines, sources
+        self._names = DesignNames(keywords=_KEYWORDS)
+        self.designs = {key: self._class_name(each.name) for key, each in machines.items()}
         self.enumerations: dict[tuple[str, ...], Enumeration] = {}
         self.components: list[Interface] = []
-        self.notes: list[ImportNote] = []
 
     def _class_name(self, text: str) -> str:
         return self._names.allocate(name_from_text(text) or text)
-
-    def design(self, key: str) -> Design:
-        machine = self._machines[key]
-        return _DesignWriter(self, machine, self._designs[key], key).write()
-
-    def note(self, place: Place, text: str) -> None:
-        self.notes.append(ImportNote(file=place[0], line=place[1], text=text))
 
     def literal(self, outcomes: tuple[str, ...], outcome: str) -> str:
         """The element of an enumeration that stands for an outcome."""
@@ -98,7 +89,7 @@ class _Converter:
 
     def enumeration(self, outcomes: tuple[str, ...]) -> Enumeration:
         if outcomes not in self.enumerations:
-            names = DesignNames(frozenset({_RUNNING}))
+            names = DesignNames(frozenset({_RUNNING}), _KEYWORDS)
             elements = ((_RUNNING, ""), *((names.allocate(each), "") for each in outcomes))
             name = self._class_name("Or".join(name_from_text(each) or each for each in outcomes) or "Outcome")
             self.enumerations[outcomes] = Enumeration(name=name, elements=elements)
@@ -106,77 +97,74 @@ class _Converter:
 
     def work(self, state: OutcomeState, key: str) -> tuple[str, tuple[str, ...], bool]:
         """The component of a state, its outcomes, and whether it is a design."""
-        is_known = state.machine in self._machines
-        if is_known and self._reaches(state.machine, key):
-            self.note(state.place, f"'{state.name}' runs a machine that contains it: it is one component to be written")
-        elif is_known:
-            return self._designs[state.machine], self._machines[state.machine].outcomes, True
+        if state.machine in self.machines and not self._reaches(state.machine, key, set()):
+            machine = self.machines[state.machine]
+            ends = {each.to for inner in machine.states for each in inner.transitions} & set(machine.outcomes)
+            return self.designs[state.machine], machine.outcomes if ends else (), True
+        if state.machine:
+            text = f"the machine of '{state.name}' contains it, or cannot be read: it is one component to be written"
+            self.sources.note(*state.place, text)
         outcomes = tuple(dict.fromkeys(each.outcome for each in state.transitions))
         component = self._class_name(state.name)
-        outputs = (Declaration(name=_OUTCOME, type=self.enumeration(outcomes).name),)
+        outputs = (Declaration(name=_OUTCOME, type=self.enumeration(outcomes).name),) if outcomes else ()
         self.components.append(Interface(component=component, doc=state.doc, outputs=outputs))
         return component, outcomes, False
 
-    def _reaches(self, start: str, goal: str) -> bool:
-        found, waiting = set[str](), [start]
-        while waiting:
-            key = waiting.pop()
-            if key not in found:
-                found.add(key)
-                waiting += (each.machine for each in self._machines[key].states if each.machine in self._machines)
-        return goal in found
+    def _reaches(self, start: str, goal: str, passed: set[str]) -> bool:
+        passed.add(start)
+        inner = {each.machine for each in self.machines[start].states} & self.machines.keys() - passed
+        return start == goal or any(self._reaches(each, goal, passed) for each in inner)
 
 
 class _DesignWriter:
-    def __init__(self, converter: _Converter, machine: OutcomeMachine, component: str, key: str) -> None:
-        self._converter, self._machine, self._component, self._key = converter, machine, component, key
-        states = tuple({each.name: each for each in reversed(machine.states)}.values())[::-1]
-        for each in machine.states:
-            if each not in states:
-                converter.note(each.place, f"another state is named '{each.name}': it is left out")
-        self._states = states
-        self._work = {each.name: converter.work(each, key) for each in states}
-        self._names = DesignNames()
-        self._state_names = {each.name: self._names.allocate(each.name) for each in states}
+    def __init__(self, converter: _Converter, key: str) -> None:
+        self._converter, self._machine, self._component = converter, converter.machines[key], converter.designs[key]
+        self._states: dict[str, OutcomeState] = {}
+        for each in self._machine.states:
+            if self._states.setdefault(each.name, each) is not each:
+                self._note(each.place, f"another state is named '{each.name}': it is left out")
+        self._work = {name: converter.work(each, key) for name, each in self._states.items()}
+        self._names = DesignNames(keywords=_KEYWORDS)
+        self._state_names = {name: self._names.allocate(name) for name in self._states}
         self._end_names: dict[str, str] = {}
         self._again: dict[str, State] = {}
-        aliases = DesignNames(frozenset({_OUTCOME, *(each.name for each in converter.enumerations.values())}))
+        taken = frozenset({_OUTCOME, *(each.name for each in converter.enumerations.values())})
+        aliases = DesignNames(taken, _KEYWORDS)
         used = dict.fromkeys(component for component, _outcomes, _is_design in self._work.values())
         self._uses = {each: Use(alias=aliases.allocate(snake_case(each)), component=each) for each in used}
 
+    def _note(self, place: Place, text: str) -> None:
+        self._converter.sources.note(*place, text)
+
     def write(self) -> Design:
         machine = self._machine
-        states = [self._state(each) for each in self._states]
+        states = [self._state(each) for each in self._states.values()]
         ends = [self._end(outcome, name) for outcome, name in self._end_names.items()]
-        if machine.start not in self._state_names:
-            self._converter.note(machine.place, f"'{machine.start}', where it starts, is no state of '{machine.name}'")
+        if machine.start not in self._states:
+            self._note(machine.place, f"'{machine.start}', where it starts, is no state: it starts with the first one")
+        type_ = self._converter.enumeration(machine.outcomes).name if ends else ""
         return Design(
             component=self._component,
             doc=machine.doc,
             uses=tuple(self._uses.values()),
-            outputs=(Declaration(name=_OUTCOME, type=self._converter.enumeration(machine.outcomes).name),),
-            initial=self._state_names.get(machine.start) or next(iter(self._state_names.values()), ""),
+            outputs=(Declaration(name=_OUTCOME, type=type_),) if ends else (),
+            initial=self._state_names.get(machine.start, states[0].name),
             states=(*states, *self._again.values(), *ends),
         )
 
     def _state(self, state: OutcomeState) -> State:
         component, outcomes, is_design = self._work[state.name]
-        alias = self._uses[component].alias
-        transitions = []
+        alias, transitions = self._uses[component].alias, list[Transition]()
         for each in state.transitions:
-            target = self._target(state, each)
             if each.outcome not in outcomes:
-                self._converter.note(each.place, f"'{each.outcome}' is no outcome of '{state.name}': it is left out")
-            elif target:
+                text = f"'{state.name}' never ends with '{each.outcome}': the transition is left out"
+                self._note(each.place, text)
+            elif target := self._target(state, each):
                 test = f"{alias}.{_OUTCOME} == {self._converter.literal(outcomes, each.outcome)}"
                 guard = Guard(when=f"done({alias}) and {test}" if is_design else test)
                 transitions.append(Transition(to=target, guard=guard, doc=each.doc))
-        known = {each.outcome for each in state.transitions}
-        for outcome in outcomes if is_design else ():
-            if outcome not in known:
-                self._converter.note(state.place, f"no transition of '{state.name}' has the outcome '{outcome}'")
-        if not transitions:
-            self._converter.note(state.place, f"no transition leaves '{state.name}'")
+        for outcome in set(outcomes) - {each.outcome for each in state.transitions}:
+            self._note(state.place, f"no transition of '{state.name}' has the outcome '{outcome}'")
         return State(
             name=self._state_names[state.name],
             doc="" if state.name == self._state_names[state.name] else state.name,
@@ -192,18 +180,17 @@ class _DesignWriter:
             if to not in self._end_names:
                 self._end_names[to] = self._names.allocate(to)
             return self._end_names[to]
-        if to not in self._state_names:
-            self._converter.note(transition.place, f"'{to}' is neither a state nor an outcome: it is left out")
+        if to not in self._states:
+            self._note(transition.place, f"'{to}' is neither a state nor an outcome: the transition is left out")
             return ""
         if self._work[to][0] != self._work[state.name][0]:
             return self._state_names[to]
         if to not in self._again:
-            doc = f"One iteration in which {self._work[to][0]} is not called, so that it starts again."
+            doc = f"One iteration without {self._work[to][0]}, so that it starts again."
             name = self._names.allocate(f"{to}_again")
             self._again[to] = State(name=name, doc=doc, transitions=(Transition(to=self._state_names[to]),))
         return self._again[to].name
 
     def _end(self, outcome: str, name: str) -> State:
-        literal = self._converter.literal(self._machine.outcomes, outcome)
-        enter = (Assign(values=((_OUTCOME, literal),)),)
-        return State(name=name, at=self._machine.ends.get(outcome), final=True, enter=enter)
+        enter = Assign(values=((_OUTCOME, self._converter.literal(self._machine.outcomes, outcome)),))
+        return State(name=name, at=self._machine.ends.get(outcome), final=True, enter=(enter,))

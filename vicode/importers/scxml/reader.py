@@ -1,6 +1,7 @@
 """Reads SCXML as a tree with line numbers."""
 
-from vicode.importers.xml_reader import Element, SourceError, read_xml
+from vicode.importers.sources import SourceError
+from vicode.importers.xml_reader import Element, read_xml
 
 NAMESPACE = "http://www.w3.org/2005/07/scxml"
 
