@@ -126,15 +126,12 @@ class _MachineReader:
         if conf is not None:
             self._note(
                 conf.line,
-                "auto-restart: the design restarts after an iteration without a step, VICODE after 10 periods",
+                "auto-restart: the design restarts after an iteration without a step, VICODE after ten periods",
             )
         for name in ("auxclass.h", "auxcode.cpp"):
             if self._code(name):
-                self._note(
-                    self._regions[name][1],
-                    f"not in the design: the region {name[: -len('.h')]}",
-                    self._regions[name][0],
-                )
+                file, line, _text = self._regions[name]
+                self._note(line, f"not in the design: the region {name.partition('.')[0]}", file)
         rate = _RATE.search("".join(text for _file, _line, text in self._regions.values()))
         word = rate[1] if rate else ""
         period = _RATES_MS.get(word) or (int(word) if word.isdecimal() and len(word) < 7 else 0)
