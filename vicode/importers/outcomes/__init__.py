@@ -123,6 +123,7 @@ class _DesignWriter:
         for each in self._machine.states:
             if self._states.setdefault(each.name, each) is not each:
                 self._note(each.place, f"another state is named '{each.name}': it is left out")
+        self._start = self._machine.start if self._machine.start in self._states else next(iter(self._states))
         self._work = {name: converter.work(each, key) for name, each in self._states.items()}
         self._names = DesignNames(keywords=_KEYWORDS)
         self._state_names = {name: self._names.allocate(name) for name in self._states}
@@ -140,7 +141,7 @@ class _DesignWriter:
         machine = self._machine
         states = [self._state(each) for each in self._states.values()]
         ends = [self._end(outcome, name) for outcome, name in self._end_names.items()]
-        if machine.start not in self._states:
+        if machine.start != self._start:
             self._note(machine.place, f"'{machine.start}', where it starts, is no state: it starts with the first one")
         type_ = self._converter.enumeration(machine.outcomes).name if ends else ""
         return Design(
@@ -148,7 +149,7 @@ class _DesignWriter:
             doc=machine.doc,
             uses=tuple(self._uses.values()),
             outputs=(Declaration(name=_OUTCOME, type=type_),) if ends else (),
-            initial=self._state_names.get(machine.start, states[0].name),
+            initial=self._state_names[self._start],
             states=(*states, *self._again.values(), *ends),
         )
 
@@ -161,7 +162,11 @@ class _DesignWriter:
                 self._note(each.place, text)
             elif target := self._target(state, each):
                 test = f"{alias}.{_OUTCOME} == {self._converter.literal(outcomes, each.outcome)}"
-                guard = Guard(when=f"done({alias}) and {test}" if is_design else test)
+                # After a restart, the first state decides before it calls: the outcome is an old one.
+                first = (
+                    f"done({alias}) and " if is_design else "state_time > 0 and " if state.name == self._start else ""
+                )
+                guard = Guard(when=first + test)
                 transitions.append(Transition(to=target, guard=guard, doc=each.doc))
         for outcome in set(outcomes) - {each.outcome for each in state.transitions}:
             self._note(state.place, f"no transition of '{state.name}' has the outcome '{outcome}'")
