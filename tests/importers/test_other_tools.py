@@ -214,6 +214,13 @@ def test_files_that_include_each_other_end_in_a_component(tmp_path: Path) -> Non
     assert "contains it" in notes(result)[0]
 
 
+@pytest.mark.parametrize("name", ["[", "**.xml", "x" * 5000, "/", ".", "..", "sub/../none.xml"])
+def test_a_name_that_is_no_file_is_a_component(tmp_path: Path, name: str) -> None:
+    inner = f'<StateMachine name="S" file_path="{name}"><Transition from="o" to="o"/></StateMachine>'
+    (tmp_path / "a.xml").write_text(f'<StateMachine outcomes="o">{inner}</StateMachine>')
+    assert "is not found: 'S' is one component to be written" in notes(load(tmp_path, "a.xml"))[0]
+
+
 def run_outcomes(machines: dict[str, OutcomeMachine], key: str, choose: random.Random) -> Iterator[str]:
     """An independent interpreter: the paths of the leaves as they run; returns the outcome."""
     machine = machines[key]

@@ -54,9 +54,9 @@ class BicaReader:
             raise SourceError("S805", f"another file declares '{design.component}'", root.line)
         self.designs.append((design, path))
         for each in root.find("dependenceComponent", "component"):
-            beside = path.parent / f"{Path(each.attributes['id']).name}{path.suffix}"
-            if beside.is_file():
-                self.sources.load(beside, self.read)
+            found = self.sources.find(f"{each.attributes['id']}{path.suffix}", path)
+            if found is not None:
+                self.sources.load(found, self.read)
 
     def project(self, name: str) -> Project:
         designs = {design.component: design for design, _path in self.designs}

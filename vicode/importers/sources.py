@@ -1,5 +1,6 @@
 """The files of an import, with what is left out and what cannot be read."""
 
+import glob
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -34,9 +35,12 @@ class Sources:
 
     def find(self, named: str, user: Path) -> Path | None:
         """A file that another file names: beside that file, or anywhere in the folder."""
-        beside, last = user.parent / named, Path(named).name
-        found = [beside] if beside.is_file() else sorted(self.folder.rglob(last)) if last.strip(".") else []
-        return next((each for each in found if each.is_file()), None)
+        try:
+            beside, last = user.parent / named, Path(named).name
+            found = [beside] if beside.is_file() else sorted(self.folder.rglob(glob.escape(last))) if last else []
+            return next((each for each in found if each.is_file()), None)
+        except (OSError, ValueError):
+            return None
 
     def load(self, path: Path, read: Callable[[Path, bytes], None]) -> str:
         """Read a file; return its key, "" if it cannot be read, which becomes an error."""
