@@ -286,6 +286,38 @@ def test_designs_run_the_leaves_in_the_order_of_the_machines(seed: int) -> None:
     assert interpreter.is_done(root) == bool(end)
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_designs_of_vicode_take_the_transitions_that_its_step_function_takes(tmp_path: Path, seed: int) -> None:
+    chance = random.Random(seed)
+    names = ["Initial", *(f"S{number}" for number in range(3))]
+    rows = [(source, chance.choice(names), chance.randrange(4)) for source in names for _each in range(3)]
+    priorities = {source: chance.sample([1, 2, 3], 3) for source in names}
+    states = "".join(f'<state id="{name.replace("Initial", "initial")}"/>' for name in names)
+    shown, code, order = list[str](), list[str](), list[tuple[str, int, str, int]]()
+    for number, (source, target, flag) in enumerate(rows):
+        place = priorities[source][number % 3]
+        shown.append(
+            f'<transition id="T{number}" source="{source}" target="{target}" priority="{place}" timer="false"/>'
+        )
+        code.append(region(f"T{number}_transition_code", f"return _World->flag{flag}();"))
+        order.append((source, place, target, flag))
+    (tmp_path / "M.xml").write_text(f'<component id="M">{states}{"".join(shown)}</component>')
+    (tmp_path / "M.cpp").write_text("".join(code))
+    project = load(tmp_path, "M.xml").project
+    (inputs,) = (each for each in project.components if each.outputs)
+    numbers = {each.name: int(each.doc[-3]) for each in inputs.outputs}
+    interpreter, state = Interpreter(project, "M"), "Initial"
+    for tick in range(60):
+        flags = [chance.random() < 0.3 for _flag in range(4)]
+        for name, number in numbers.items():
+            interpreter.set_input(inputs.component, name, flags[number])
+        # The generated `step`: if / else if, by priority.
+        taken = [target for source, _place, target, flag in sorted(order) if source == state and flags[flag]]
+        state = next(iter(taken), state)
+        (record,) = interpreter.step(tick * TICK_NS)["tree"]
+        assert record["state"] == state
+
+
 @pytest.mark.parametrize("name", ["fetch_sm.py", "patrol.xml", "Counter.xml", "Counter.cpp", "walk.bica"])
 def test_damaged_files_give_errors_with_places(tmp_path: Path, name: str) -> None:
     (tmp_path / "Counter.xml").write_text(COUNTER_XML)
