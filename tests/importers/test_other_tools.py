@@ -1,7 +1,7 @@
 """Files of VICODE, rqt BICA, FlexBE and YASMIN become designs; what designs cannot say is listed with its place."""
 
 import random
-from collections.abc import Iterator
+from collections.abc import Generator
 from pathlib import Path
 
 import pytest
@@ -177,7 +177,7 @@ def test_flexbe_outcomes_are_read_from_components_and_machines(tmp_path: Path) -
         "finished": [],
     }
     assert fetch.states[-1].at == (30, 463)
-    assert [each.doc for each in approach.states[0].transitions] == ["", "Autonomy level: High."]
+    assert [each.doc for state in approach.states[:1] for each in state.transitions] == ["", "Autonomy level: High."]
     assert notes(result) == [
         "fetch_sm.py:13: not in the design: _state_machine.userdata.data = 0",
         "fetch_sm.py:33: what 'Both' runs in parallel is left out: it is one component to be written",
@@ -221,7 +221,7 @@ def test_a_name_that_is_no_file_is_a_component(tmp_path: Path, name: str) -> Non
     assert "is not found: 'S' is one component to be written" in notes(load(tmp_path, "a.xml"))[0]
 
 
-def run_outcomes(machines: dict[str, OutcomeMachine], key: str, choose: random.Random) -> Iterator[str]:
+def run_outcomes(machines: dict[str, OutcomeMachine], key: str, choose: random.Random) -> Generator[str, None, str]:
     """An independent interpreter: the paths of the leaves as they run; returns the outcome."""
     machine = machines[key]
     states = {state.name: state for state in machine.states}
