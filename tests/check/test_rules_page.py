@@ -19,7 +19,21 @@ TOP_LEVEL_KEY = re.compile(r"^(\w+):.*\n(?:[ \t#-].*\n)*", re.MULTILINE)
 
 # Short texts cannot show these: sizes, bytes, Python files, values that only the editor can create, generated files,
 # other languages.
-WITHOUT_EXAMPLES = {"Y108", "Y110", "P212", "P215", "D416", "L705", "X611", "X612", "S801", "S802", "S803", "S804"}
+WITHOUT_EXAMPLES = {
+    "Y108",
+    "Y110",
+    "P212",
+    "P215",
+    "D416",
+    "L705",
+    "X611",
+    "X612",
+    "S801",
+    "S802",
+    "S803",
+    "S804",
+    "S805",
+}
 WITHOUT_EXAMPLES |= {f"G50{n}" for n in range(1, 7)}
 
 TEXT = PAGE.read_text(encoding="utf-8")

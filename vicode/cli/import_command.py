@@ -1,4 +1,4 @@
-"""Import an XABSL behavior as a project of designs, or merge its changes into them; or import SCXML, or C++ sources."""
+"""Import an XABSL behavior as designs, or merge its changes; or import SCXML, C++ sources, or files of other tools."""
 
 import argparse
 import os
@@ -25,7 +25,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "agents",
         metavar="PATH",
         type=Path,
-        help="XABSL file with the agents, SCXML file, or C++ file or folder with options of CABSL or boost::sml tables",
+        help="XABSL file with the agents, SCXML file, C++ file or folder with options of CABSL or boost::sml tables, "
+        "or file or folder of VICODE (X.xml), rqt BICA (X.bica), FlexBE (x_sm.py) or YASMIN (x.xml)",
     )
     parser.add_argument(
         "--out", metavar="DIR", type=Path, required=True, help="project folder to create, such as designs/NAME"
@@ -45,7 +46,7 @@ def run(args: argparse.Namespace) -> int:
     if args.event_queue:
         raise OSError("--event-queue is an option of SCXML files")
     if args.agents.is_dir() or args.agents.suffix not in XABSL_SUFFIXES:
-        return _import_cpp(args)
+        return _import_machines(args)
     from vicode.findings import Severity
     from vicode.importers import import_behavior, render_robot_class
     from vicode.services.imported_behavior.design_files import design_paths, format_files, with_layout, write_files
@@ -89,23 +90,33 @@ def _print_notes(imported: "ImportResult", folder: Path, sources: str) -> None:
         print(f"  {path.as_posix()}:{note.line}: {note.text}")
 
 
-def _import_cpp(args: argparse.Namespace) -> int:
-    """Write the machines of C++ sources; return 1 if a file cannot be read, or files would be overwritten."""
+def _import_machines(args: argparse.Namespace) -> int:
+    """Write the machines of C++ sources or other tools; return 1 for unreadable files, or ones to overwrite."""
     from vicode.cli.console import print_findings
-    from vicode.services.imported_behavior.cpp_sources import load_cpp
+    from vicode.services.imported_behavior.cpp_sources import find_cpp_files, load_cpp
     from vicode.services.imported_behavior.design_files import format_files, with_layout, write_files
+    from vicode.services.imported_behavior.other_tools import find_other_files, load_other
     from vicode.store.documents import default_project_name
 
-    converted = load_cpp([args.agents], args.name or default_project_name(args.out.resolve().name))
-    print_findings(converted.errors, to_stderr=True)
-    imported = replace(converted.result, project=with_layout(converted.result.project))
+    name = args.name or default_project_name(args.out.resolve().name)
+    files = () if find_cpp_files(args.agents) else find_other_files(args.agents)
+    folder = args.agents if args.agents.is_dir() else args.agents.parent
+    if files:
+        result, errors = load_other(files, folder, name)
+    else:
+        converted = load_cpp([args.agents], name)
+        result, errors = converted.result, converted.errors
+    print_findings(errors, to_stderr=True)
+    if files and not result.designs:
+        return 1
+    imported = replace(result, project=with_layout(result.project))
     texts = format_files(imported)
     if _would_overwrite(args, texts):
         return 1
     write_files(args.out, texts)
     print(_summary(imported, args.out))
-    _print_notes(imported, Path(), "C++ files")
-    return int(bool(converted.errors))
+    _print_notes(imported, Path(), "files" if files else "C++ files")
+    return int(bool(errors))
 
 
 def _import_scxml(args: argparse.Namespace) -> int:

@@ -190,6 +190,8 @@ _RECORDS = (
     ("S803", "bad-scxml", Severity.ERROR, "unknown name or expression outside of the portable subset in SCXML"),
     # C++ sources with state machines
     ("S804", "unbalanced-brackets", Severity.ERROR, "brackets of a C++ file that do not match"),
+    # Files of other tools
+    ("S805", "unreadable-source", Severity.ERROR, "file of another tool that cannot be imported"),
 )
 
 RULES = {

@@ -9,9 +9,10 @@ from vicode.importers.scxml.actions import ActionWriter
 from vicode.importers.scxml.ecmascript import check_expression, translate
 from vicode.importers.scxml.events import DONE, KEYWORDS, EventInputs, matches, plain
 from vicode.importers.scxml.queue import EVENTS_ALIAS, EventComponent
-from vicode.importers.scxml.reader import Element, ScxmlError, read_scxml
+from vicode.importers.scxml.reader import ScxmlError, read_scxml
 from vicode.importers.scxml.report import START, Exactness, Reached, ReportWriter, TransitionReport
 from vicode.importers.scxml.states import ScxmlState, read_states
+from vicode.importers.xml_reader import Element
 from vicode.model.design import Action, Decision, Design, Guard, State, Stay, Transition
 from vicode.model.expressions import build_scope
 from vicode.model.project import Project

@@ -8,8 +8,9 @@ from vicode.importers.design_names import DesignNames
 from vicode.importers.scxml.ecmascript import translate
 from vicode.importers.scxml.events import KEYWORDS, matches
 from vicode.importers.scxml.queue import EVENTS_ALIAS, EventComponent
-from vicode.importers.scxml.reader import Element, ScxmlError
+from vicode.importers.scxml.reader import ScxmlError
 from vicode.importers.scxml.states import ScxmlState
+from vicode.importers.xml_reader import Element
 from vicode.model.design import Action, Assign, Declaration
 
 _INTERNAL = "#_internal"

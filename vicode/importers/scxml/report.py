@@ -11,8 +11,8 @@ from enum import StrEnum
 
 from vicode.importers.scxml.actions import Timer
 from vicode.importers.scxml.events import ANY, matches, plain
-from vicode.importers.scxml.reader import Element
 from vicode.importers.scxml.states import ScxmlState
+from vicode.importers.xml_reader import Element
 
 START = "Start"
 _MAX_EVENTS = 4

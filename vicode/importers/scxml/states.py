@@ -3,7 +3,8 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from vicode.importers.scxml.reader import Element, ScxmlError
+from vicode.importers.scxml.reader import ScxmlError
+from vicode.importers.xml_reader import Element
 
 _STATES = ("state", "final")
 _REASONS = {

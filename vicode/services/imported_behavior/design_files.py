@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
+from vicode.diagram.layered_layout import complete_layout
 from vicode.diagram.layout import LayoutService
 from vicode.importers import ImportResult
 from vicode.model.edits import move_nodes
@@ -28,11 +29,12 @@ def design_paths(imported: ImportResult) -> dict[str, str]:
 
 
 def with_layout(project: Project) -> Project:
-    """A project whose designs have computed positions."""
+    """A project whose designs have positions: all are computed, or those that are missing."""
     designs = []
     with LayoutService() as service:
         for design in project.designs:
-            places = service.compute(design).layout
+            is_placed = any(state.at for state in design.states)
+            places = complete_layout(design) if is_placed else service.compute(design).layout
             common = places.common if design.common.transitions or design.common.actions else None
             designs.append(
                 move_nodes(design, _rounded(places.states), _rounded(places.uses), common and _round(common))
