@@ -1,11 +1,11 @@
 """Extracted components: the same behavior in each iteration, and what is refused."""
 
+import random
 from dataclasses import replace
 from typing import Any
 
 import pytest
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import settings
 
 from tests.generators.portable_designs import project_of
 from vicode.conformance.inputs import ConformanceRun
@@ -30,6 +30,7 @@ from vicode.model.design import (
     Use,
 )
 from vicode.model.extract import Extraction, extract_component
+from vicode.model.inline import inline_component
 from vicode.model.project import Project
 
 INSIDE = ("A", "B", "C")
@@ -51,26 +52,26 @@ HELPER = Design(
 )
 
 
-@st.composite
-def designs(draw: st.DrawFn) -> Design:
+def draw_design(seed: int) -> Design:
     """Draw a design whose states A, B and C can be extracted, except for some requirements."""
+    rng = random.Random(seed)
 
     def pick(*choices: Any) -> Any:
-        return draw(st.sampled_from(choices))
+        return rng.choice(choices)
 
     def guard(number: str) -> Guard:
         whens = ("", "eyes.seen", "not eyes.seen", f"{number} > 2", "state_time > 0.05", "done(helper)", "action_done")
         return Guard(when=pick(*whens), after=pick("", "", "", "0.03", "pause"))
 
     def decision(number: str, targets: tuple[str, ...], depth: int = 1) -> Decision:
-        match pick("to", "to", "to", "stay", "group") if depth else "to":
+        match pick("to", "to", "to", "to", "to", "stay", "group") if depth else "to":
             case "stay":
                 return Stay(guard=guard(number))
             case "group":
-                then = tuple(decision(number, targets, 0) for _ in range(draw(st.integers(1, 2))))
+                then = tuple(decision(number, targets, 0) for _ in range(rng.randint(1, 2)))
                 return DecisionGroup(guard=guard(number), then=then, otherwise=(Stay(guard=guard(number)),))
             case _:
-                return Transition(to=pick(*targets), guard=guard(number), disabled=pick(False, False, False, True))
+                return Transition(to=pick(*targets), guard=guard(number), disabled=rng.random() < 0.1)
 
     def assignments(number: str) -> tuple[Action, ...]:
         values = [
@@ -79,22 +80,29 @@ def designs(draw: st.DrawFn) -> Design:
         ]
         if number == "a":
             values += [("seen", f"not seen and {number} > 1"), ("shown", "a"), ("a", "a * fixed")]
-        return tuple(Assign(values=(pick(*values),)) for _ in range(draw(st.integers(0, 2))))
+        return tuple(Assign(values=(pick(*values),)) for _ in range(rng.randint(0, 2)))
+
+    ends = pick(("X",), ("X", "Y"), ("Y", "Z"))
+    is_entered = rng.random() < 0.8
 
     def state(name: str) -> State:
         number = "a" if name in INSIDE else "b"
-        targets = ("A", *OUTSIDE) if name in OUTSIDE else (*INSIDE, *INSIDE, pick("X", "Z"), "Y")
+        targets = tuple(
+            each
+            for each in ((*("A", "A") * is_entered, *OUTSIDE) if name in OUTSIDE else (*INSIDE, *ends))
+            if each != name
+        )
         calls: tuple[Action, ...] = (Call(alias="helper", arguments=(("k", number),)), Call(alias="legs"))
         code = RunCode(code=Code(texts=(("python", f"self.{number} = self.{number} + 2"),)))
         reads = (Assign(values=(("b", "b + shown"),)),) if name in OUTSIDE else ()
         return State(
             name=name,
-            disabled=name not in ("A", "X") and pick(False, False, False, False, True),
+            disabled=name not in ("A", "X") and rng.random() < 0.1,
             requires=pick((), (), ("eyes",), ("eyes", "notes")),
             enter=assignments(number),
             actions=(*assignments(number), *pick((), (), calls[:1], calls[1:], calls, (code,)), *reads),
             leave=assignments(number),
-            transitions=tuple(decision(number, targets) for _ in range(draw(st.integers(1, 3)))),
+            transitions=tuple(decision(number, targets) for _ in range(rng.randint(1, 3))),
         )
 
     return Design(
@@ -111,8 +119,8 @@ def designs(draw: st.DrawFn) -> Design:
             Declaration(name="shown", type="float"),
             Declaration(name="fixed", initial="1.5"),
         ),
-        initial=pick("A", "X"),
-        states=tuple(state(name) for name in draw(st.permutations((*INSIDE, *OUTSIDE)))),
+        initial=pick("A", "X") if is_entered else "A",
+        states=tuple(state(name) for name in rng.sample((*INSIDE, *OUTSIDE), 6)),
     )
 
 
@@ -168,12 +176,154 @@ def sorted_within_iterations(seen: list[Any]) -> list[Any]:
     return [each for each in result if not isinstance(each, dict)] + [each for each in result if isinstance(each, dict)]
 
 
-@settings(max_examples=settings().max_examples * 3)
-@given(designs(), st.integers(0, 1000))
-def test_extracted_states_behave_the_same(design: Design, seed: int) -> None:
-    extraction = extract_component(design, INSIDE, "Part")
-    assume(not extraction.problems)
-    before = project_with(reference(design, extraction))
-    run = random_run(before, "Outer", iterations=60, seed=seed)
-    after = replace(run, project=project_with(extraction.caller, extraction.component))
-    assert observed(after, hidden=("Part",)) == observed(run)
+def test_extracted_states_behave_the_same() -> None:
+    for seed in range(settings().max_examples * 4):
+        design = draw_design(seed)
+        extraction = extract_component(design, INSIDE, "Part")
+        if not extraction.problems:
+            before = project_with(reference(design, extraction))
+            run = random_run(before, "Outer", iterations=80, seed=seed)
+            after = replace(run, project=project_with(extraction.caller, extraction.component))
+            assert observed(after, hidden=("Part",)) == observed(run), seed
+
+
+def test_inlined_components_behave_as_before() -> None:
+    for seed in range(settings().max_examples * 2):
+        design = draw_design(seed)
+        extraction = extract_component(design, INSIDE, "Part")
+        if not extraction.problems:
+            inlining = inline_component(extraction.caller, "Part", extraction.component)
+            assert not inlining.problem, seed
+            run = random_run(project_with(design), "Outer", iterations=80, seed=seed)
+            after = replace(run, project=project_with(inlining.caller))
+            assert observed(after) == observed(run), seed
+
+
+def plain(*states: State, **fields: Any) -> Design:
+    return Design(component="Player", initial=states[0].name, states=states, **fields)
+
+
+def to(*names: str, when: str = "") -> tuple[Transition, ...]:
+    return tuple(Transition(to=name, guard=Guard(when=when)) for name in names)
+
+
+def test_one_way_out_needs_no_output_and_a_state_that_is_only_started_no_start() -> None:
+    design = plain(State(name="A", transitions=to("B")), State(name="B", transitions=to("X")), State(name="X"))
+    extraction = extract_component(design, ["A", "B"], "GetBall")
+    call = State(name="GetBall", requires=("get_ball",), transitions=to("X", when="done(get_ball)"))
+    assert extraction.caller.states == (call, State(name="X"))
+    assert extraction.component == Design(
+        component="GetBall",
+        doc="Extracted from Player.",
+        initial="A",
+        states=(*design.states[:1], State(name="B", transitions=to("ToX")), State(name="ToX", final=True)),
+    )
+    assert not extraction.note
+
+
+def test_several_ways_out_are_told_apart_by_outputs_and_a_disabled_target_stays_disabled() -> None:
+    states = (State(name="X", transitions=to("A")), State(name="A", transitions=to("X", "Y")))
+    extraction = extract_component(plain(*states, State(name="Y", disabled=True)), ["A"], "Part")
+    call = extraction.caller.state("Part")
+    assert call is not None
+    assert [each.guard.when for each in call.transitions] == ["done(part) and part.to_x", "done(part) and part.to_y"]
+    assert [(each.name, each.disabled) for each in extraction.component.states if each.final] == [
+        ("ToX", False),
+        ("ToY", True),
+    ]
+
+
+A = State(name="A", transitions=to("X"))
+X = State(name="X", transitions=to("A"))
+NUMBER = Declaration(name="n", initial="0")
+COUNT = Assign(values=(("n", "n + 1"),))
+READER = State(name="A", transitions=to("X", when="n > 1"))
+CODE = RunCode(code=Code(texts=(("python", "self.go()"),)))
+
+
+@pytest.mark.parametrize(
+    ("design", "problem"),
+    [
+        (plain(X), "select the states to extract"),
+        (plain(A, X, common=CommonSection(transitions=to("X"))), "the common section applies to each state"),
+        (plain(A, X, State(name="B", transitions=to("X"))), ""),
+        (plain(X, State(name="Y", transitions=to("B")), A, State(name="B")), "several places: A (from X), B (from Y)"),
+        (plain(State(name="X"), A), "no transition enters the states"),
+        (plain(X, replace(A, final=True)), "A is a final state"),
+        (plain(X, replace(A, capacity=1)), "A is entered together with other robots"),
+        (plain(replace(X, capacity=1), A), "X is entered together with other robots"),
+        (plain(X, State(name="A", transitions=to("X", when="component_time > 1"))), "A reads component_time"),
+        (
+            plain(X, State(name="A", transitions=to("X", when="n > 1")), parameters=(NUMBER,)),
+            "A reads the parameter 'n'",
+        ),
+        (
+            plain(
+                replace(X, actions=(COUNT,)), State(name="A", transitions=to("X", when="n > 1")), variables=(NUMBER,)
+            ),
+            "A uses 'n', which X sets",
+        ),
+        (plain(X, replace(A, actions=(CODE,)), members=CODE.code), "the code of A may use 'members'"),
+        (plain(X, A, properties=(NeverProperty(never="A"),)), "a property of Player names the state A"),
+        (plain(replace(X, requires=("eyes",)), replace(A, requires=("eyes",))), ""),
+        (
+            plain(X, State(name="A", requires=("eyes",), transitions=to("B")), State(name="B", transitions=to("X"))),
+            "",
+        ),
+        (
+            plain(
+                replace(X, requires=("eyes",)),
+                State(name="A", requires=("eyes",), transitions=to("B")),
+                State(name="B", transitions=to("X")),
+            ),
+            "X and A both require 'eyes', which would be stepped twice",
+        ),
+    ],
+)
+def test_what_cannot_keep_its_behavior_is_refused_with_its_place(design: Design, problem: str) -> None:
+    found = "; ".join(extract_component(design, ["A", "B"], "Part").problems)
+    assert problem in found if problem else not found
+
+
+def extracted() -> Extraction:
+    return extract_component(plain(X, A, State(name="Y", transitions=to("X"))), ["A"], "Part")
+
+
+def test_an_edited_component_is_inlined_with_its_edits() -> None:
+    part = extracted().component
+    grown = replace(
+        part,
+        states=(
+            *(replace(each, transitions=to("B")) if each.name == "A" else each for each in part.states),
+            State(name="B", actions=(COUNT,), transitions=to("ToX", when="n > 3")),
+        ),
+        variables=(NUMBER,),
+    )
+    inlining = inline_component(extracted().caller, "Part", grown)
+    assert not inlining.problem
+    assert inlining.states == ("A", "B")
+    assert inlining.caller.variables == (NUMBER,)
+    assert inlining.caller.state("B") == State(name="B", actions=(COUNT,), transitions=to("X", when="n > 3"))
+
+
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        ({"frequency_hz": 5.0}, "differ in 'frequency'"),
+        ({"resume": True}, "differ in 'resume'"),
+        ({"parameters": (NUMBER,)}, "Part has parameters"),
+        ({"common": CommonSection(actions=(COUNT,))}, "Part has a common section"),
+        ({"initial": "A"}, "the behavior would change"),
+        ({"states": extracted().component.states[:-1]}, "A: there is no state 'ToX'"),
+    ],
+)
+def test_a_component_that_does_more_is_not_inlined(change: dict[str, Any], problem: str) -> None:
+    assert problem in inline_component(extracted().caller, "Part", replace(extracted().component, **change)).problem
+
+
+def test_a_component_that_is_used_twice_or_by_a_state_that_does_more_is_not_inlined() -> None:
+    caller, part = extracted().caller, extracted().component
+    other = replace(caller, states=(*caller.states, State(name="Also", requires=("part",))))
+    assert "used in several places: Part, Also" in inline_component(other, "Part", part).problem
+    busy = tuple(replace(each, enter=(COUNT,)) if each.name == "Part" else each for each in caller.states)
+    assert "the behavior would change" in inline_component(replace(caller, states=busy), "Part", part).problem

@@ -12,6 +12,7 @@ from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import takewhile
 
+from vicode.model.decisions import retarget_all
 from vicode.model.design import (
     STATE_KEYS,
     Assign,
@@ -24,7 +25,6 @@ from vicode.model.design import (
     Transition,
     Use,
 )
-from vicode.model.decisions import retarget_all
 from vicode.model.edits import unique_name
 from vicode.model.fragments import references_alias, references_name
 from vicode.model.names import snake_case
