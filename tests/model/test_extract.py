@@ -35,7 +35,6 @@ from vicode.model.project import Project
 
 INSIDE = ("A", "B", "C")
 OUTSIDE = ("X", "Y", "Z")
-OWN = {"A": "a", "X": "b"}
 HELPER = Design(
     component="Helper",
     parameters=(Declaration(name="k", type="float"),),
@@ -52,59 +51,60 @@ HELPER = Design(
 )
 
 
-def draw_design(seed: int) -> Design:
-    """Draw a design whose states A, B and C can be extracted, except for some requirements."""
-    rng = random.Random(seed)
+class Drawer:
+    """Draws a design whose states A, B and C can be extracted, except for some requirements."""
 
-    def pick(*choices: Any) -> Any:
-        return rng.choice(choices)
+    def __init__(self, seed: int) -> None:
+        self.rng = random.Random(seed)
+        self.ends = self.pick(("X",), ("X", "Y"), ("Y", "Z"))
+        self.is_entered = self.rng.random() < 0.8
 
-    def guard(number: str) -> Guard:
+    def pick(self, *choices: Any) -> Any:
+        return self.rng.choice(choices)
+
+    def guard(self, number: str) -> Guard:
         whens = ("", "eyes.seen", "not eyes.seen", f"{number} > 2", "state_time > 0.05", "done(helper)", "action_done")
-        return Guard(when=pick(*whens), after=pick("", "", "", "0.03", "pause"))
+        return Guard(when=self.pick(*whens), after=self.pick("", "", "", "0.03", "pause"))
 
-    def decision(number: str, targets: tuple[str, ...], depth: int = 1) -> Decision:
-        match pick("to", "to", "to", "to", "to", "stay", "group") if depth else "to":
+    def decision(self, number: str, targets: tuple[str, ...], depth: int = 1) -> Decision:
+        match self.pick(*("to",) * 5, "stay", "group") if depth else "to":
             case "stay":
-                return Stay(guard=guard(number))
+                return Stay(guard=self.guard(number))
             case "group":
-                then = tuple(decision(number, targets, 0) for _ in range(rng.randint(1, 2)))
-                return DecisionGroup(guard=guard(number), then=then, otherwise=(Stay(guard=guard(number)),))
+                then = tuple(self.decision(number, targets, 0) for _ in range(self.rng.randint(1, 2)))
+                return DecisionGroup(guard=self.guard(number), then=then, otherwise=(Stay(guard=self.guard(number)),))
             case _:
-                return Transition(to=pick(*targets), guard=guard(number), disabled=rng.random() < 0.1)
+                is_off = self.rng.random() < 0.1
+                return Transition(to=self.pick(*targets), guard=self.guard(number), disabled=is_off)
 
-    def assignments(number: str) -> tuple[Action, ...]:
-        values = [
-            (number, f"{number} + {pick('1', 'state_time', 'eyes.distance')}"),
-            (number, pick("0", "helper.runs")),
-        ]
+    def assignments(self, number: str) -> tuple[Action, ...]:
+        added = self.pick("1", "state_time", "eyes.distance")
+        values = [(number, f"{number} + {added}"), (number, self.pick("0", "helper.runs"))]
         if number == "a":
             values += [("seen", f"not seen and {number} > 1"), ("shown", "a"), ("a", "a * fixed")]
-        return tuple(Assign(values=(pick(*values),)) for _ in range(rng.randint(0, 2)))
+        return tuple(Assign(values=(self.pick(*values),)) for _ in range(self.rng.randint(0, 2)))
 
-    ends = pick(("X",), ("X", "Y"), ("Y", "Z"))
-    is_entered = rng.random() < 0.8
-
-    def state(name: str) -> State:
+    def state(self, name: str) -> State:
         number = "a" if name in INSIDE else "b"
-        targets = tuple(
-            each
-            for each in ((*("A", "A") * is_entered, *OUTSIDE) if name in OUTSIDE else (*INSIDE, *ends))
-            if each != name
-        )
+        others = (*("A", "A") * self.is_entered, *OUTSIDE) if name in OUTSIDE else (*INSIDE, *self.ends)
+        targets = tuple(each for each in others if each != name)
         calls: tuple[Action, ...] = (Call(alias="helper", arguments=(("k", number),)), Call(alias="legs"))
         code = RunCode(code=Code(texts=(("python", f"self.{number} = self.{number} + 2"),)))
         reads = (Assign(values=(("b", "b + shown"),)),) if name in OUTSIDE else ()
         return State(
             name=name,
-            disabled=name not in ("A", "X") and rng.random() < 0.1,
-            requires=pick((), (), ("eyes",), ("eyes", "notes")),
-            enter=assignments(number),
-            actions=(*assignments(number), *pick((), (), calls[:1], calls[1:], calls, (code,)), *reads),
-            leave=assignments(number),
-            transitions=tuple(decision(number, targets) for _ in range(rng.randint(1, 3))),
+            disabled=name not in ("A", "X") and self.rng.random() < 0.1,
+            requires=self.pick((), (), ("eyes",), ("eyes", "notes")),
+            enter=self.assignments(number),
+            actions=(*self.assignments(number), *self.pick((), (), calls[:1], calls[1:], calls, (code,)), *reads),
+            leave=self.assignments(number),
+            transitions=tuple(self.decision(number, targets) for _ in range(self.rng.randint(1, 3))),
         )
 
+
+def draw_design(seed: int) -> Design:
+    drawer = Drawer(seed)
+    pick = drawer.pick
     return Design(
         component="Player",
         frequency_hz=pick(None, None, 15.0, 40.0),
@@ -119,8 +119,8 @@ def draw_design(seed: int) -> Design:
             Declaration(name="shown", type="float"),
             Declaration(name="fixed", initial="1.5"),
         ),
-        initial=pick("A", "X") if is_entered else "A",
-        states=tuple(state(name) for name in rng.sample((*INSIDE, *OUTSIDE), 6)),
+        initial=pick("A", "X") if drawer.is_entered else "A",
+        states=tuple(drawer.state(name) for name in drawer.rng.sample((*INSIDE, *OUTSIDE), 6)),
     )
 
 

@@ -14,6 +14,7 @@ from vicode.model.design import (
     DecisionGroup,
     Declaration,
     Design,
+    DiagramFrame,
     Guard,
     Point,
     Property,
@@ -95,6 +96,14 @@ def remove_states(design: Design, names: Collection[str]) -> Design:
         each for each in design.properties if not any(getattr(each, key, None) in names for key in STATE_KEYS)
     )
     return replace(design, states=states, common=common, frames=frames, initial=initial, properties=properties)
+
+
+def replace_in_frames(
+    frames: tuple[DiagramFrame, ...], names: Mapping[str, tuple[str, ...]]
+) -> tuple[DiagramFrame, ...]:
+    """Replace states by others in all frames."""
+    states = ((name for old in frame.states for name in names.get(old, (old,))) for frame in frames)
+    return tuple(replace(frame, states=tuple(dict.fromkeys(new))) for frame, new in zip(frames, states, strict=True))
 
 
 def reorder_state(design: Design, name: str, to_index: int) -> Design:

@@ -7,7 +7,7 @@ which the extracted states did not do: it therefore begins in a state that only 
 Values flow from the component to its caller only: a requirement sets no parameters.
 """
 
-from collections import Counter
+import re
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import takewhile
@@ -18,19 +18,15 @@ from vicode.model.design import (
     Assign,
     Declaration,
     Design,
-    DiagramFrame,
     Guard,
-    Point,
     State,
     Transition,
     Use,
 )
-from vicode.model.edits import unique_name
+from vicode.model.edits import replace_in_frames, unique_name
 from vicode.model.fragments import references_alias, references_name
 from vicode.model.names import snake_case
 from vicode.model.traversal import has_code, iter_actions, iter_code, iter_expressions, iter_transitions
-
-_DISTANCE = 200.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,9 +53,8 @@ def extract_component(design: Design, states: Collection[str], name: str) -> Ext
     if problems:
         return Extraction(caller=design, component=Design(component=name), problems=problems)
     component = _component(cut, name)
-    note = ""
-    if cut.is_started and cut.has_start:
-        note = f"after a start of {design.component}, the transitions of {cut.entry} are tested one iteration later"
+    later = f"after a start of {design.component}, the transitions of {cut.entry} are tested one iteration later"
+    note = later if cut.is_started and cut.has_start else ""
     return Extraction(caller=_caller(cut, component), component=component, note=note)
 
 
@@ -96,10 +91,7 @@ class _Cut:
 
     @property
     def has_start(self) -> bool:
-        """Whether the component begins in a state of its own.
-
-        With the rules of XABSL, a component that restarts in an iteration is not done in it.
-        """
+        """Whether the component begins in its own state; by XABSL's rules, it is not done when it has just restarted."""
         return bool(self.entries) or self.design.arithmetic == "xabsl"
 
     @property
@@ -111,15 +103,11 @@ class _Cut:
         return next(state for state in self.inside if state.name == self.entry)
 
     @property
-    def first_requirements(self) -> tuple[str, ...]:
-        """The requirements with which those of all extracted states begin."""
-        columns = zip(*(state.requires for state in self.inside), strict=False)
-        return tuple(column[0] for column in takewhile(lambda column: len(set(column)) == 1, columns))
-
-    @property
     def kept_requirements(self) -> tuple[str, ...]:
-        """The requirements that the calling state takes over, so that none is stepped twice in an iteration."""
-        return self.first_requirements if _requirement_problems(self, ()) else ()
+        """The first requirements of all states, which the calling state keeps if they could be stepped twice."""
+        columns = zip(*(state.requires for state in self.inside), strict=False)
+        first = (column[0] for column in takewhile(lambda column: len(set(column)) == 1, columns))
+        return tuple(first) if _requirement_problems(self, ()) else ()
 
     def names_in(self, states: Iterable[State]) -> set[str]:
         """The declarations to which states refer; those outside include the properties."""
@@ -159,11 +147,11 @@ def _set_by(states: Iterable[State]) -> set[str]:
         for name, _text in placed.action.values
     }
     words = " ".join(text for each in iter_code(part) for _language, text in each.code.texts)
-    return assigned | {word.strip() for word in _words(words)}
+    return assigned | _words(words)
 
 
 def _words(text: str) -> set[str]:
-    return set("".join(each if each.isalnum() or each == "_" else " " for each in text).split())
+    return set(re.findall(r"\w+", text))
 
 
 # What cannot keep its behavior
@@ -185,8 +173,7 @@ def _find_problems(cut: _Cut) -> Iterator[str]:
         return
     yield from _state_problems(cut)
     yield from _value_problems(cut)
-    if _requirement_problems(cut, ()) and (found := _requirement_problems(cut, cut.first_requirements)):
-        yield found[0]
+    yield from _requirement_problems(cut, cut.kept_requirements)[:1]
     for promised in design.properties:
         for name in {getattr(promised, key, None) for key in STATE_KEYS}.intersection(cut.names):
             yield f"a property of {design.component} names the state {name}"
@@ -225,24 +212,16 @@ def _value_problems(cut: _Cut) -> Iterator[str]:
 
 def _requirement_problems(cut: _Cut, kept: Collection[str]) -> list[str]:
     """What changes if the calling state requires `kept` and the component the other requirements."""
-    found = []
-    for source, to in cut.exits:
-        first, second = cut.design.state(source), cut.design.state(to)
-        found += [
-            f"{source} and {to} both require '{alias}', which would be stepped twice"
-            for alias in (first.requires if first else ())
-            if second and alias in second.requires and alias not in kept
-        ]
-    before = [cut.design.state(source) for source, _to in cut.entries] + [None] * cut.is_started
-    for state in before:
-        earlier = state.requires if state else ()
-        if cut.entry_state.enter and not set(kept) <= set(earlier):
-            found.append(f"'enter' of {cut.entry} would run after its requirements")
-        found += [
-            f"{state.name} and {cut.entry} both require '{alias}', which would be stepped twice"
-            for alias in cut.entry_state.requires
-            if state and alias in earlier and alias not in kept
-        ]
+    required = {state.name: state.requires for state in cut.design.states}
+    found = [
+        f"{source} and {to} both require '{alias}', which would be stepped twice"
+        for source, to in (*cut.exits, *cut.entries)
+        for alias in required.get(to, ())
+        if alias in required.get(source, ()) and alias not in kept
+    ]
+    before = [required.get(source, ()) for source, _to in cut.entries] + [()] * cut.is_started
+    if cut.entry_state.enter and not all(set(kept) <= set(aliases) for aliases in before):
+        found.append(f"'enter' of {cut.entry} would run after its requirements")
     return found
 
 
@@ -252,12 +231,10 @@ def _requirement_problems(cut: _Cut, kept: Collection[str]) -> list[str]:
 def _component(cut: _Cut, name: str) -> Design:
     design, entry = cut.design, cut.entry_state
     used, returned = cut.names_in(cut.inside), cut.returned
-    ends = _end_states(cut, {*used, *(use.alias for use in design.uses)})
-    begin = Transition(to=entry.name)
+    ends, flags = _end_states(cut, {*used, *(use.alias for use in design.uses)})
     start = State(
         name=unique_name("Start", {*cut.names, *(state.name for state in ends)}),
-        at=_translated(entry.at),
-        transitions=(begin,),
+        transitions=(Transition(to=entry.name),),
     )
     kept, targets = cut.kept_requirements, {state.name: end.name for state, end in zip(cut.targets, ends, strict=True)}
     inside = tuple(
@@ -273,53 +250,45 @@ def _component(cut: _Cut, name: str) -> Design:
         arithmetic=design.arithmetic,
         time_unit=design.time_unit,
         uses=tuple(use for use in design.uses if references_alias(Design(component="", states=inside), use.alias)),
-        outputs=(*returned, *(Declaration(name=flag, initial="false") for flag in _flags(ends))),
+        outputs=(*returned, *(Declaration(name=flag, initial="false") for flag in flags)),
         variables=variables,
         initial=start.name if cut.has_start else entry.name,
         states=(*([start] if cut.has_start else []), *inside, *ends),
-        frames=tuple(frame for frame in design.frames if frame.states and set(frame.states) <= set(cut.names)),
     )
 
 
-def _end_states(cut: _Cut, taken: Collection[str]) -> tuple[State, ...]:
-    """A final state for each way out; with several, an output says which one was taken."""
+def _end_states(cut: _Cut, taken: Collection[str]) -> tuple[list[State], list[str]]:
+    """A final state for each way out; with several, the outputs that say which one was taken."""
     states, flags = list(cut.names), list(taken)
     for target in cut.targets:
         states.append(unique_name(f"To{target.name}", states))
         flags.append(unique_name(snake_case(f"to_{target.name}"), flags))
-    ends, own = states[len(cut.names) :], flags[len(taken) :]
-    return tuple(
+    names, flags = states[len(cut.names) :], flags[len(taken) :] if len(cut.targets) > 1 else []
+    ends = [
         State(
-            name=end,
+            name=name,
             at=target.at,
             final=True,
             disabled=target.disabled,
-            enter=(Assign(values=tuple((each, str(each == flag)) for each in own)),) if len(own) > 1 else (),
+            enter=(Assign(values=tuple((each, str(each == flags[index])) for each in flags)),) if flags else (),
             transitions=(Transition(to=cut.entry),) if cut.has_start else (),
         )
-        for target, end, flag in zip(cut.targets, ends, own, strict=True)
-    )
-
-
-def _flags(ends: Iterable[State]) -> tuple[str, ...]:
-    """The outputs that say which way out was taken, in the order of the final states."""
-    names = (
-        name for end in ends for action in end.enter if isinstance(action, Assign) for name, _text in action.values
-    )
-    return tuple(Counter(names))
+        for index, (target, name) in enumerate(zip(cut.targets, names, strict=True))
+    ]
+    return ends, flags
 
 
 def _caller(cut: _Cut, component: Design) -> Design:
     design = cut.design
     taken = {use.alias for use in design.uses} | {each.name for _section, each in design.declarations()}
     alias = unique_name(snake_case(component.component), taken)
-    flags = _flags(state for state in component.states if state.final)
+    flags = [each.name for each in component.outputs if each not in cut.returned]
     copied = tuple((each.name, f"{alias}.{each.name}") for each in cut.returned)
     copies = (Assign(values=copied),) if copied else ()
     conditions = [f"done({alias}) and {alias}.{flag}" for flag in flags] or [f"done({alias})"]
     call = State(
         name=unique_name(component.component, {state.name for state in cut.outside}),
-        at=_center(cut.inside),
+        at=cut.entry_state.at,
         disabled=cut.entry_state.disabled,
         requires=(*cut.kept_requirements, alias),
         actions=copies,
@@ -329,40 +298,16 @@ def _caller(cut: _Cut, component: Design) -> Design:
             for to, when in zip(cut.targets, conditions if cut.targets else [], strict=True)
         ),
     )
-    states: list[State] = []
-    for state in design.states:
-        if state not in cut.inside:
-            states.append(replace(state, transitions=retarget_all(state.transitions, {cut.entry: call.name})))
-        elif state is cut.inside[0]:
-            states.append(call)
+    new = {cut.entry: call.name}
+    outside = [replace(each, transitions=retarget_all(each.transitions, new)) for each in cut.outside]
+    place = design.states.index(cut.inside[0])
     used = {use.alias for use in component.uses}
-    kept = replace(
-        design, states=tuple(states), variables=tuple(each for each in design.variables if each not in cut.moved)
-    )
+    variables = tuple(each for each in design.variables if each not in cut.moved)
+    kept = replace(design, states=(*outside[:place], call, *outside[place:]), variables=variables)
     uses = (use for use in design.uses if use.alias not in used or references_alias(kept, use.alias))
     return replace(
         kept,
         uses=(*uses, Use(alias=alias, component=component.component)),
         initial=call.name if cut.is_started else design.initial,
-        frames=tuple(_frames(cut, call.name)),
+        frames=replace_in_frames(design.frames, dict.fromkeys(cut.names, (call.name,))),
     )
-
-
-def _frames(cut: _Cut, call: str) -> Iterator[DiagramFrame]:
-    """The frames of the caller; the calling state takes the place of the extracted ones if they were all in a frame."""
-    for frame in cut.design.frames:
-        rest = tuple(name for name in frame.states if name not in cut.names)
-        is_around = set(cut.names) <= set(frame.states)
-        if rest or not frame.states:
-            yield replace(frame, states=(*rest, call) if is_around else rest)
-
-
-def _center(states: Iterable[State]) -> Point | None:
-    points = [state.at for state in states if state.at is not None]
-    if not points:
-        return None
-    return round(sum(x for x, _y in points) / len(points)), round(sum(y for _x, y in points) / len(points))
-
-
-def _translated(at: Point | None) -> Point | None:
-    return None if at is None else (at[0] - _DISTANCE, at[1])

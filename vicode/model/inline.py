@@ -9,11 +9,9 @@ from dataclasses import dataclass, replace
 
 from vicode.model.decisions import retarget_all
 from vicode.model.design import Assign, Call, Design, State, Transition, Use
-from vicode.model.edits import unique_name
+from vicode.model.edits import replace_in_frames, unique_name
 from vicode.model.extract import extract_component
 from vicode.model.traversal import iter_actions, iter_transitions
-
-_CHANGED = "the behavior would change"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,7 +34,7 @@ def inline_component(design: Design, state: str, component: Design) -> Inlining:
     call, use = design.state(state), inlined_use(design, state)
     assert call is not None
     assert use is not None
-    problem = _find_problem(design, call, use.alias, component)
+    problem = _find_problem(design, use.alias, component)
     if problem:
         return Inlining(caller=design, problem=problem)
     targets = _targets(call, use.alias, component)
@@ -46,7 +44,11 @@ def inline_component(design: Design, state: str, component: Design) -> Inlining:
     assert first is not None
     entry = _only_target(first) if has_start else first.name
     inside = [each for each in component.states if each.name not in ends and not (has_start and each is first)]
-    names = _names(design, call, inside)
+    names: dict[str, str] = {}
+    for each in inside:
+        names[each.name] = unique_name(
+            each.name, {*(other.name for other in design.states if other is not call), *names.values()}
+        )
     states = tuple(
         replace(
             each,
@@ -59,14 +61,12 @@ def inline_component(design: Design, state: str, component: Design) -> Inlining:
     inlined = _inlined(design, call, states, component, names[entry])
     again = extract_component(inlined, [each.name for each in states], component.component)
     if again.problems or _canonical(again.caller, again.component, {}) != _canonical(design, component, names):
-        place = (
-            again.problems[0] if again.problems else f"{state} or {component.component} does more than Extract makes"
-        )
-        return Inlining(caller=design, problem=f"{_CHANGED}: {place}")
+        more = f"{state} or {component.component} does more than Extract makes"
+        return Inlining(caller=design, problem=f"the behavior would change: {(*again.problems, more)[0]}")
     return Inlining(caller=inlined, states=tuple(each.name for each in states))
 
 
-def _find_problem(design: Design, call: State, alias: str, component: Design) -> str:
+def _find_problem(design: Design, alias: str, component: Design) -> str:
     name = component.component
     users = [each.name for each in design.states if alias in each.requires]
     called = [
@@ -74,28 +74,14 @@ def _find_problem(design: Design, call: State, alias: str, component: Design) ->
     ]
     if len(users) + len(called) > 1:
         return f"{name} is used in several places: {', '.join(dict.fromkeys((*users, *called)))}"
-    for key, title in (
-        ("frequency_hz", "frequency"),
-        ("resume", "resume"),
-        ("arithmetic", "arithmetic"),
-        ("time_unit", "time_unit"),
-    ):
+    for key in ("frequency_hz", "resume", "arithmetic", "time_unit"):
         if getattr(design, key) != getattr(component, key):
-            return f"{name} and {design.component} differ in '{title}'"
-    for each in component.uses:
-        other = design.use(each.alias)
-        if other is not None and other.component != each.component:
-            return f"'{each.alias}' is {each.component} in {name}, but {other.component} in {design.component}"
-    if component.properties or component.common.actions or component.common.transitions:
-        return f"{name} has {'properties' if component.properties else 'a common section'}"
-    if component.parameters:
-        return f"{name} has parameters"
-    if not component.states or component.state(component.initial) is None:
-        return f"{name} has no initial state"
-    ends = [each for each in component.states if each.final]
-    if set(_targets(call, alias, component)) != {each.name for each in ends}:
-        return f"{call.name} needs one transition for each final state of {name}"
-    return ""
+            return f"{name} and {design.component} differ in '{key.removesuffix('_hz')}'"
+    if component.common.actions or component.common.transitions:
+        return f"{name} has a common section"
+    if component.properties or component.parameters:
+        return f"{name} has {'properties' if component.properties else 'parameters'}"
+    return "" if component.state(component.initial) else f"{name} has no initial state"
 
 
 def _is_start(component: Design) -> bool:
@@ -104,8 +90,7 @@ def _is_start(component: Design) -> bool:
     if first is None or len(first.transitions) != 1:
         return False
     only = Transition(to=_only_target(first))
-    plain = State(name=first.name, id=first.id, doc=first.doc, at=first.at, color=first.color, transitions=(only,))
-    return first == plain and not any(
+    return _plain(first) == State(name=first.name, transitions=(only,)) and not any(
         isinstance(each.decision, Transition) and each.decision.to == first.name for each in iter_transitions(component)
     )
 
@@ -119,9 +104,7 @@ def _targets(call: State, alias: str, component: Design) -> dict[str, str]:
     """The states that the calling state enters, by the final states of the component."""
     found: dict[str, str] = {}
     for end in (each for each in component.states if each.final):
-        flags = [
-            name for action in end.enter if isinstance(action, Assign) for name, text in action.values if text == "True"
-        ]
+        flags = [name for name, text in _assigned(end) if text == "True"]
         wanted = f"done({alias}) and {alias}.{flags[0]}" if flags else f"done({alias})"
         for each in call.transitions:
             if isinstance(each, Transition) and each.guard.when == wanted:
@@ -133,54 +116,29 @@ def _assigned(end: State) -> list[tuple[str, str]]:
     return [pair for action in end.enter if isinstance(action, Assign) for pair in action.values]
 
 
-def _names(design: Design, call: State, inside: list[State]) -> dict[str, str]:
-    """The names of the inlined states, which are unique in the design."""
-    taken = {each.name for each in design.states if each is not call}
-    names: dict[str, str] = {}
-    for state in inside:
-        names[state.name] = unique_name(state.name, {*taken, *names.values()})
-    return names
-
-
 def _inlined(design: Design, call: State, states: tuple[State, ...], component: Design, entry: str) -> Design:
-    new: list[State] = []
-    for state in design.states:
-        entered = replace(state, transitions=retarget_all(state.transitions, {call.name: entry}))
-        new += states if state is call else (entered,)
+    others = [replace(each, transitions=retarget_all(each.transitions, {call.name: entry})) for each in design.states]
+    place = design.states.index(call)
     known = {each.name for _section, each in design.declarations()}
     flags = {name for end in component.states if end.final for name, _text in _assigned(end)}
     added = (each for _section, each in component.declarations() if each.name not in known | flags)
     alias = call.requires[-1]
     uses = [use for use in design.uses if use.alias != alias]
     uses += [use for use in component.uses if design.use(use.alias) is None]
-    frames = tuple(
-        replace(
-            frame,
-            states=tuple(
-                name
-                for each in frame.states
-                for name in ([state.name for state in states] if each == call.name else [each])
-            ),
-        )
-        for frame in design.frames
-    )
     return replace(
         design,
         uses=tuple(uses),
         variables=(*design.variables, *added),
         initial=entry if design.initial == call.name else design.initial,
-        states=tuple(new),
-        frames=(*frames, *component.frames),
+        states=(*others[:place], *states, *others[place + 1 :]),
+        frames=(*replace_in_frames(design.frames, {call.name: tuple(each.name for each in states)}), *component.frames),
     )
 
 
 def _canonical(caller: Design, component: Design, names: Mapping[str, str]) -> tuple[object, ...]:
     """Both designs without layout, orders of declarations, and the names of states that Extract chooses."""
-    call = next(
-        each
-        for each in caller.states
-        if (use := inlined_use(caller, each.name)) and use.component == component.component
-    )
+    uses = {each.name: inlined_use(caller, each.name) for each in caller.states}
+    call = next(each for each in caller.states if (use := uses[each.name]) and use.component == component.component)
     ends = {end: f"end in {to}" for end, to in _targets(call, call.requires[-1], component).items()}
     start = {component.initial: "start"} if _is_start(component) else {}
     return _behavior(caller, {call.name: "call"}), _behavior(component, {**names, **ends, **start})
@@ -189,16 +147,14 @@ def _canonical(caller: Design, component: Design, names: Mapping[str, str]) -> t
 def _behavior(design: Design, names: Mapping[str, str]) -> tuple[object, ...]:
     states = {
         names.get(state.name, state.name): replace(
-            state,
-            name="",
-            id="",
-            doc="",
-            at=None,
-            color="",
-            transitions=retarget_all(state.transitions, names),
+            _plain(state), name="", transitions=retarget_all(state.transitions, names)
         )
         for state in design.states
     }
     components = {use.alias: use.component for use in design.uses}
     declared = {(section, replace(each, doc="", unit="", range=None)) for section, each in design.declarations()}
     return components, declared, names.get(design.initial, design.initial), states
+
+
+def _plain(state: State) -> State:
+    return replace(state, id="", doc="", at=None, color="")

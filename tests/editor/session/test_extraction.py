@@ -8,6 +8,7 @@ import pytest
 from vicode.check import check_project
 from vicode.editor.session import DocumentSession, Library, Workspace
 from vicode.editor.session.project.extraction import extract_states, inline_state
+from vicode.editor.view import ItemRef
 from vicode.model.design import State
 from vicode.store import open_project
 
@@ -52,7 +53,7 @@ def test_extract_writes_both_files_and_undo_restores_them(lamps: Workspace) -> N
     before = opened(lamps).design
     result = extract_states(lamps, opened(lamps), ["Dim", "Bright"], "Glow")
     assert result.error == ""
-    assert result.states == ("Glow",)
+    assert result.new_selection == (ItemRef(kind="states", id="Glow"),)
     parts = {"Lamp": ["Off", "Glow"], "Glow": ["Start", "Dim", "Bright", "ToOff"]}
     assert names(lamps.folder) == parts
     assert opened(lamps).undo() == ""
@@ -68,7 +69,7 @@ def test_inline_deletes_the_file_and_undo_restores_it(lamps: Workspace) -> None:
     text = (lamps.folder / "glow.yaml").read_text()
     result = inline_state(lamps, opened(lamps), "Glow")
     assert result.error == ""
-    assert result.states == ("Dim", "Bright")
+    assert result.new_selection == (ItemRef(kind="states", id="Dim"), ItemRef(kind="states", id="Bright"))
     assert replace(opened(lamps).design, uses=whole.uses) == whole
     assert not (lamps.folder / "glow.yaml").exists()
     assert opened(lamps).undo() == ""
@@ -79,8 +80,8 @@ def test_inline_deletes_the_file_and_undo_restores_it(lamps: Workspace) -> None:
 def test_a_changed_component_stays(lamps: Workspace) -> None:
     extract_states(lamps, opened(lamps), ["Dim", "Bright"], "Glow")
     opened(lamps, "Glow").edit("doc", lambda design: replace(design, states=(*design.states, State(name="New"))))
-    assert opened(lamps).undo() == "Undo or redo failed: Glow was changed after that"
-    assert inline_state(lamps, opened(lamps), "Glow").error == "save Glow first"
+    assert opened(lamps).undo() == "Undo or redo failed: Glow has other changes: save or undo them first"
+    assert inline_state(lamps, opened(lamps), "Glow").error.startswith("Glow has other changes")
     assert names(lamps.folder)["Lamp"] == ["Off", "Glow"]
 
 

@@ -5,8 +5,8 @@ from vicode.editor.panels.designs.design_dialogs import dialog_buttons, name_fie
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.texts import sentence
 from vicode.editor.panels.window_context import WindowContext
-from vicode.editor.session.project.extraction import ExtractionResult, extract_states, inline_state
-from vicode.editor.view import ItemRef
+from vicode.editor.session import EditResult
+from vicode.editor.session.project.extraction import extract_states, inline_state
 
 
 class ExtractionCommands:
@@ -16,10 +16,8 @@ class ExtractionCommands:
         self._context = context
 
     def commands(self) -> tuple[Command, ...]:
-        return (
-            Command("extract", "Extract component…", self.ask_name, MenuGroup.EDIT),
-            Command("inline", "Inline component", self.inline, MenuGroup.EDIT),
-        )
+        extract = Command("extract", "Extract component…", self.ask_name, MenuGroup.EDIT)
+        return (extract, Command("inline", "Inline component", self.inline, MenuGroup.EDIT))
 
     @property
     def _states(self) -> list[str]:
@@ -27,9 +25,6 @@ class ExtractionCommands:
 
     def ask_name(self) -> None:
         states, context = self._states, self._context
-        if not states:
-            context.show_toast("Select the states to extract", "info")
-            return
         with titled_dialog("Extract component") as dialog:
             name = name_field("Name of the component", "", "FollowBall")
 
@@ -42,13 +37,10 @@ class ExtractionCommands:
             dialog_buttons(dialog, "Extract", extract, name)
 
     def inline(self) -> None:
-        states, context = self._states, self._context
-        if len(states) != 1:
-            context.show_toast("Select a state that requires a component", "info")
-            return
-        self._show(inline_state(context.workspace, context.document, states[0]), f"Inlined {states[0]}")
+        context, state = self._context, (*self._states, "The design")[0]
+        self._show(inline_state(context.workspace, context.document, state), f"Inlined {state}")
 
-    def _show(self, result: ExtractionResult, done: str) -> None:
+    def _show(self, result: EditResult, done: str) -> None:
         context = self._context
         if result.error:
             context.show_toast(sentence(result.error), "warning")
@@ -58,4 +50,4 @@ class ExtractionCommands:
             context.page.offer_undo(done, lambda: context.document.undo_compound(entry))
         if result.note:
             context.show_toast(sentence(result.note), "info")
-        context.select(*(ItemRef(kind="states", id=name) for name in result.states))
+        context.select(*(result.new_selection or ()))

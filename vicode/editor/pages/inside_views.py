@@ -51,7 +51,7 @@ class InsideViews:
         if error:
             self.context.show_toast(sentence(error), "warning")
             # What the browser shows already, such as a moved state, is drawn again.
-            self._shown = dict.fromkeys(self._shown, {})
+            self._shown = {item: {} for item in self._shown}
         self.refresh()
 
     def _document(self, component: str) -> DocumentSession | None:
@@ -95,11 +95,8 @@ class InsideViews:
 
 def _apply(document: DocumentSession, gesture: InsideEditGesture) -> str:
     """Apply the edit to the current design; returns an error message or an empty string."""
-    match gesture.edit:
-        case {"kind": "undo"}:
-            return document.undo()
-        case {"kind": "redo"}:
-            return document.redo()
+    if gesture.edit in ({"kind": "undo"}, {"kind": "redo"}):
+        return document.undo() if gesture.edit["kind"] == "undo" else document.redo()
     edit = decode_event(gesture.edit, {each.kind: each for each in EDIT_GESTURES})
     rebased = rebase_gesture(edit, document.shared.design_at(gesture.seen), document.design)
     return apply_edit(document, rebased).error if rebased else "this item no longer exists"

@@ -1,6 +1,6 @@
 // Edits in an inset. They are gestures on the design of the used component, which has its own file and its own undo.
 import { keyOf } from "./scene.js";
-import { INSIDE_CONNECT, NAME } from "./strings.js";
+import { NAME } from "./strings.js";
 import { html } from "./svg.js";
 
 const DRAG_START = 4;
@@ -76,19 +76,16 @@ export class InsetEditor {
     if (!isUndo && (event.ctrlKey || event.metaKey || event.altKey)) return;
     if (isUndo) this.#report(key === "y" || event.shiftKey ? "redo" : "undo");
     else if (key === "s") this.#create();
-    else if (key === "Escape") this.#escape();
+    else if (key === "Escape" && this.source) this.#connectFrom(null);
+    else if (key === "Escape" && this.selected) this.#select(null);
+    else if (key === "Escape") this.canvas.stage.focus({ preventScroll: true });
     else if (element && ["F2", "Enter"].includes(key)) this.#type();
-    else if (element && ["Delete", "Backspace"].includes(key)) this.#report("delete", { items: [this.#item()] });
-    else if (element && key === "d") this.#report("disable", { items: [this.#item()] });
+    else if (element && ["Delete", "Backspace"].includes(key)) this.#report("delete", { items: [itemOf(element)] });
+    else if (element && key === "d") this.#report("disable", { items: [itemOf(element)] });
     else if (element?.of === "states" && key === "t") this.#connectFrom(this.selected);
     else if (element?.of === "states" && key in MARKS) this.#report("mark", { mark: MARKS[key], id: element.id });
     else return;
     event.preventDefault();
-  }
-
-  #item() {
-    const { of, id } = this.scene.find(this.selected);
-    return { of, id };
   }
 
   #create() {
@@ -96,17 +93,10 @@ export class InsetEditor {
     this.#report("create", { x: node.x + NEXT_STATE, y: node.y, select: false });
   }
 
-  #escape() {
-    if (this.source) this.#connectFrom(null);
-    else if (this.selected) this.#select(null);
-    else this.canvas.stage.focus({ preventScroll: true });
-  }
-
   /** The next click on a state adds a transition from this one. */
   #connectFrom(key) {
     this.source = key;
     this.view.classList.toggle("connects", Boolean(key));
-    this.view.title = key ? INSIDE_CONNECT : "";
   }
 
   /** Opens a field for the name of a state, or for the guard of a transition. */
@@ -140,10 +130,12 @@ export class InsetEditor {
     const [element, text] = [this.scene.find(this.selected), input.value.trim()];
     input.remove();
     if (element?.of === "states" && text && text !== element.data.name) {
-      this.#report("rename", { item: this.#item(), name: text });
+      this.#report("rename", { item: itemOf(element), name: text });
       this.selected = keyOf("states", text);
     } else if (element?.of === "transitions" && text !== element.data.guard && (text || isEmptyKept)) {
       this.#report("guard", { id: element.id, text, base: element.data.guard });
     }
   }
 }
+
+const itemOf = ({ of, id }) => ({ of, id });

@@ -7,22 +7,15 @@ from vicode.diagram.kept_positions import keep_positions
 from vicode.editor.session import texts
 from vicode.editor.session.descriptions import error_reason
 from vicode.editor.session.document import DocumentSession, FileTransaction
+from vicode.editor.session.gestures.edits import EditResult
 from vicode.editor.session.project.trash import find_dependents, validate_component_name
 from vicode.editor.session.workspace import DiskConflictError, Workspace
+from vicode.editor.view import ItemRef
 from vicode.model.design import Design
 from vicode.model.extract import extract_component
 from vicode.model.inline import inline_component, inlined_use
 from vicode.model.merge import merge_designs
 from vicode.store import save_design
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ExtractionResult:
-    """The states to select, or the error message; `note` says what differs in the behavior."""
-
-    states: tuple[str, ...] = ()
-    error: str = ""
-    note: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,12 +37,10 @@ class ExtractionEdit:
         return f"{'inline' if self.is_inlining else 'extract'} component {self.component.component}"
 
     def undo(self, user_id: str) -> str:
-        error = self.apply(user_id, is_undo=True)
-        return texts.not_done(error) if error else ""
+        return texts.not_done(error) if (error := self.apply(user_id, is_undo=True)) else ""
 
     def redo(self, user_id: str) -> str:
-        error = self.apply(user_id)
-        return texts.not_done(error) if error else ""
+        return texts.not_done(error) if (error := self.apply(user_id)) else ""
 
     def apply(self, user_id: str, *, is_undo: bool = False) -> str:
         """Change both files; returns an error message or an empty string."""
@@ -62,10 +53,9 @@ class ExtractionEdit:
         error = self._find_error(is_adding=is_adding)
         if error or merged.conflicts:
             return error or f"{self.whole.component} was changed at the same place"
-        label = texts.undo_label(self.label) if is_undo else self.label
         transaction = FileTransaction(
             files=frozenset((session.file,)),
-            label=label,
+            label=texts.undo_label(self.label) if is_undo else self.label,
             user_id=user_id,
             compound=None if is_undo else self,
             undone_edit=self if is_undo else None,
@@ -93,14 +83,13 @@ class ExtractionEdit:
         if users:
             return f"{', '.join(sorted(users))} {'uses' if len(users) == 1 else 'use'} {name}"
         document = self.workspace.open_document(name)
-        if document is None or document.design != self.component or not document.is_saved:
-            return f"{name} was changed after that"
+        is_saved = document is not None and document.is_saved and self.workspace.is_file_unchanged(name)
+        if document is None or document.design != self.component or not is_saved:
+            return f"{name} has other changes: save or undo them first"
         return ""
 
 
-def extract_states(
-    workspace: Workspace, document: DocumentSession, states: Collection[str], name: str
-) -> ExtractionResult:
+def extract_states(workspace: Workspace, document: DocumentSession, states: Collection[str], name: str) -> EditResult:
     """Extract states of a design as the component `name`."""
     design = document.design
     error = validate_component_name(workspace, name)
@@ -108,7 +97,7 @@ def extract_states(
         error = error or "XABSL cannot step a component before its caller decides: the behavior would change"
     found = extract_component(design, states, name)
     if error or found.problems:
-        return ExtractionResult(error=error or found.problems[0])
+        return EditResult(error=error or found.problems[0])
     edit = ExtractionEdit(
         workspace=workspace,
         whole=design,
@@ -116,24 +105,22 @@ def extract_states(
         component=found.component,
         text=save_design(found.component, ""),
     )
-    new = (state.name for state in found.caller.states if design.state(state.name) != state and name in state.name)
-    return ExtractionResult(states=tuple(new)[:1], error=edit.apply(document.user_id), note=found.note)
+    new = next(each for each in found.caller.states if not {*each.requires[-1:]} <= {use.alias for use in design.uses})
+    return EditResult(new_selection=_selection((new.name,)), error=edit.apply(document.user_id), note=found.note)
 
 
-def inline_state(workspace: Workspace, document: DocumentSession, state: str) -> ExtractionResult:
+def inline_state(workspace: Workspace, document: DocumentSession, state: str) -> EditResult:
     """Put the states of the component that a state requires in its place, and delete the file of the component."""
     use = inlined_use(document.design, state)
     used = workspace.open_document(use.component) if use is not None else None
     if use is None or used is None:
-        return ExtractionResult(error=f"{state} requires no component with a design")
-    if not used.is_saved:
-        return ExtractionResult(error=f"save {use.component} first")
+        return EditResult(error=f"{state} requires no component with a design")
     agents = [agent.name for agent in workspace.project.agents if agent.root == use.component]
     if agents:
-        return ExtractionResult(error=f"{use.component} is the root of the agent {agents[0]}")
+        return EditResult(error=f"{use.component} is the root of the agent {agents[0]}")
     found = inline_component(document.design, state, used.design)
     if found.problem:
-        return ExtractionResult(error=found.problem)
+        return EditResult(error=found.problem)
     edit = ExtractionEdit(
         workspace=workspace,
         whole=found.caller,
@@ -142,4 +129,8 @@ def inline_state(workspace: Workspace, document: DocumentSession, state: str) ->
         text=used.shared.disk_text,
         is_inlining=True,
     )
-    return ExtractionResult(states=found.states, error=edit.apply(document.user_id))
+    return EditResult(new_selection=_selection(found.states), error=edit.apply(document.user_id))
+
+
+def _selection(states: Collection[str]) -> tuple[ItemRef, ...]:
+    return tuple(ItemRef(kind="states", id=name) for name in states)
