@@ -251,6 +251,7 @@ CODE = RunCode(code=Code(texts=(("python", "self.go()"),)))
         (plain(State(name="X"), A), "no transition enters the states"),
         (plain(X, replace(A, final=True)), "A is a final state"),
         (plain(X, replace(A, capacity=1)), "A is entered together with other robots"),
+        (plain(X, A, resume=True, arithmetic="xabsl"), "the component is not done"),
         (plain(replace(X, capacity=1), A), "X is entered together with other robots"),
         (plain(X, State(name="A", transitions=to("X", when="component_time > 1"))), "A reads component_time"),
         (

@@ -91,7 +91,7 @@ class _Cut:
 
     @property
     def has_start(self) -> bool:
-        """Whether the component begins in its own state; by XABSL's rules, it is not done when it has just restarted."""
+        """Whether the component begins in its own state; by XABSL's rules, it is not done when it restarts."""
         return bool(self.entries) or self.design.arithmetic == "xabsl"
 
     @property
@@ -164,6 +164,8 @@ def _find_problems(cut: _Cut) -> Iterator[str]:
         return
     if design.common.transitions or design.common.actions:
         yield "the common section applies to each state: the component would work before it"
+    if design.resume and design.arithmetic == "xabsl":
+        yield "with 'resume' and the rules of XABSL, the component is not done in the iteration in which it resumes"
     known = {state.name for state in design.states}
     yield from (f"{source}: there is no state '{to}'" for source, to in _edges(design) if to not in known)
     entered = {to: source for source, to in cut.entries} | ({design.initial: "the start"} if cut.is_started else {})
