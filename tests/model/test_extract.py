@@ -148,8 +148,11 @@ def reference(original: Design, extraction: Extraction) -> Design:
     return replace(original, initial="Start", states=(*original.states, start))
 
 
-def observed(run: ConformanceRun, hidden: tuple[str, ...] = ()) -> list[Any]:
-    """What the rest of the robot sees in each iteration: the steps of other components, outputs, done."""
+def observed(run: ConformanceRun, hidden: tuple[str, ...] = ()) -> str:
+    """What the rest of the robot sees in each iteration: the steps of other components, outputs, done.
+
+    As a text, since nan differs from itself.
+    """
     robots = ReferenceRobots(run.project, run.root, run.inputs)
     seen: list[Any] = []
     for step in run.steps:
@@ -160,7 +163,7 @@ def observed(run: ConformanceRun, hidden: tuple[str, ...] = ()) -> list[Any]:
             elif record["component"] not in hidden:
                 seen.append({key: value for key, value in record.items() if key != "by"})
         seen.append(step.time_ns)
-    return sorted_within_iterations(seen)
+    return repr(sorted_within_iterations(seen))
 
 
 def sorted_within_iterations(seen: list[Any]) -> list[Any]:
