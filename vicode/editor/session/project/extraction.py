@@ -20,10 +20,7 @@ from vicode.store import save_design
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExtractionEdit:
-    """An extraction, or with `is_inlining` its reverse: `whole` is the design with all states, `caller` the other one.
-
-    `text` is the file of the component.
-    """
+    """An extraction or its reverse: `whole` has all states, `caller` the calling one, `text` is the component's file."""
 
     workspace: Workspace
     whole: Design
