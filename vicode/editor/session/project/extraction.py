@@ -20,7 +20,7 @@ from vicode.store import save_design
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExtractionEdit:
-    """An extraction or its reverse: `whole` has all states, `caller` the calling one, `text` is the component's file."""
+    """An extraction or its reverse: `whole` has all states, `caller` the calling one; `text` is that of the file."""
 
     workspace: Workspace
     whole: Design
