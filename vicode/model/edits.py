@@ -14,6 +14,7 @@ from vicode.model.design import (
     DecisionGroup,
     Declaration,
     Design,
+    DiagramFrame,
     Guard,
     Point,
     Property,
@@ -130,6 +131,14 @@ def _remove_from_constructs(design: Design, names: Collection[str]) -> Design:
         competence = replace(competence, steps=tuple(each for each in competence.steps if each.name not in names))
     layers = tuple(each for each in design.layers if each.name not in names)
     return replace(design, interrupts=tuple(interrupts), competence=competence, layers=layers)
+
+
+def replace_in_frames(
+    frames: tuple[DiagramFrame, ...], names: Mapping[str, tuple[str, ...]]
+) -> tuple[DiagramFrame, ...]:
+    """Replace states by others in all frames."""
+    states = ((name for old in frame.states for name in names.get(old, (old,))) for frame in frames)
+    return tuple(replace(frame, states=tuple(dict.fromkeys(new))) for frame, new in zip(frames, states, strict=True))
 
 
 def reorder_state(design: Design, name: str, to_index: int) -> Design:

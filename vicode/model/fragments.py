@@ -68,7 +68,7 @@ def extract_fragment(design: Design, selection: FragmentSelection) -> Design:
         located = (find_decision(design, path) for path in selection.decisions)
         common = CommonSection(transitions=tuple(item.decision for item in located if item is not None))
     part = Design(component=design.component, common=common, states=states)
-    uses = tuple(use for use in design.uses if use.alias in selection.aliases or _references_alias(part, use.alias))
+    uses = tuple(use for use in design.uses if use.alias in selection.aliases or references_alias(part, use.alias))
     frames = _frames_around([frame for frame in design.frames if frame.name in selection.frames], states)
     notes = tuple(note for note in design.notes if note.name in selection.notes)
     return _with_declarations(design, replace(part, uses=uses, frames=frames, notes=notes))
@@ -139,18 +139,18 @@ def duplicate_decision(design: Design, path: DesignPath) -> Design:
     return update_decisions(design, path[:-1], lambda items: (*items[: index + 1], twin, *items[index + 1 :]))
 
 
-def _references_alias(part: Design, alias: str) -> bool:
+def references_alias(part: Design, alias: str) -> bool:
     return rename_alias(part, alias, f"{alias}_") != part
 
 
-def _references_name(part: Design, name: str) -> bool:
+def references_name(part: Design, name: str) -> bool:
     rename = ReferenceRename(kind=ReferenceKind.OWN, old=name, new=f"{name}_")
     return rename_in_design(part, rename) != part
 
 
 def _with_declarations(design: Design, part: Design) -> Design:
     """The part with the declarations that it refers to, and those to which these refer."""
-    needed = [each for _section, each in design.declarations() if _references_name(part, each.name)]
+    needed = [each for _section, each in design.declarations() if references_name(part, each.name)]
     found: dict[str, Any] = {
         name: tuple(each for each in getattr(design, name) if each in needed) for name in _SECTIONS
     }

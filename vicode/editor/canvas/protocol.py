@@ -2,7 +2,7 @@
 
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
-from typing import ClassVar, TypedDict, get_args
+from typing import Any, ClassVar, TypedDict, get_args
 
 from vicode.decoding import MalformedEventError, decode, decode_event
 from vicode.editor.session.gestures.canvas_gestures import EDIT_GESTURES
@@ -91,6 +91,16 @@ class InsideGesture:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class InsideEditGesture:
+    """Edit a component that is shown in place: `edit` is a gesture on its design of revision `seen`, undo or redo."""
+
+    kind: ClassVar = "inside-edit"
+    component: str
+    seen: int
+    edit: dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PreviewGesture:
     """The user accepted (Enter) or rejected (Escape) a layout preview."""
 
@@ -116,6 +126,7 @@ PageGesture = (
     | CommandGesture
     | TooltipGesture
     | InsideGesture
+    | InsideEditGesture
     | PreviewGesture
     | StateRenamedGesture
 )

@@ -10,6 +10,7 @@ from vicode.editor.canvas.protocol import (
     CommandGesture,
     CopyGesture,
     GestureReport,
+    InsideEditGesture,
     InsideGesture,
     OpenGesture,
     PasteGesture,
@@ -37,7 +38,10 @@ from vicode.model.merge import find_renamed_states
 
 _MENU_GROUPS = {CommandGroup.VIEW: MenuGroup.VIEW, CommandGroup.NAVIGATE: MenuGroup.VIEW}
 # Commands of the page that the menu and the keys of the canvas trigger.
-_PAGE_COMMAND_NAMES = ("undo", "redo", "lay-out", "links", "help", "breakpoint", "simulate-here", "robot-enter")
+_PAGE_COMMAND_NAMES = (
+    *("undo", "redo", "lay-out", "links", "help", "breakpoint", "simulate-here", "robot-enter"),
+    *("extract", "inline"),
+)
 
 _G = TypeVar("_G")
 
@@ -123,6 +127,8 @@ class CanvasController:
                 self.page_commands.get(gesture.name, lambda: None)()
             case CopyGesture() | TooltipGesture() | InsideGesture():
                 self._answer(gesture)
+            case InsideEditGesture():
+                self.inside_views.edit(gesture)
             case PasteGesture():
                 self._paste(gesture)
             case UseGesture():

@@ -8,6 +8,7 @@ from nicegui import core, ui
 from vicode.editor.pages.autosave_ui import AutosaveControls
 from vicode.editor.pages.design_view import DesignView
 from vicode.editor.pages.docs_preview import docs_command
+from vicode.editor.pages.extraction_commands import ExtractionCommands
 from vicode.editor.pages.line_command import LineCommand
 from vicode.editor.pages.navigation import Navigator
 from vicode.editor.pages.outside_edit_notices import OutsideEditNotices
@@ -169,6 +170,7 @@ class DesignEditor:
     def _commands(self, others: tuple[Command, ...]) -> tuple[Command, ...]:
         page_commands = PageCommands(self.context, self.view.canvas_controller, self.window.theme)
         commands = (*page_commands.commands(), *others, *self.view.commands())
+        commands += ExtractionCommands(self.context).commands()
         commands += ExportDialog(self.context, lambda: page_commands.links_shown).commands()
         commands += (docs_command(self.context), *editor_command(self.context))
         help_ = Command(

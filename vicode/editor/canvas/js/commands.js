@@ -94,6 +94,8 @@ function modifyHandlers(canvas) {
     initial: { can: () => is("states")() && !single().data.initial, run: () => mark("initial") },
     final: { can: is("states"), run: () => mark("final") },
     disable: { can: () => selection.keys.size > 0, run: () => canvas.report("disable", { items: selection.items() }) },
+    extract: { can: () => selection.items().some(({ of }) => of === "states"), run: () => canvas.report("command", { name: "extract" }) },
+    inline: { can: () => is("states")() && single().data.requires > 0, run: () => canvas.report("command", { name: "inline" }) },
     "reconnect-target": { can: is("transitions"), run: () => gestures.reconnect(selection.single(), "target") },
     "reconnect-source": { can: is("transitions"), run: () => gestures.reconnect(selection.single(), "source") },
     "move-up": { can: is("transitions"), run: () => reorder(-1) },

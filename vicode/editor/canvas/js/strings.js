@@ -28,6 +28,8 @@ export const DROP_ON_LABEL = "Drop on another label of this state to change the 
 // Controls
 export const FOLD = "Hide inside (E)";
 export const OPEN_DESIGN = "Open design";
+export const INSIDE_EDIT = "Edits change this file. F2: rename or edit guard, S: new state, T: add transition, Del: delete, I: initial, F: final, D: disable";
+export const insetEditName = (component) => `Edit ${component}`;
 export const insetName = (alias, component) => `Inside ${alias}: state machine ${component}`;
 export const MENU = "Menu";
 export const NAME = "Name";

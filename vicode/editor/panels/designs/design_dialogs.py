@@ -38,7 +38,7 @@ class DesignDialogs:
         choices = templates.list_templates()
         titles = {each.name: f"{each.title}: {each.doc}" for each in choices}
         with titled_dialog(f"New design in {workspace.project.name}") as dialog:
-            name = _name_field("Component", "", "FollowBall")
+            name = name_field("Component", "", "FollowBall")
             ui.label("Template").classes("field-label")
             template_choice = ui.radio(titles, value=choices[0].name).classes("template-choice")
 
@@ -55,11 +55,11 @@ class DesignDialogs:
                 dialog.close()
                 open_design(design_url(workspace.key, new_name))
 
-            _buttons(dialog, "Create", create, name)
+            dialog_buttons(dialog, "Create", create, name)
 
     def ask_duplicate(self, workspace: Workspace, component: str) -> None:
         with titled_dialog(f"Duplicate {component}") as dialog:
-            name = _name_field("Name of the copy", trash.copy_name(workspace, component), "")
+            name = name_field("Name of the copy", trash.copy_name(workspace, component), "")
 
             def copy() -> None:
                 new_name = name.value.strip()
@@ -73,12 +73,12 @@ class DesignDialogs:
                 dialog.close()
                 self.show_toast(f"Duplicated {component} as {new_name}", "positive")
 
-            _buttons(dialog, "Duplicate", copy, name)
+            dialog_buttons(dialog, "Duplicate", copy, name)
 
     def ask_rename(self, workspace: Workspace, component: str) -> None:
         """Ask for a new name; list the changed files while the user types."""
         with titled_dialog(f"Rename {component}") as dialog:
-            name = _name_field("New name", component, "")
+            name = name_field("New name", component, "")
             ui.label("Changes").classes("field-label")
             change_list = ui.column().classes("change-list").props('aria-live="polite"')
 
@@ -107,7 +107,7 @@ class DesignDialogs:
 
             name.on_value_change(show)
             show()
-            _buttons(dialog, "Rename everywhere", rename, name)
+            dialog_buttons(dialog, "Rename everywhere", rename, name)
 
     def ask_move_to_trash(self, workspace: Workspace, component: str) -> None:
         error = trash.validate_move_to_trash(workspace, component)
@@ -124,7 +124,7 @@ class DesignDialogs:
                 dialog.close()
                 self._run_file_operation(lambda: self._move_to_trash(workspace, component))
 
-            _buttons(dialog, "Move to trash", remove, None)
+            dialog_buttons(dialog, "Move to trash", remove, None)
 
     def _move_to_trash(self, workspace: Workspace, component: str) -> None:
         self.offer_restore(workspace, trash.move_to_trash(workspace, component))
@@ -176,7 +176,7 @@ def _text_of(template: templates.Template, component: str, workspace: Workspace)
     return templates.instantiate_template(template, component, workspace.project)
 
 
-def _name_field(label: str, value: str, example: str) -> ui.input:
+def name_field(label: str, value: str, example: str) -> ui.input:
     field = ui.input(label, value=value, placeholder=example).classes("dialog-field")
     field.props("outlined dense stack-label autofocus maxlength=80")
     return field
@@ -189,7 +189,7 @@ def _suggest_valid_name(field: ui.input) -> None:
         field.set_value(name_from_text(new_name))
 
 
-def _buttons(dialog: ui.dialog, label: str, action: Callable[[], object], field: ui.input | None) -> None:
+def dialog_buttons(dialog: ui.dialog, label: str, action: Callable[[], object], field: ui.input | None) -> None:
     if field is not None:
         field.on("keydown.enter", action)
     with ui.row().classes("dialog-buttons"):
