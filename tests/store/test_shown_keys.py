@@ -22,6 +22,7 @@ from vicode.editor.view.scene import make_scene
 from vicode.editor.view.selection import ItemKind
 from vicode.model.decision_keys import transition_key
 from vicode.model.design import Code, Design, State, Transition
+from vicode.model.lowering import lower_design
 from vicode.model.project import Interface, Project
 from vicode.model.traversal import iter_decisions, iter_transitions
 from vicode.services.design_diff.file_differences import FileDifference, compare_pair
@@ -123,6 +124,7 @@ NOT_SHOWN: Mapping[Callable[[Project], object], Mapping[str, str]] = {
         "*.id": "written by the editor",
         **dict.fromkeys(("Stay.*", "DecisionGroup.*"), "labels show guards only; other decisions are not drawn"),
         **dict.fromkeys(("Design.*", "Declaration.*", "*Property.*"), "the form of the design shows them"),
+        **dict.fromkeys(("Latch.*", "Interrupt.*", "Competence*.*", "Layer.*"), "what they mean is drawn"),
         **dict.fromkeys(("Project.*", "Enumeration.*", "Interface.*", "Agent.*"), "the diagram is that of a design"),
         **dict.fromkeys(
             ("Profile.*", "ProfileClass.*", "RemoteReference.*", "TopicReference.*", "BridgeSettings.*"), _FOR_RUNS
@@ -173,7 +175,7 @@ def test_a_change_of_each_key_is_a_difference_of_files() -> None:
 
 
 def save(project: Project) -> tuple[str, str]:
-    return save_design(project.designs[0]), save_project_file(project)
+    return save_design(lower_design(project.designs[0])), save_project_file(project)
 
 
 def compare_texts(old: str, new: str) -> FileDifference:

@@ -29,7 +29,7 @@ from vicode.docsite.views import (
     UseRow,
 )
 from vicode.model.design import COMMON, Action, Assign, Call, Design, RunCode, State, Transition
-from vicode.model.words import describe_fields, describe_property
+from vicode.model.words import describe_constructs, describe_fields, describe_property
 
 _PHASES = {"enter": "On entry", "actions": "In each iteration", "leave": "On exit"}
 _MOST_DECISIONS, _MOST_OVERLAPS = 12, 3
@@ -114,7 +114,7 @@ def _facts(design: Design, inputs: ComponentInputs) -> Iterator[RichText]:
         yield plain_text("resumes where it left off")
     if design.xabsl_name and not is_xabsl:
         yield (TextSpan(text="in XABSL "), TextSpan(text=design.xabsl_name, css_class="code"))
-    yield from map(plain_text, describe_fields(design, _SHOWN))
+    yield from map(plain_text, (*describe_fields(design, _SHOWN), *describe_constructs(design)))
 
 
 def _state(machine: MachineAnalysis, state: State, linker: NameLinker, made: ComponentInputs) -> StateView:

@@ -14,6 +14,7 @@ from vicode.model.design import (
     Code,
     Competence,
     Declaration,
+    Design,
     Guard,
     InvariantProperty,
     NeverProperty,
@@ -109,6 +110,24 @@ def describe_property(promised: Property) -> str:
         case InvariantProperty(holds=holds):
             return f"{holds} always holds"
     return f"after {after}, {phrase}" if after else phrase
+
+
+def describe_constructs(design: Design) -> Iterator[str]:
+    """What a design is lowered from (`vicode.model.lowering`), one line for each construct."""
+    for latch in design.latches:
+        yield _describe_construct(f"latch {latch.name}", latch)
+    for interrupt in design.interrupts:
+        yield _describe_construct(f"interrupt by {interrupt.do}", interrupt, "do")
+    if design.competence is not None:
+        yield _describe_construct("competence", design.competence)
+        for step in design.competence.steps:
+            yield _describe_construct(f"step {step.name}", step)
+    for layer in design.layers:
+        yield _describe_construct(f"layer {layer.name}", layer)
+
+
+def _describe_construct(title: str, construct: object, *apart: str) -> str:
+    return f"{title}: {'; '.join(describe_fields(construct, apart))}"
 
 
 def describe_code(code: Code | None) -> str:

@@ -24,7 +24,7 @@ from vicode.editor.session.forms.project_form import project_section
 from vicode.editor.session.forms.state_form import uses_xabsl
 from vicode.model.design import COMMON, Design
 from vicode.model.project import Project
-from vicode.model.words import describe_property
+from vicode.model.words import describe_constructs, describe_property
 
 _SECTIONS: tuple[tuple[DeclarationList, str, str], ...] = (
     ("parameters", "Parameters", "values set by the states that modulate this component"),
@@ -59,11 +59,22 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
         Heading(text="Uses", hint="components this design requires or modulates"),
         Uses(rows=tuple(UseLine(alias=use.alias, component=use.component) for use in design.uses)),
         *declared,
+        *_constructs(design),
         *_properties(design),
         Heading(text="Every state", hint="transitions and actions before those of each state"),
         ItemLink(label="Common transitions and actions", caption=_describe_common(design), opens=("common", COMMON)),
         _code(project, design),
         project_section(project),
+    )
+
+
+def _constructs(design: Design) -> tuple[Node, ...]:
+    """Latches, interrupts, the competence and layers, which are edited in the file."""
+    lines = tuple(Paragraph(text=line, look="small") for line in describe_constructs(design))
+    return (
+        (Heading(text="Derived from", hint="what states and transitions come from; edited in the file"), *lines)
+        if lines
+        else ()
     )
 
 
