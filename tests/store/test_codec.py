@@ -49,7 +49,7 @@ def test_the_strategies_draw_each_field() -> None:
     drawn: set[str] = set()
 
     @settings(max_examples=400, phases=[Phase.generate], database=None, derandomize=True, deadline=None)
-    @given(designs.designs, designs.projects)
+    @given(designs.lowered_designs, designs.projects)
     def collect(design: object, project: object) -> None:
         for node in (*_iter_nodes(design), *_iter_nodes(project)):
             defaults = _defaults(type(node))

@@ -3,13 +3,13 @@
 from hypothesis import given
 
 from tests.strategies.commented_texts import fewer_examples
-from tests.strategies.designs import designs, projects
+from tests.strategies.designs import lowered_designs, projects
 from vicode.model.design import Design
 from vicode.model.project import Project
 from vicode.store import read_design, read_project_file, save_design, save_project_file
 
 
-@given(designs)
+@given(lowered_designs)
 def test_a_saved_design_is_read_again(design: Design) -> None:
     read = read_design(save_design(design))
     assert read.findings == ()
@@ -23,14 +23,14 @@ def test_a_saved_project_is_read_again(project: Project) -> None:
     assert read.project == project
 
 
-@given(designs)
+@given(lowered_designs)
 def test_an_unedited_save_keeps_every_byte(design: Design) -> None:
     text = save_design(design)
     assert save_design(design, text) == text
 
 
 @fewer_examples
-@given(designs, designs)
+@given(lowered_designs, lowered_designs)
 def test_any_design_can_be_saved_over_any_other(old: Design, new: Design) -> None:
     assert read_design(save_design(new, save_design(old))).design == new
 

@@ -1,6 +1,7 @@
 """Strategies for random designs and projects that can be saved: names are unique in their mapping."""
 
 import string
+from dataclasses import replace
 from typing import Any
 
 from hypothesis import strategies as st
@@ -149,7 +150,6 @@ states: st.SearchStrategy[State] = st.builds(
     at=points,
     color=st.sampled_from(("", *STATE_COLORS)),
     final=st.booleans(),
-    failed=st.booleans(),
     capacity=counts,
     synchronized=counts,
     disabled=st.booleans(),
@@ -203,10 +203,6 @@ _fields: dict[str, st.SearchStrategy[Any]] = {
     "outputs": _unique(outputs, "name", 2),
     "variables": _unique(declarations(), "name", 2),
     "initial": st.just("") | names,
-    "latches": _unique(latches, "name", 1),
-    "interrupts": _tuples(interrupts, 1),
-    "competence": st.none() | st.none() | competences,
-    "layers": _unique(layers, "name", 1),
     "properties": _tuples(properties, 2),
     "module": code,
     "members": code,
@@ -224,10 +220,19 @@ _fields: dict[str, st.SearchStrategy[Any]] = {
         transitions=_tuples(decisions, 2),
     ),
 }
-written_designs = st.builds(Design, **_fields, states=_unique(states, "name", 3))
-"""Designs as files say them, without anything derived."""
-designs = written_designs.map(lower_design)
-designs_with_states = st.builds(Design, **_fields, states=_unique(states, "name", 3, smallest=1)).map(lower_design)
+designs = st.builds(Design, **_fields, states=_unique(states, "name", 3))
+designs_with_states = st.builds(Design, **_fields, states=_unique(states, "name", 3, smallest=1))
+written_designs = st.builds(
+    Design,
+    **_fields,
+    states=_unique(st.builds(replace, states, failed=st.booleans()), "name", 3),
+    latches=_unique(latches, "name", 1),
+    interrupts=_tuples(interrupts, 1),
+    competence=st.none() | st.none() | competences,
+    layers=_unique(layers, "name", 1),
+)
+"""Designs with all keys, as files say them: without anything derived."""
+lowered_designs = written_designs.map(lower_design)
 enumerations = st.builds(
     Enumeration,
     name=names,

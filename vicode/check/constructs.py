@@ -19,15 +19,15 @@ from vicode.model.lowering import (
 
 def merge_derived(design: Design, findings: Iterable[Finding]) -> tuple[Finding, ...]:
     """Report each error in what is derived once, and no warnings: they are about what nobody wrote."""
-    kept: dict[tuple[object, ...], Finding] = {}
-    for finding in findings:
-        subject = finding.subject
-        origin = find_origin(design, subject.path) if subject is not None else ()
-        if not origin:
-            kept[("", id(finding))] = finding
-        elif finding.severity is Severity.ERROR:
-            kept.setdefault((finding.rule.code, finding.message, origin), finding)
-    return tuple(kept.values())
+    found = [(each, find_origin(design, each.subject.path) if each.subject else ()) for each in findings]
+    said = {(each.rule.code, each.message) for each, origin in found if not origin}
+    kept: list[Finding] = []
+    for finding, origin in found:
+        key = (finding.rule.code, finding.message)
+        if not origin or (finding.severity is Severity.ERROR and key not in said):
+            kept.append(finding)
+            said.add(key)
+    return tuple(kept)
 
 
 def find_bad_interrupts(context: RuleContext) -> Iterator[Finding]:

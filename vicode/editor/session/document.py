@@ -20,7 +20,7 @@ from vicode.editor.view.unfinished import unfinished_states
 from vicode.findings import Finding
 from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Design
-from vicode.model.lowering import describe_origin, find_lost_edit, lower_design
+from vicode.model.lowering import lower_edit
 from vicode.model.merge import Conflict, merge_designs
 from vicode.model.paths import describe_path
 from vicode.model.project import Project
@@ -233,13 +233,8 @@ class DocumentSession:
             change: Maps the current design to the new one.
             coalesce_key: Consecutive edits of a user with the same key, such as a field being typed in, are one entry.
         """
-        design = keep_positions(self.design, change(self.design))
-        origin = find_lost_edit(design)
-        design = lower_design(design)
-        reason = self.shared.find_lost_content(design)
-        if origin and design == self.design:
-            reason = f"this part is derived from {describe_origin(origin)}; edit that in the file"
-        if reason:
+        design, derived = lower_edit(self.design, keep_positions(self.design, change(self.design)))
+        if reason := derived or self.shared.find_lost_content(design):
             self.shared.notice = ChangeNotice(f"Not changed: {reason}", DISK_USER, self.shared.notice.rev + 1)
             self.shared.changes.notify(self)
         else:

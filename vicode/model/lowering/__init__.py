@@ -29,6 +29,7 @@ __all__ = [
     "is_lowered",
     "lift_design",
     "lower_design",
+    "lower_edit",
     "source_path",
 ]
 
@@ -68,6 +69,14 @@ def is_lowered(design: Design) -> bool:
     """Whether a design has anything to lower."""
     has_constructs = design.latches or design.interrupts or design.competence is not None or design.layers
     return bool(has_constructs) or any(state.failed or state.origin for state in design.states) or _has_derived(design)
+
+
+def lower_edit(before: Design, after: Design) -> tuple[Design, str]:
+    """Lower an edited design; the reason is not empty if the edit was one of something derived, and is lost."""
+    origin = find_lost_edit(after)
+    design = lower_design(after)
+    is_lost = bool(origin) and design == before
+    return design, f"this part is derived from {describe_origin(origin)}; edit that in the file" if is_lost else ""
 
 
 def find_lost_edit(design: Design) -> Origin:

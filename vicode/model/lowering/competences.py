@@ -37,7 +37,7 @@ def lower_competence(design: Design) -> Design:
         State(name=DONE, final=True, origin=origin),
         State(name=FAILED_STATE, final=True, failed=True, origin=origin),
     ]
-    design = replace(design, states=tuple(states), initial=CHOOSE)
+    design = replace(design, states=tuple(states), initial=design.initial or CHOOSE)
     return _add_counters(design, steps)
 
 

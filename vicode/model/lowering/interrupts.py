@@ -95,7 +95,10 @@ def _add_variables(design: Design) -> Design:
             design = _add_state_action(add_first_action(design, reset), interrupt.do, last)
         else:
             design = add_variables(design, Declaration(name=name, type="int", initial="0", origin=origin))
-            design = _remember_source(design, interrupt, name, number)
+            # The initial state may be interrupted before it acts.
+            first = next((i for i, each in enumerate(design.states, start=1) if each.name == design.initial), 0)
+            reset = Assign(values=((name, f"{first} if component_time <= 0 else {name}"),), origin=origin)
+            design = _remember_source(add_first_action(design, reset), interrupt, name, number)
     return design
 
 

@@ -27,7 +27,7 @@ def lower_layers(design: Design) -> Design:
     )
     ways = tuple(_way_to(layer, is_lowest=layer is design.layers[0]) for layer in reversed(design.layers))
     common = replace(design.common, transitions=(*ways, *design.common.transitions))
-    design = replace(design, states=states, initial=design.layers[0].name, common=common)
+    design = replace(design, states=states, initial=design.initial or design.layers[0].name, common=common)
     for layer in design.layers[1:]:
         name = until_name(layer)
         if layer.hold and layer.when and name not in names_of(design):

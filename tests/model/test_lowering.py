@@ -1,0 +1,159 @@
+"""Constructs become plain states when a design is read, and only they are saved.
+
+What they mean is tested by tests/conformance in each language; here two are compared with programs written by hand.
+"""
+
+import random
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+
+from tests.strategies.designs import lowered_designs, written_designs
+from vicode.check import check_project
+from vicode.model.design import Design
+from vicode.model.edits import remove_states, rename_state
+from vicode.model.lowering import find_lost_edit, lift_design, lower_design, lower_edit, source_path
+from vicode.model.project import Interface, Project
+from vicode.model.rename import rename_alias
+from vicode.semantics import Interpreter
+from vicode.store import read_design, save_design
+
+INTERRUPTED = """\
+vicode: 1
+component: Player
+uses: {eyes: Eyes}
+initial: GotoA
+latches:
+  near: {on: eyes.distance < 300, off: eyes.distance > 400, hold: 0.25}
+interrupts:
+  - {do: Wait, while: [Goto*], when: eyes.person, every: 1.95}
+states:
+  GotoA: {transitions: [{to: GotoB, when: near}]}
+  GotoB: {transitions: [{to: GotoA, when: not near}]}
+  Wait: {}
+"""
+COMPETENCE = """\
+vicode: 1
+component: Fetch
+uses: {eyes: Eyes}
+competence:
+  goal: eyes.distance < 10
+  steps:
+    Look: {when: eyes.person, retries: 2}
+    Wait: {}
+"""
+EYES = "eyes: {outputs: {distance: {type: float, initial: 900}, person: bool}}"
+
+
+def read(text: str) -> Design:
+    found = read_design(text)
+    assert not found.findings
+    assert found.design is not None
+    return found.design
+
+
+def project_of(*designs: Design) -> Project:
+    eyes = read_project_component()
+    return Project(name="P", components=(eyes,), designs=designs)
+
+
+def read_project_component() -> Interface:
+    from vicode.store import read_project_file
+
+    text = f"vicode: 1\nproject: P\ncomponents:\n  {EYES.replace('eyes', 'Eyes', 1)}\n"
+    project = read_project_file(text).project
+    assert project is not None
+    return project.components[0]
+
+
+@given(written_designs)
+def test_lowering_is_undone_and_repeated_without_a_difference(design: Design) -> None:
+    lowered = lower_design(design)
+    assert lift_design(lowered) == design
+    assert lower_design(lowered) == lowered
+    assert not find_lost_edit(lowered)
+
+
+@given(lowered_designs)
+def test_a_renamed_state_leaves_a_lowered_design(design: Design) -> None:
+    for state in design.states[:1]:
+        assert not find_lost_edit(rename_state(design, state.name, "Renamed"))
+        assert not find_lost_edit(remove_states(design, {state.name}))
+
+
+def test_an_edit_of_something_derived_is_refused() -> None:
+    design = read(INTERRUPTED)
+    state = design.state("GotoA")
+    assert state is not None
+    edited = replace(design, states=tuple(replace(each, transitions=()) for each in design.states))
+    with pytest.raises(ValueError, match="derived from 'interrupts'"):
+        save_design(edited, INTERRUPTED)
+    only_derived = replace(
+        design,
+        states=tuple(
+            replace(each, transitions=each.transitions[1:]) if each is state else each for each in design.states
+        ),
+    )
+    assert lower_edit(design, only_derived) == (
+        design,
+        "this part is derived from 'interrupts' (number 1); edit that in the file",
+    )
+
+
+def test_renaming_reaches_the_constructs() -> None:
+    design = rename_state(read(INTERRUPTED), "Wait", "Stop")
+    assert "do: Stop" in save_design(design, INTERRUPTED)
+    design = rename_alias(design, "eyes", "camera")
+    saved = save_design(design, INTERRUPTED)
+    assert "on: camera.distance < 300" in saved
+    assert "when: camera.person" in saved
+    fetch = rename_state(read(COMPETENCE), "Look", "Search")
+    assert "Search: {when: eyes.person" in save_design(fetch, COMPETENCE)
+
+
+def test_findings_are_at_the_constructs() -> None:
+    text = INTERRUPTED.replace("when: eyes.person", "when: eyes.nobody").replace("on: eyes.d", "on: eyes.z")
+    found = read_design(text)
+    assert found.design is not None
+    errors = [each for each in check_project(project_of(found.design)) if each.rule.code == "E303"]
+    lines = sorted(
+        found.source_map.locate(each.subject.path, each.subject.span).line for each in errors if each.subject
+    )
+    assert lines == [6, 8]
+
+
+def test_paths_of_written_items_skip_what_is_derived() -> None:
+    design = read(INTERRUPTED)
+    assert source_path(design, ("states", "GotoA", "transitions", 1)) == ("states", "GotoA", "transitions", 0)
+    assert source_path(design, ("states", "GotoA", "transitions", 0, "then", 0)) == ("interrupts", 0)
+    assert source_path(design, ("variables", "near")) == ("latches", "near")
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_latch_and_an_interrupt_are_what_a_program_does(seed: int) -> None:
+    """The oracle: the same behavior as a loop, with the times of each state kept by hand."""
+    rng = random.Random(seed)
+    interpreter = Interpreter(project_of(read(INTERRUPTED)), "Player")
+    near, changed, state, back, again = False, -1.0, "", "", 0.0
+    for step in range(200):
+        now, distance, person = step * 0.1, rng.choice([100.0, 350.0, 500.0]), rng.random() < 0.2
+        interpreter.set_input("Eyes", "distance", distance)
+        interpreter.set_input("Eyes", "person", person)
+        if not state:
+            state = "GotoA"
+        if state == "Wait":
+            if not person:
+                state = back
+        elif person and now >= again:
+            back, state = state, "Wait"
+        elif state == "GotoA" and near:
+            state = "GotoB"
+        elif state == "GotoB" and not near:
+            state = "GotoA"
+        if changed < 0 or now >= changed + 0.25:
+            wanted = distance < 300 or (near and not distance > 400)
+            changed, near = (now, wanted) if wanted != near else (changed, near)
+        again = now + 1.95 if state == "Wait" else again
+        record = interpreter.step(round(now * 1e9))
+        assert record["tree"][0]["state"] == state, step
