@@ -11,7 +11,7 @@ from hypothesis import given
 
 from tests.strategies.designs import lowered_designs, written_designs
 from vicode.check import check_project
-from vicode.model.design import Design
+from vicode.model.design import Design, Transition
 from vicode.model.edits import remove_states, rename_state
 from vicode.model.lowering import find_lost_edit, lift_design, lower_design, lower_edit, source_path
 from vicode.model.project import Interface, Project
@@ -157,3 +157,22 @@ def test_a_latch_and_an_interrupt_are_what_a_program_does(seed: int) -> None:
         again = now + 1.95 if state == "Wait" else again
         record = interpreter.step(round(now * 1e9))
         assert record["tree"][0]["state"] == state, step
+
+
+def test_written_common_transitions_come_before_those_of_layers() -> None:
+    text = """\
+vicode: 1
+component: Rover
+uses: {eyes: Eyes}
+common: {transitions: [{to: Stop, when: eyes.person}]}
+layers:
+  Go: {}
+  Stop: {when: eyes.distance < 1}
+"""
+    design = read(text)
+    assert [(each.to, bool(each.origin)) for each in design.common.transitions if isinstance(each, Transition)] == [
+        ("Stop", False),
+        ("Stop", True),
+        ("Go", True),
+    ]
+    assert save_design(design, text) == text

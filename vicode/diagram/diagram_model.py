@@ -44,6 +44,7 @@ class DiagramNode:
 class DiagramEdge:
     """A transition or a link; `order` is the priority, 0 if there is only one.
 
+    A transition is `derived` if an interrupt, a competence or layers mean it.
     `href` is the link target, "" for none.
     """
 
@@ -56,6 +57,7 @@ class DiagramEdge:
     order: int = 0
     guard_kind: GuardKind = GuardKind.ALWAYS
     disabled: bool = False
+    derived: bool = False
     label_at: Point | None = None
     href: str = ""
 
@@ -208,6 +210,7 @@ def _transition_edges(design: Design) -> Iterator[DiagramEdge]:
             order=orders[located.source] if counts[located.source] > 1 else 0,
             guard_kind=guard_kind(located),
             disabled=not is_enabled(located, off),
+            derived=bool(transition.origin),
             label_at=transition.label_at,
         )
 

@@ -311,7 +311,7 @@ def _subtitle_text(node: DiagramNode, color: str) -> TextShape:
 def _dash(edge: DiagramEdge) -> tuple[float, ...]:
     if edge.disabled:
         return (2, 5)
-    return (6, 4) if edge.source == "common" else ()
+    return (6, 4) if edge.source == "common" or edge.derived else ()
 
 
 def _icon(kind: GuardKind, at: Point) -> Iterable[tuple[tuple[str, tuple[float, ...]], ...]]:

@@ -181,6 +181,7 @@ def _transitions(
             "of": counts[located.source],
             "disabled": not is_enabled(located, off),
             "dead": any(located.path[:length] in dead for length in range(2, len(located.path) + 1)),
+            "derived": bool(transition.origin),
             "label_at": list(transition.label_at) if transition.label_at else None,
             "kind": str(guard_kind(located)),
             "doc": "\n".join(part for part in (transition_label(located, unit), transition.doc) if part),

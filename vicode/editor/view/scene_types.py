@@ -67,6 +67,8 @@ class SceneTransition(SceneMarks):
     disabled: bool
     dead: bool
     """Whether it can never be taken."""
+    derived: bool
+    """Whether an interrupt, a competence or layers mean it."""
     label_at: list[float] | None
     kind: str
     doc: str

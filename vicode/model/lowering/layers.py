@@ -26,7 +26,7 @@ def lower_layers(design: Design) -> Design:
         for layer in design.layers
     )
     ways = tuple(_way_to(layer, is_lowest=layer is design.layers[0]) for layer in reversed(design.layers))
-    common = replace(design.common, transitions=(*ways, *design.common.transitions))
+    common = replace(design.common, transitions=(*design.common.transitions, *ways))
     design = replace(design, states=states, initial=design.initial or design.layers[0].name, common=common)
     for layer in design.layers[1:]:
         name = until_name(layer)

@@ -74,7 +74,7 @@ function drawChip(edge, { chip }, names) {
   return group;
 }
 
-const styleOf = (edge) => [edge.source === "common" ? "common-edge" : "", edge.data.disabled ? "disabled" : "", edge.data.dead ? "dead" : ""].join(" ");
+const styleOf = (edge) => [edge.source === "common" ? "common-edge" : "", edge.data.disabled ? "disabled" : "", edge.data.dead ? "dead" : "", edge.data.derived ? "derived" : ""].join(" ");
 
 /** Returns the tooltip of an edge, with its full text: the label may be truncated. */
 export function edgeTooltip(edge, { source, target }) {
