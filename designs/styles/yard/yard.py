@@ -41,6 +41,9 @@ class Yard:
 
     def _expect(self) -> None:
         """Begin to count if there is something to react to, and the rover drives ahead as if there was nothing."""
+        if self.bumped and self._waits_for != "bump":
+            # A bump is more urgent than what the rover was to react to.
+            self._waits_for = ""
         if self._waits_for or self._command[0] <= 0:
             return
         events = {"bump": self.bumped, "battery": self.battery < EMPTY, "obstacle": self.ahead < NEAR}
