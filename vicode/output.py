@@ -250,8 +250,10 @@ def _read(path: Path) -> str | None:
 
 
 def _list_sibling_sources(paths: Iterable[str], folder: Path) -> list[str]:
-    """Source files in and below the folders of `paths`."""
-    packages = sorted({path.rsplit("/", 1)[0] for path in paths if "/" in path})
+    """Source files in and below the folders of `paths`, without those of a language, which projects share."""
+    folders = sorted({path.rsplit("/", 1)[0] for path in paths if "/" in path})
+    shared = {each.split("/")[0] for each in folders if "/" in each}
+    packages = [each for each in folders if each not in shared]
     suffixes = {Path(path).suffix for path in paths}
     siblings = {
         file.relative_to(folder).as_posix()

@@ -181,3 +181,23 @@ def test_what_one_language_cannot_say_stops_that_alone(
     assert Path("both/generated/python/both/one.py").exists()
     assert not Path("both/generated/xabsl").exists()
     assert vicode("run", "both/one.yaml", "--ticks", "2", "--plain") == 0
+
+
+@pytest.mark.parametrize("language", ["python", "cpp", "xabsl", "javascript"])
+def test_projects_with_one_output_folder_keep_the_files_of_each_other(
+    tmp_path: Path, language: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("one", "two"):
+        folder = tmp_path / name
+        folder.mkdir()
+        (folder / "project.yaml").write_text(
+            f"vicode: 1\nproject: {name.title()}\nlanguages: [{language}]\ngenerated: ../generated\n"
+        )
+        (folder / "blinker.yaml").write_text(
+            f"vicode: 1\ncomponent: {name.title()}Blinker\ninitial: Off\nstates: {{Off: {{}}}}\n"
+        )
+    for name in ("one", "two", "one"):
+        assert vicode("gen", str(tmp_path / name)) == 0
+    assert "deleted" not in capsys.readouterr().out
+    for name in ("one", "two"):
+        assert vicode("gen", "--check", str(tmp_path / name)) == 0

@@ -63,9 +63,9 @@ def test_only_generated_sources_beside_ours_are_stale(tmp_path: Path) -> None:
 
 
 def test_applying_makes_the_folder_agree(tmp_path: Path) -> None:
-    write(tmp_path, "p/gone.py", HEADER)
-    write(tmp_path, "p/a.py", HEADER + "old\n")
-    files = [OutputFile(path="p/a.py", text=HEADER), OutputFile(path="p/sub/b.py", text=HEADER + "é\n")]
+    write(tmp_path, "python/p/gone.py", HEADER)
+    write(tmp_path, "python/p/a.py", HEADER + "old\n")
+    files = [OutputFile(path="python/p/a.py", text=HEADER), OutputFile(path="python/p/sub/b.py", text=HEADER + "é\n")]
     touched = output.apply_diffs(compare(files, tmp_path), tmp_path)
     assert [path.name for path in touched] == ["a.py", "gone.py", "b.py"]
     assert set(statuses(files, tmp_path).values()) == {FileStatus.UNCHANGED}
