@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from vicode.generators import generate
-from vicode.model.design import Declaration, Design, Guard, State, Transition, Use
+from vicode.model.design import Declaration, Design, Guard, Interrupt, State, Transition, Use
+from vicode.model.lowering import lower_design
 from vicode.model.project import WORLD, Interface, Project
 from vicode.output import OutputFile, compare_files
 from vicode.sync import Choices, FileEdits, OutsideReader, find_file_edits
@@ -88,6 +89,18 @@ def test_an_edit_is_read_and_reported(tmp_path: Path) -> None:
     }
     assert (reading.file, reading.is_read, reading.is_empty) == (files[0], True, False)
     assert (reading.leftover, reading.reasons, reading.conflicts, reading.settled) == ("", (), (), ())
+
+
+def test_an_edit_of_something_derived_is_left_as_a_patch(tmp_path: Path) -> None:
+    interrupted = replace(lamp(), interrupts=(Interrupt(do="B", when="eyes.width > 9", then="restart"),))
+    now = project(lower_design(interrupted))
+    reader, files = read(now, tmp_path, (r"width(\)?) > 9", r"width\1 > 8"), (r"distance(\)?) > 1", r"distance\1 > 2"))
+    designs, (reading,) = reader.read_all(now, files)
+    assert (designs, reading.edits) == ({}, ())
+    assert reading.reasons == (
+        "it changes a part that is derived from 'interrupts' (number 1); change that in the design",
+    )
+    assert len(re.findall(r"^\+.*> [28]", reading.leftover, re.MULTILINE)) == 3
 
 
 def test_what_no_design_expresses_is_left_as_a_patch(tmp_path: Path) -> None:

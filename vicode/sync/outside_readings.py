@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vicode.model.design import Design
+from vicode.model.lowering import describe_origin, find_lost_edit
 from vicode.model.project import Project
 from vicode.sync.choices import NO_CHOICES, Choices, SettledConflict
 from vicode.sync.file_edits import FileEdits, History
@@ -83,6 +84,7 @@ class OutsideReader:
     def read(self, project: Project, file: FileEdits) -> tuple[Design | None, OutsideReading]:
         """Interpret one file; returns the changed design."""
         from vicode.sync.interpret import INTERPRETERS  # noqa: PLC0415 - most files have no such edits
+        from vicode.sync.interpret.leftover import make_patch  # noqa: PLC0415
 
         rebased = rebase_outside_edits(
             replace(file, new=self.texts[file.path]), next(iter(self.history(file.path)), None)
@@ -96,7 +98,17 @@ class OutsideReader:
         )
         shown = Path(self.prefix, file.path).as_posix()
         interpret = INTERPRETERS[file.language]
-        result = interpret(project, file.component, generated=self.texts[file.path], edited=edited, file=shown)
+        generated = self.texts[file.path]
+        result = interpret(project, file.component, generated=generated, edited=edited, file=shown)
+        if origin := find_lost_edit(result.design):
+            result = replace(
+                result,
+                edits=(),
+                leftover=make_patch(generated, edited, shown),
+                reasons=(
+                    f"it changes a part that is derived from {describe_origin(origin)}; change that in the design",
+                ),
+            )
         reading = OutsideReading(
             file=file,
             edits=result.edits,
