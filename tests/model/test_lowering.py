@@ -15,7 +15,7 @@ from vicode.model.design import Design, Transition
 from vicode.model.edits import remove_states, rename_state
 from vicode.model.lowering import find_lost_edit, lift_design, lower_design, lower_edit, source_path
 from vicode.model.project import Interface, Project
-from vicode.model.rename import rename_alias
+from vicode.model.rename import SymbolRef, rename_alias, rename_symbol
 from vicode.semantics import Interpreter
 from vicode.store import read_design, save_design
 
@@ -108,6 +108,12 @@ def test_renaming_reaches_the_constructs() -> None:
     saved = save_design(design, INTERRUPTED)
     assert "on: camera.distance < 300" in saved
     assert "when: camera.person" in saved
+    renamed = rename_symbol(
+        project_of(read(INTERRUPTED)), SymbolRef(component="Player", section="variables", name="near"), "close"
+    )
+    saved = save_design(renamed.designs[0], INTERRUPTED)
+    assert "close: {on:" in saved
+    assert "when: not close" in saved
     fetch = rename_state(read(COMPETENCE), "Look", "Search")
     assert "Search: {when: eyes.person" in save_design(fetch, COMPETENCE)
 

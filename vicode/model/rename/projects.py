@@ -135,6 +135,9 @@ def _rename_declaration(holder: _Holder, symbol: SymbolRef, new: str) -> _Holder
         case "outputs":
             return replace(holder, outputs=_rename_in_list(holder.outputs, old, new))
         case _:
+            if isinstance(holder, Design):
+                latches = (replace(each, name=new) if each.name == old else each for each in holder.latches)
+                holder = replace(holder, latches=tuple(latches))
             return replace(holder, variables=_rename_in_list(holder.variables, old, new))
 
 
