@@ -26,6 +26,7 @@ COMMANDS = {
         ("diff", "HEAD~2...HEAD", "--", "lamps/lamp.yaml"),
     ),
     "vicode/services/design_diff/revision_search.py": (("show", "abcdef", "lamps"), ("show", "000000")),
+    "vicode/services/design_version.py": (("tournament", "HEAD~1:lamps", "lamps", "--out", "tournament"),),
     "vicode/services/run_preparation.py": (("run", "lamps/lamp.yaml", "--ticks", "1", "--trace", "run.trace"),),
     "vicode/cli/merge.py": (("merge", "--generated", "--path=lamps/generated/lamp.py", "base", "ours", "theirs"),),
     "vicode/services/tracked_projects.py": (

@@ -21,6 +21,8 @@ ELSEWHERE = {
     ("services/imported_behavior/updated_files.py", "read_text"): "a record in JSON",
     ("cli/xabsl_diff.py", "read_text"): "a table of inputs",
     ("services/imported_behavior/cpp_sources.py", "decode"): "sources in C++, which are only read",
+    ("services/imported_behavior/other_tools.py", "decode"): "files of other tools, which are only read",
+    ("importers/bica.py", "decode"): "sources in C++, which are only read",
 }
 OTHERS = (
     "cli/bridge_behaviors.py",

@@ -71,11 +71,7 @@ def describe_fields(record: Any, apart: Collection[str] = ()) -> Iterator[str]:
     for field in fields(record):
         value = getattr(record, field.name)
         default = field.default_factory() if field.default_factory is not MISSING else field.default
-        is_left_out = (
-            field.name in apart
-            or field.name in _NOT_IN_WORDS
-            or any(is_dataclass(each) and not isinstance(each, Call) for each in _as_tuple(value))
-        )
+        is_left_out = field.name in apart or field.name in _NOT_IN_WORDS or any(map(is_dataclass, _as_tuple(value)))
         text = describe_value(value)
         if text and value != default and not is_left_out:
             word = field_word(type(record), field.name)
@@ -127,7 +123,12 @@ def describe_constructs(design: Design) -> Iterator[str]:
 
 
 def _describe_construct(title: str, construct: object, *apart: str) -> str:
-    return f"{title}: {'; '.join(describe_fields(construct, apart))}"
+    return f"{title}: {_describe_parts(construct, *apart)}"
+
+
+def _describe_parts(construct: object, *apart: str) -> str:
+    modulates = describe_value(getattr(construct, "modulates", ()))
+    return "; ".join((*describe_fields(construct, apart), *((f"modulates {modulates}",) if modulates else ())))
 
 
 def describe_code(code: Code | None) -> str:
@@ -174,7 +175,7 @@ def _describe_record(value: object) -> str:
         case Call():
             return f"{value.alias}({_describe_pairs(value.arguments)})"
         case Competence():
-            steps = (f"{each.name} ({'; '.join(describe_fields(each))})" for each in value.steps)
+            steps = (f"{each.name} ({_describe_parts(each)})" for each in value.steps)
             return f"{'; '.join(describe_fields(value))}; steps {', '.join(steps)}"
         case _:
             return str(value)

@@ -159,7 +159,9 @@ def _origin_of_item(owner: object, rest: DesignPath) -> Origin:
 
 def _count_derived(owner: object, key: object, index: int) -> int:
     """How many items before an index are derived."""
-    items: tuple[Action | Decision, ...] = getattr(owner, str(key), ())
+    if key not in ("actions", "enter", "leave", "transitions"):
+        return 0
+    items: tuple[Action | Decision, ...] = getattr(owner, str(key))
     return sum(1 for each in items[:index] if _origin(each))
 
 

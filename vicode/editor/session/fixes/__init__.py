@@ -43,6 +43,7 @@ UNFIXABLE: Mapping[str, str] = {
     "D425": "where to step the component is not certain",
     "D435": "which of the guards to change is not certain",
     **dict.fromkeys(("P214", "D440", "D441", "D442", "D443", "D444", "D445", "D446"), _AMBIGUOUS),
+    **dict.fromkeys(("D447", "D448", "D449", "D450", "D451"), _AMBIGUOUS),
     "P215": "there is nothing wrong in the designs",
     **dict.fromkeys(("D436", "D437"), "which robot should act differently is not certain"),
     **dict.fromkeys(("G501", "G502", "G503", "G504", "G505", "G506"), "Generate shows and writes generated files"),
