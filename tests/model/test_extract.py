@@ -22,6 +22,7 @@ from vicode.model.design import (
     Declaration,
     Design,
     Guard,
+    Latch,
     NeverProperty,
     RunCode,
     State,
@@ -268,6 +269,7 @@ CODE = RunCode(code=Code(texts=(("python", "self.go()"),)))
             "A uses 'n', which X sets",
         ),
         (plain(X, replace(A, actions=(CODE,)), members=CODE.code), "the code of A may use 'members'"),
+        (plain(X, A, latches=(Latch(name="late", on="state_time > 1"),)), "the design has latches"),
         (plain(X, A, properties=(NeverProperty(never="A"),)), "a property of Player names the state A"),
         (plain(replace(X, requires=("eyes",)), replace(A, requires=("eyes",))), ""),
         (
@@ -317,6 +319,7 @@ def test_an_edited_component_is_inlined_with_its_edits() -> None:
         ({"resume": True}, "differ in 'resume'"),
         ({"parameters": (NUMBER,)}, "Part has parameters"),
         ({"common": CommonSection(actions=(COUNT,))}, "Part has a common section"),
+        ({"latches": (Latch(name="late", on="state_time > 1"),)}, "Part has latches"),
         ({"initial": "A"}, "the behavior would change"),
         ({"states": extracted().component.states[:-1]}, "A: there is no state 'ToX'"),
     ],

@@ -11,6 +11,7 @@ from hypothesis import given
 
 from tests.strategies.designs import lowered_designs, written_designs
 from vicode.check import check_project
+from vicode.findings import Severity
 from vicode.model.design import Design, Transition
 from vicode.model.edits import remove_states, rename_state
 from vicode.model.lowering import find_lost_edit, lift_design, lower_design, lower_edit, source_path
@@ -182,3 +183,51 @@ layers:
         ("Go", True),
     ]
     assert save_design(design, text) == text
+
+
+def test_an_edit_of_written_and_derived_parts_is_refused_as_a_whole() -> None:
+    design = read(INTERRUPTED)
+    emptied = replace(design, doc="new", states=tuple(replace(each, transitions=()) for each in design.states))
+    assert lower_edit(design, emptied)[0] == design
+    state = design.state("GotoA")
+    assert state is not None
+    pasted = replace(design, states=(*design.states, replace(state, name="GotoC")))
+    lowered, reason = lower_edit(design, pasted)
+    assert (lowered.states[-1].name, reason) == ("GotoC", "")
+    assert not find_lost_edit(lowered)
+
+
+def test_conditions_may_be_conditional_expressions() -> None:
+    text = """\
+vicode: 1
+component: Player
+uses: {eyes: Eyes}
+latches: {near: {on: true if eyes.person else false, off: false if eyes.person else true, hold: 1}}
+layers:
+  Go: {}
+  Stop: {when: eyes.person if eyes.distance > 1 else false, for: 1}
+"""
+    assert [each for each in check_project(project_of(read(text))) if each.severity is Severity.ERROR] == []
+
+
+def test_a_state_handles_one_interrupt() -> None:
+    text = INTERRUPTED.replace("states:", "  - {do: Wait, when: near, then: restart}\nstates:")
+    found = [each for each in check_project(project_of(read(text))) if each.severity is Severity.ERROR]
+    assert [(each.rule.code, each.subject.path) for each in found if each.subject] == [
+        ("D447", ("interrupts", 1, "do"))
+    ]
+
+
+def test_who_was_not_interrupted_does_not_resume() -> None:
+    """`Wait` is also reached by a common transition, from a state that the interrupt leaves alone."""
+    text = INTERRUPTED.replace(
+        "states:", "common: {transitions: [{to: Wait, when: eyes.distance < 1}]}\nstates:"
+    ).replace("  Wait: {}", "  Wait: {transitions: [{to: Rest, after: 0.15}]}\n  Rest: {}")
+    text = text.replace("transitions: [{to: GotoB, when: near}]", "transitions: [{to: Rest, after: 0.15}]")
+    interpreter = Interpreter(project_of(read(text)), "Player")
+    states = []
+    for step in range(8):
+        interpreter.set_input("Eyes", "person", value=False)
+        interpreter.set_input("Eyes", "distance", 0.0 if step == 4 else 900.0)
+        states.append(interpreter.step(step * 100_000_000)["tree"][0]["state"])
+    assert states == ["GotoA", "GotoA", "Rest", "Rest", "Wait", "Wait", "Rest", "Rest"]

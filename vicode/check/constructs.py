@@ -13,12 +13,13 @@ from vicode.model.lowering import (
     find_origin,
     find_target,
     interrupted_states,
+    is_handled_before,
     lift_design,
 )
 
 
 def merge_derived(design: Design, findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """Report each error in what is derived once, and no warnings: they are about what nobody wrote."""
+    """Report each error in what is derived once, and no warnings, as they are not about the text of the design."""
     found = [(each, find_origin(design, each.subject.path) if each.subject else ()) for each in findings]
     said = {(each.rule.code, each.message) for each, origin in found if not origin}
     kept: list[Finding] = []
@@ -40,6 +41,10 @@ def find_bad_interrupts(context: RuleContext) -> Iterator[Finding]:
             message = f"there is no state '{interrupt.do}'"
             yield context.make_finding("D447", (*path, "do"), message, did_you_mean(interrupt.do, names))
             continue
+        if is_handled_before(design, number):
+            message = f"'{interrupt.do}' is already the state of another interrupt"
+            fix = "combine their conditions with 'or', or add a state"
+            yield context.make_finding("D447", (*path, "do"), message, fix)
         if interrupt.do == design.initial:
             message = f"'{interrupt.do}' is the initial state, which no interrupt precedes"
             yield context.make_finding("D447", (*path, "do"), message, "add a state for the interrupt")

@@ -25,6 +25,7 @@ from vicode.model.design import (
 )
 from vicode.model.edits import replace_in_frames, unique_name
 from vicode.model.fragments import references_alias, references_name
+from vicode.model.lowering import is_lowered
 from vicode.model.names import snake_case
 from vicode.model.traversal import has_code, iter_actions, iter_code, iter_expressions, iter_transitions
 
@@ -161,6 +162,9 @@ def _find_problems(cut: _Cut) -> Iterator[str]:
     design = cut.design
     if not cut.inside:
         yield "select the states to extract"
+        return
+    if is_lowered(design):
+        yield "the design has latches, interrupts, a competence, layers or failed states"
         return
     if design.common.transitions or design.common.actions:
         yield "the common section applies to each state: the component would work before it"

@@ -11,6 +11,7 @@ from vicode.model.decisions import retarget_all
 from vicode.model.design import Assign, Call, Design, State, Transition, Use
 from vicode.model.edits import replace_in_frames, unique_name
 from vicode.model.extract import extract_component
+from vicode.model.lowering import is_lowered
 from vicode.model.traversal import iter_actions, iter_transitions
 
 
@@ -77,6 +78,9 @@ def _find_problem(design: Design, alias: str, component: Design) -> str:
     for key in ("frequency_hz", "resume", "arithmetic", "time_unit"):
         if getattr(design, key) != getattr(component, key):
             return f"{name} and {design.component} differ in '{key.removesuffix('_hz')}'"
+    if is_lowered(design) or is_lowered(component):
+        whose = name if is_lowered(component) else design.component
+        return f"{whose} has latches, interrupts, a competence, layers or failed states"
     if component.common.actions or component.common.transitions:
         return f"{name} has a common section"
     if component.properties or component.parameters:

@@ -3,17 +3,24 @@
 Generators, analysis, simulator, diagrams and the live view know plain state machines only. `lower_design` adds to a
 design what these constructs mean, and marks each addition with its `origin`; `lift_design` removes the additions, so
 that only the constructs are saved. A design is lowered when it is read, and again after each edit. An edit of an
-addition would be lost: `find_lost_edit` tells of it.
+addition would be lost; `find_lost_edit` finds it, and it is refused.
 """
 
 from dataclasses import replace
 from itertools import zip_longest
+from typing import Any
 
 from vicode.findings import DesignPath
 from vicode.model.design import Action, Call, Decision, Declaration, Design, Origin, RunCode, State, Stay
 from vicode.model.lowering.competences import COMPETENCE_STATES, LATEST, lower_competence, tries_name
 from vicode.model.lowering.ends import FAILED, lower_ends
-from vicode.model.lowering.interrupts import find_target, interrupt_names, interrupted_states, lower_interrupts
+from vicode.model.lowering.interrupts import (
+    find_target,
+    interrupt_names,
+    interrupted_states,
+    is_handled_before,
+    lower_interrupts,
+)
 from vicode.model.lowering.latches import latch_names, lower_latches
 from vicode.model.lowering.layers import lower_layers, until_name
 
@@ -26,6 +33,7 @@ __all__ = [
     "find_origin",
     "find_target",
     "interrupted_states",
+    "is_handled_before",
     "is_lowered",
     "lift_design",
     "lower_design",
@@ -72,11 +80,24 @@ def is_lowered(design: Design) -> bool:
 
 
 def lower_edit(before: Design, after: Design) -> tuple[Design, str]:
-    """Lower an edited design; the reason is not empty if the edit was one of something derived, and is lost."""
+    """Lower an edited design; if the edit changes something derived, return the design before it and the reason."""
     origin = find_lost_edit(after)
     design = lower_design(after)
-    is_lost = bool(origin) and design == before
-    return design, f"this part is derived from {describe_origin(origin)}; edit that in the file" if is_lost else ""
+    if not origin or (design != before and _keeps_derived(before, after)):
+        return design, ""
+    return before, f"this part is derived from {describe_origin(origin)}; edit that in the file"
+
+
+def _keeps_derived(before: Design, after: Design) -> bool:
+    """Whether what is derived is the same where it was. New states may have any; positions are not compared."""
+
+    def derived(design: Design, names: set[str]) -> list[object]:
+        states = (replace(each, at=None) for each in design.states if each.name in names)
+        return _derived_parts(replace(design, states=tuple(sorted(states, key=lambda each: each.name))))
+
+    names = {each.name for each in before.states} & {each.name for each in after.states}
+    removed = (each for each in before.states if each.name not in names)
+    return derived(before, names) == derived(after, names) and not any(each.origin for each in removed)
 
 
 def find_lost_edit(design: Design) -> Origin:
@@ -105,7 +126,7 @@ def derived_variables(design: Design) -> tuple[tuple[str, Origin], ...]:
 
 
 def describe_origin(origin: Origin) -> str:
-    """A construct as the texts of messages name it: "latches: near", "interrupts: 2", "competence"."""
+    """A construct as messages name it: "'near' in 'latches'", "'interrupts' (number 2)", "'competence'"."""
     match origin:
         case ("states", name, _key):
             return f"'failed' of the state '{name}'"
@@ -195,7 +216,7 @@ def _has_derived(design: Design) -> bool:
     return any(_origin(each) for each in _derived_parts(design))
 
 
-def _derived_parts(design: Design) -> list[Action | Decision | Declaration | State]:
+def _derived_parts(design: Design) -> list[Any]:
     common = design.common
     parts: list[Action | Decision | Declaration | State] = [*design.outputs, *design.variables]
     parts += [*common.actions, *common.transitions]

@@ -78,8 +78,7 @@ def _way_to(step: CompetenceStep) -> Transition:
 def _step_state(design: Design, step: CompetenceStep, urgent: tuple[Decision, ...]) -> State:
     assert design.competence is not None
     origin = ("competence", "steps", step.name)
-    calls_designs = bool(step.modulates)
-    ends = [Transition(to=CHOOSE, guard=Guard(when="action_done"), origin=origin)] if calls_designs else []
+    ends = [Transition(to=CHOOSE, guard=Guard(when="action_done"), origin=origin)] if step.modulates else []
     ends += [Transition(to=CHOOSE, guard=Guard(when=negated(step.when)), origin=origin)] if step.when else []
     return State(
         name=step.name,

@@ -44,15 +44,20 @@ def lower_interrupts(design: Design) -> Design:
 
 
 def interrupted_states(design: Design, number: int) -> tuple[State, ...]:
-    """The states that an interrupt leaves; none if the state that handles it does not exist."""
+    """The states that an interrupt leaves; none if the state that handles it is missing or handles another one."""
     interrupt = design.interrupts[number]
-    if design.state(interrupt.do) is None:
+    if design.state(interrupt.do) is None or is_handled_before(design, number):
         return ()
     urgent = {each.do for each in design.interrupts[: number + 1]}
     candidates = (each for each in design.states if each.name not in urgent and not each.disabled)
     if not interrupt.during:
         return tuple(each for each in candidates if not each.final)
     return tuple(each for each in candidates if any(fnmatchcase(each.name, name) for name in interrupt.during))
+
+
+def is_handled_before(design: Design, number: int) -> bool:
+    """Whether the state of an interrupt handles an earlier one: it would not be clear which of them has ended."""
+    return design.interrupts[number].do in {each.do for each in design.interrupts[:number]}
 
 
 def find_target(design: Design, interrupt: Interrupt, state: State) -> str:
@@ -73,14 +78,14 @@ def find_target(design: Design, interrupt: Interrupt, state: State) -> str:
 
 
 def interrupt_names(design: Design) -> tuple[tuple[str, int], ...]:
-    """The names of the variables that interrupts need, each with the number of the first interrupt that needs it."""
-    found: dict[str, int] = {}
+    """The names of the variables that interrupts need, each with the number of its interrupt."""
+    found: list[tuple[str, int]] = []
     for number, interrupt in enumerate(design.interrupts):
-        if _remembers(interrupt):
-            found.setdefault(_from_name(interrupt), number)
-        if interrupt.every:
-            found.setdefault(_again_name(interrupt), number)
-    return tuple(found.items())
+        if is_handled_before(design, number):
+            continue
+        found += [(_from_name(interrupt), number)] if _remembers(interrupt) else []
+        found += [(_again_name(interrupt), number)] if interrupt.every else []
+    return tuple(found)
 
 
 def _add_variables(design: Design) -> Design:
@@ -108,18 +113,11 @@ def _add_state_action(design: Design, name: str, action: Assign) -> Design:
 
 
 def _remember_source(design: Design, interrupt: Interrupt, variable: str, number: int) -> Design:
-    """Let each interrupted state set its number; others that go to the handling state set 0."""
-    left: set[str] = set()
-    for other, each in enumerate(design.interrupts):
-        if each.do == interrupt.do:
-            left |= {state.name for state in interrupted_states(design, other)}
+    """Let each interrupted state set its number, and the others, from which there is no way back, 0."""
+    left = {state.name for state in interrupted_states(design, number)}
 
     def remember(index: int, state: State) -> State:
-        goes_there = any(
-            isinstance(each.decision, Transition) and each.decision.to == interrupt.do
-            for each in iter_state_decisions(state)
-        )
-        if state.name == interrupt.do or (state.name not in left and not goes_there):
+        if state.name == interrupt.do:
             return state
         # A state that can be interrupted may also go there by its own transition: then it comes back as well.
         values = ((variable, str(index if state.name in left else 0)),)

@@ -32,7 +32,7 @@ def lower_layers(design: Design) -> Design:
         name = until_name(layer)
         if layer.hold and layer.when and name not in names_of(design):
             origin = ("layers", layer.name)
-            value = f"component_time + {layer.hold} if {layer.when} else {since_restart(name)}"
+            value = f"component_time + {layer.hold} if ({layer.when}) else {since_restart(name)}"
             design = add_first_action(design, Assign(values=((name, value),), origin=origin))
             design = add_time(design, name, origin)
     return design
