@@ -20,7 +20,7 @@ from vicode.editor.view.unfinished import unfinished_states
 from vicode.findings import Finding
 from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Design
-from vicode.model.lowering import lower_edit
+from vicode.model.lowering import lower_design, lower_edit
 from vicode.model.merge import Conflict, merge_designs
 from vicode.model.paths import describe_path
 from vicode.model.project import Project
@@ -233,7 +233,8 @@ class DocumentSession:
             change: Maps the current design to the new one.
             coalesce_key: Consecutive edits of a user with the same key, such as a field being typed in, are one entry.
         """
-        design, derived = lower_edit(self.design, keep_positions(self.design, change(self.design)))
+        design, derived = lower_edit(self.design, change(self.design))
+        design = lower_design(keep_positions(self.design, design))
         if reason := derived or self.shared.find_lost_content(design):
             self.shared.notice = ChangeNotice(f"Not changed: {reason}", DISK_USER, self.shared.notice.rev + 1)
             self.shared.changes.notify(self)
@@ -269,8 +270,7 @@ class DocumentSession:
     def undo_compound(self, compound: CompoundEdit) -> str:
         """Undo an edit of several files, and record that if this history contains it; returns an error message."""
         error = compound.undo(self.user_id)
-        entries = reversed(self.history.compound_entries())
-        undone = next((entry for entry in entries if entry.compound == compound), None)
+        undone = next((each for each in reversed(self.history.compound_entries()) if each.compound == compound), None)
         if not error and undone is not None:
             label = texts.undo_label(compound.label)
             self._append(replace(self._new_entry(label, self.design), undone_id=undone.id))

@@ -89,10 +89,10 @@ def lower_edit(before: Design, after: Design) -> tuple[Design, str]:
 
 
 def _keeps_derived(before: Design, after: Design) -> bool:
-    """Whether what is derived is the same where it was. New states may have any; positions are not compared."""
+    """Whether what is derived is the same where it was. New states may have any."""
 
     def derived(design: Design, names: set[str]) -> list[object]:
-        states = (replace(each, at=None) for each in design.states if each.name in names)
+        states = (each for each in design.states if each.name in names)
         return _derived_parts(replace(design, states=tuple(sorted(states, key=lambda each: each.name))))
 
     names = {each.name for each in before.states} & {each.name for each in after.states}
