@@ -68,6 +68,9 @@ def test_fields_follow_the_types_of_their_keys() -> None:
         (("cover", "note"), "Note", ""),
     ]
     assert form_fields.other_nodes(Gadget(), noun="component") == ()
+    # Those of project.yaml take the whole width of their cards.
+    shared = form_fields.other_nodes(Gadget(spare_parts=2), is_committed=True)
+    assert {getattr(node, "is_wide", True) for node in shared} == {True}
 
 
 @pytest.mark.parametrize(

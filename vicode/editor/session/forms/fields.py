@@ -224,7 +224,8 @@ def other_nodes(
     """The fields of an owner at `base` that its form has not placed; `noun` is the name of its record in the format."""
     kind: Any = type(owner)
     wanted = (".".join(map(str, path)) for path in _other_fields(kind, noun))
-    return tuple(field_node(owner, name, base, is_committed=is_committed) for name in wanted)
+    # Those of the project are in cards with two columns.
+    return tuple(field_node(owner, name, base, is_committed=is_committed, is_wide=is_committed) for name in wanted)
 
 
 _IN_NO_FORM = ("id", "alias", "component", "clock", "generated", "live", "xabsl_encoding")
