@@ -231,3 +231,27 @@ def test_who_was_not_interrupted_does_not_resume() -> None:
         interpreter.set_input("Eyes", "distance", 0.0 if step == 4 else 900.0)
         states.append(interpreter.step(step * 100_000_000)["tree"][0]["state"])
     assert states == ["GotoA", "GotoA", "Rest", "Rest", "Wait", "Wait", "Rest", "Rest"]
+
+
+def test_an_interrupted_interrupt_finds_the_way_back() -> None:
+    text = """\
+vicode: 1
+component: Player
+uses: {eyes: Eyes}
+initial: Go
+interrupts:
+  - {do: Wait, when: eyes.person}
+  - {do: Avoid, when: eyes.distance < 300}
+states:
+  Rest: {}
+  Go: {}
+  Wait: {}
+  Avoid: {}
+"""
+    interpreter = Interpreter(project_of(read(text)), "Player")
+    states = []
+    for step, (person, distance) in enumerate([(0, 900), (0, 100), (1, 100), (1, 100), (0, 100), (0, 900), (0, 900)]):
+        interpreter.set_input("Eyes", "person", value=bool(person))
+        interpreter.set_input("Eyes", "distance", float(distance))
+        states.append(interpreter.step(step * 100_000_000)["tree"][0]["state"])
+    assert states == ["Go", "Avoid", "Wait", "Wait", "Avoid", "Go", "Go"]

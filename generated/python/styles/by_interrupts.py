@@ -85,8 +85,6 @@ class ByInterrupts(Component):
                 self._change_to("Charge")
                 return
         self._act_common()
-        self.avoid_from = 0
-        self.charge_from = 0
         self._call(self.drive, speed=-0.3, turn=0.0)
 
     def _in_charge(self, decide: bool = True) -> None:
@@ -102,6 +100,5 @@ class ByInterrupts(Component):
                     self._change_to("Avoid")
                     return
         self._act_common()
-        self.avoid_from = 0
         self.back_off_from = 4
         self._call(self.drive, speed=0.0, turn=0.0)

@@ -103,7 +103,7 @@ def _add_variables(design: Design) -> Design:
             # The initial state may be interrupted before it acts.
             first = next((i for i, each in enumerate(design.states, start=1) if each.name == design.initial), 0)
             reset = Assign(values=((name, f"{first} if component_time <= 0 else {name}"),), origin=origin)
-            design = _remember_source(add_first_action(design, reset), interrupt, name, number)
+            design = _remember_source(add_first_action(design, reset), name, number)
     return design
 
 
@@ -112,12 +112,16 @@ def _add_state_action(design: Design, name: str, action: Assign) -> Design:
     return design if state is None else change_state(design, replace(state, actions=(action, *state.actions)))
 
 
-def _remember_source(design: Design, interrupt: Interrupt, variable: str, number: int) -> Design:
-    """Let each interrupted state set its number, and the others, from which there is no way back, 0."""
+def _remember_source(design: Design, variable: str, number: int) -> Design:
+    """Let each interrupted state set its number, and the others, from which there is no way back, 0.
+
+    The state itself keeps the number, and those above do: they may interrupt it and come back.
+    """
     left = {state.name for state in interrupted_states(design, number)}
+    keeping = {each.do for each in design.interrupts[: number + 1]}
 
     def remember(index: int, state: State) -> State:
-        if state.name == interrupt.do:
+        if state.name in keeping:
             return state
         # A state that can be interrupted may also go there by its own transition: then it comes back as well.
         values = ((variable, str(index if state.name in left else 0)),)
