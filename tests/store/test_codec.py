@@ -91,6 +91,9 @@ def _entry_fields(schema: ValueSchema) -> Iterator[str]:
         return
     if schema.wrapper is not None:
         yield "Code.texts"
+    if isinstance(schema.entry_model, type):
+        yield f"{schema.entry_model.__name__}.{schema.name_field}"
+        yield f"{schema.entry_model.__name__}.{schema.value_field}"
     if isinstance(schema.value_schema, RecordSchema):
         for model in (schema.value_schema.model, *schema.value_schema.variants.values()):
             if model is not None:

@@ -117,6 +117,7 @@ def write_site(project: Project) -> object:
 
 
 _FOR_RUNS = "for runs of the project"
+_DERIVED = "positions of what a competence or layers mean, which this design has not"
 _IN_FILE = "edited in project.yaml"
 _IN_XABSL = "shown in the place of the name if the project comes from XABSL"
 NOT_SHOWN: Mapping[Callable[[Project], object], Mapping[str, str]] = {
@@ -124,6 +125,7 @@ NOT_SHOWN: Mapping[Callable[[Project], object], Mapping[str, str]] = {
         "*.id": "written by the editor",
         **dict.fromkeys(("Stay.*", "DecisionGroup.*"), "labels show guards only; other decisions are not drawn"),
         **dict.fromkeys(("Design.*", "Declaration.*", "*Property.*"), "the form of the design shows them"),
+        "DerivedPosition.*": _DERIVED,
         **dict.fromkeys(("Latch.*", "Interrupt.*", "Competence*.*", "Layer.*"), "what they mean is drawn"),
         **dict.fromkeys(("Project.*", "Enumeration.*", "Interface.*", "Agent.*"), "the diagram is that of a design"),
         **dict.fromkeys(
@@ -133,6 +135,7 @@ NOT_SHOWN: Mapping[Callable[[Project], object], Mapping[str, str]] = {
     write_forms: {
         "*.id": "written by the editor",
         **dict.fromkeys(("*.at", "*.label_at"), "moved in the diagram"),
+        **dict.fromkeys(("Design.positions", "DerivedPosition.name"), _DERIVED),
         **dict.fromkeys(
             ("Project.clock", "Project.generated", "Project.live", "Project.xabsl_encoding", "Project.profiles"),
             _IN_FILE,
@@ -143,6 +146,7 @@ NOT_SHOWN: Mapping[Callable[[Project], object], Mapping[str, str]] = {
     },
     write_site: {
         "*.id": "written by the editor",
+        **dict.fromkeys(("Design.positions", "DerivedPosition.*"), _DERIVED),
         **dict.fromkeys(("State.xabsl_name", "Declaration.xabsl_name"), _IN_XABSL),
         **dict.fromkeys(("Agent.xabsl_name", "Enumeration.xabsl_elements"), "of interest to the XABSL engine only"),
         **dict.fromkeys(("Project.world", "Project.clock", "Project.profiles"), _FOR_RUNS),

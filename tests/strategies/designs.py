@@ -18,6 +18,7 @@ from vicode.model.design import (
     Decision,
     DecisionGroup,
     Declaration,
+    DerivedPosition,
     Design,
     DiagramFrame,
     DiagramNote,
@@ -230,6 +231,7 @@ written_designs = st.builds(
     interrupts=_tuples(interrupts, 1),
     competence=st.none() | st.none() | competences,
     layers=_unique(layers, "name", 1),
+    positions=_unique(st.builds(DerivedPosition, name=names, at=points.filter(bool)), "name", 2),
 )
 """Designs with all keys, as files say them: without anything derived."""
 lowered_designs = written_designs.map(lower_design)

@@ -4,15 +4,15 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 
+from vicode.diagram.drawn_transitions import draw_transitions, has_work, shows_common
 from vicode.diagram.frames import TITLE_HEIGHT, drawn_frames, frame_padding, frame_rect
 from vicode.diagram.layered_layout import NodeLayout, complete_layout, note_position
 from vicode.diagram.node_geometry import COMMON_SIZE, Size, note_size, state_size, use_size
 from vicode.diagram.spatial_index import Rect
 from vicode.diagram.text_metrics import NAME_FONT, SMALL_FONT, shorten, text_width
-from vicode.diagram.transition_labels import GuardKind, guard_kind, short_transition_label, transition_label
-from vicode.model.design import COMMON, Call, Design, Point, State, Transition
-from vicode.model.disabled import disabled_states, is_enabled
-from vicode.model.traversal import iter_transitions
+from vicode.diagram.transition_labels import GuardKind
+from vicode.findings import DesignPath
+from vicode.model.design import COMMON, Call, Design, Point, State
 
 FRAME_TITLE_INSET = 14.0
 _MAX_NAME_WIDTH, _MAX_SUBTITLE_WIDTH = 230.0, 200.0
@@ -44,7 +44,8 @@ class DiagramNode:
 class DiagramEdge:
     """A transition or a link; `order` is the priority, 0 if there is only one.
 
-    A transition is `derived` if an interrupt, a competence or layers mean it.
+    A transition is `derived` if an interrupt, a competence or layers mean it: then `also` has the keys of the others
+    that it stands for, and it may have an arrowhead at both ends (`leads_back`).
     `href` is the link target, "" for none.
     """
 
@@ -58,6 +59,8 @@ class DiagramEdge:
     guard_kind: GuardKind = GuardKind.ALWAYS
     disabled: bool = False
     derived: bool = False
+    leads_back: bool = False
+    also: tuple[str, ...] = ()
     label_at: Point | None = None
     href: str = ""
 
@@ -90,7 +93,7 @@ class Diagram:
 
 def build_diagram(design: Design, *, only: Collection[str] | None = None, links: bool = True) -> Diagram:
     """The diagram of a design, or of some states and the components they use."""
-    edges = (*_transition_edges(design), *(_use_edges(design) if links else ()))
+    edges = (*_transition_edges(design, only), *(_use_edges(design) if links else ()))
     nodes = tuple(_diagram_nodes(design, complete_layout(design)))
     if only is not None:
         wanted = {_state_key(name) for name in only}
@@ -138,7 +141,7 @@ def _diagram_nodes(design: Design, placement: NodeLayout) -> Iterator[DiagramNod
             subtitle=shorten(use.component, SMALL_FONT, _MAX_SUBTITLE_WIDTH) if use.component != use.alias else "",
             title=f"{use.alias}: component {use.component}",
         )
-    if design.common.transitions or design.common.actions:
+    if shows_common(design):
         yield DiagramNode(
             key="common",
             node_type="common",
@@ -178,7 +181,7 @@ def _state_node(design: Design, state: State, at: Point) -> DiagramNode:
 
 def _badges(state: State) -> Iterator[tuple[str, int]]:
     called = {action.alias for action in state.all_actions if isinstance(action, Call)}
-    works = any(not isinstance(action, Call) for action in state.actions)
+    works = has_work(state.actions)
     for name, flag in (("enter", bool(state.enter)), ("actions", works), ("leave", bool(state.leave))):
         if flag:
             yield name, 0
@@ -187,32 +190,33 @@ def _badges(state: State) -> Iterator[tuple[str, int]]:
             yield name, count
 
 
-def _transition_edges(design: Design) -> Iterator[DiagramEdge]:
-    all_of_them = list(iter_transitions(design))
-    counts = Counter(located.source for located in all_of_them)
+def _transition_edges(design: Design, only: Collection[str] | None) -> Iterator[DiagramEdge]:
+    all_of_them = draw_transitions(design, only)
+    counts = Counter(drawn.source for drawn in all_of_them)
     orders: Counter[str] = Counter()
-    off = disabled_states(design)
-    for located in all_of_them:
-        transition = located.decision
-        assert isinstance(transition, Transition)
-        orders[located.source] += 1
-        source = "every state" if located.source == COMMON else located.source
-        way = f"{source} → {transition.to}"
+    for drawn in all_of_them:
+        orders[drawn.source] += 1
+        source = "every state" if drawn.source == COMMON else drawn.source
+        way = f"{source} {'↔' if drawn.leads_back else '→'} {drawn.target}"
         yield DiagramEdge(
-            key="t:" + "/".join(map(str, located.path)),
+            key=_edge_key(drawn.paths[0]),
             edge_type="transition",
-            source=_source_key(located.source),
-            target=_state_key(transition.to),
-            title="\n".join(
-                part for part in (way, transition_label(located, design.time_unit), transition.doc) if part
-            ),
-            label=short_transition_label(located, design.time_unit),
-            order=orders[located.source] if counts[located.source] > 1 else 0,
-            guard_kind=guard_kind(located),
-            disabled=not is_enabled(located, off),
-            derived=bool(transition.origin),
-            label_at=transition.label_at,
+            source=_source_key(drawn.source),
+            target=_state_key(drawn.target),
+            title="\n".join(part for part in (way, drawn.text) if part),
+            label=drawn.label,
+            order=orders[drawn.source] if counts[drawn.source] > 1 else 0,
+            guard_kind=drawn.guard_kind,
+            disabled=drawn.disabled,
+            derived=drawn.derived,
+            leads_back=drawn.leads_back,
+            also=tuple(map(_edge_key, drawn.paths[1:])),
+            label_at=getattr(drawn.located.decision, "label_at", None),
         )
+
+
+def _edge_key(path: DesignPath) -> str:
+    return "t:" + "/".join(map(str, path))
 
 
 def _use_edges(design: Design) -> Iterator[DiagramEdge]:

@@ -37,9 +37,9 @@ def write_graphviz(design: Design, *, only: Collection[str] | None = None, links
             graph.edge("start", ids[node.key])
     _write_frames(graph, nest_frames(design, only), ids, design)
     for line in list_transitions(design, only):
-        source = "common" if line.source == COMMON else f"s:{line.source}"
-        if source in ids:
-            graph.edge(ids[source], ids[f"s:{line.target}"], label=_quoted(line.label))
+        ends = ["common" if end == COMMON else f"s:{end}" for end in (line.source, line.target)]
+        if all(end in ids for end in ends):
+            graph.edge(*(ids[end] for end in ends), label=_quoted(line.label))
     for edge in diagram.edges:
         if edge.edge_type in _USE_EDGES:
             graph.edge(ids[edge.source], ids[edge.target], **_USE_EDGES[edge.edge_type])

@@ -35,10 +35,14 @@ def render_heat_map(
     whole_s = sum(each.total_s for each in states.values())
     counts = {"t:" + "/".join(map(str, path)): count for path, count in transitions.items()}
     nodes = tuple(_heated_node(node, states, whole_s) for node in diagram.nodes)
-    edges = tuple(_counted_edge(edge, counts.get(edge.key, 0)) for edge in diagram.edges)
+    edges = tuple(_counted_edge(edge, _sum_counts(edge, counts)) for edge in diagram.edges)
     return render_diagram(
         replace(diagram, nodes=nodes, edges=edges), title=f"{design.component}: states over time", palette=LIGHT
     )
+
+
+def _sum_counts(edge: DiagramEdge, counts: Mapping[str, int]) -> int:
+    return sum(counts.get(key, 0) for key in (edge.key, *edge.also))
 
 
 def heat_color(share: float) -> str:

@@ -1,5 +1,6 @@
 """Keeps elements without a position in the file where they are shown while others are added, removed or connected."""
 
+from vicode.diagram.drawn_transitions import shows_common
 from vicode.diagram.layered_layout import complete_layout
 from vicode.model.design import Design, Point
 from vicode.model.edits import move_nodes
@@ -15,7 +16,7 @@ def keep_positions(before: Design, after: Design) -> Design:
         shown.states, find_renamed_states(before, after), {each.name: each.at for each in after.states}
     )
     uses = _shown_positions(shown.uses, find_renamed_uses(before, after), {each.alias: each.at for each in after.uses})
-    common = shown.common if (before.common.transitions or before.common.actions) and not after.common.at else None
+    common = shown.common if shows_common(before) and not after.common.at else None
     if states.items() <= now.states.items() and uses.items() <= now.uses.items() and common in (None, now.common):
         return after
     return move_nodes(after, _rounded(states), _rounded(uses), common and _round(common))

@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from itertools import count
 
+from vicode.diagram.drawn_transitions import shows_common
 from vicode.diagram.layered_layout import ORIGIN, NodeLayout, complete_layout
 from vicode.diagram.layout_graph import COMMON_ID, state_ids, use_ids
 from vicode.diagram.node_geometry import COMMON_SIZE, MIN_WIDTH, OccupancyGrid, Size, state_size, use_size
@@ -58,7 +59,7 @@ def layered_positions(design: Design, only: Collection[str] | None) -> dict[str,
     placement = complete_layout(replace(design, states=states, uses=uses, common=replace(design.common, at=None)))
     centers = {id_: placement.states[name] for name, id_ in state_ids(design).items()}
     centers |= {id_: placement.uses[alias] for alias, id_ in use_ids(design).items()}
-    if design.common.transitions or design.common.actions:
+    if shows_common(design):
         centers[COMMON_ID] = placement.common
     return centers
 
@@ -93,7 +94,7 @@ def _occupied_by_others(design: Design, placement: NodeLayout, moved: Collection
             occupied.occupy(at, state_size(name))
     for use in design.uses:
         occupied.occupy(placement.uses[use.alias], use_size(use.alias, use.component))
-    if design.common.transitions or design.common.actions:
+    if shows_common(design):
         occupied.occupy(placement.common, COMMON_SIZE)
     return occupied
 

@@ -3,10 +3,10 @@
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from vicode.diagram.drawn_transitions import draw_transitions, shows_common
 from vicode.diagram.frames import FrameGroup, nest_frames
 from vicode.diagram.node_geometry import COMMON_SIZE, Size, estimate_text_width, state_size, use_size
-from vicode.model.design import COMMON, Call, Design, Guard, Transition
-from vicode.model.traversal import iter_transitions
+from vicode.model.design import COMMON, Call, Design, Guard
 
 COMMON_ID = "common"
 _TRANSITION_WEIGHT, _LINK_WEIGHT = 8, 1
@@ -98,7 +98,7 @@ def _layout_nodes(design: Design, only: Collection[str] | None) -> Iterator[Layo
             yield _layout_node(ids[name], name, state_size(name))
     if only is not None:
         return
-    if design.common.transitions or design.common.actions:
+    if shows_common(design):
         yield _layout_node(COMMON_ID, "every state", COMMON_SIZE)
     components = {use.alias: use.component for use in design.uses}
     for alias, id_ in use_ids(design).items():
@@ -150,14 +150,11 @@ def _layout_node(id_: str, label: str, size: Size) -> LayoutNode:
 
 def _transition_edges(design: Design) -> Iterator[LayoutEdge]:
     ids = {COMMON: COMMON_ID, **state_ids(design)}
-    for located in iter_transitions(design):
-        transition = located.decision
-        assert isinstance(transition, Transition)
-        weight = _LINK_WEIGHT if located.source == COMMON else _TRANSITION_WEIGHT
-        target = ids.get(transition.to, "") if transition.to != COMMON else ""
-        yield LayoutEdge(
-            source=ids[located.source], target=target, weight=weight, label_width=_label_width(transition.guard)
-        )
+    for drawn in draw_transitions(design):
+        weight = _LINK_WEIGHT if drawn.source == COMMON else _TRANSITION_WEIGHT
+        target = ids.get(drawn.target, "") if drawn.target != COMMON else ""
+        width = _label_width(drawn.located.decision.guard)
+        yield LayoutEdge(source=ids[drawn.source], target=target, weight=weight, label_width=width)
 
 
 def _label_width(guard: Guard) -> float:

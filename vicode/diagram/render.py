@@ -163,7 +163,12 @@ class _DiagramRenderer:
     def _edge(self, route: EdgeRoute) -> ShapeGroup:
         pal, edge, ends = self.palette, route.edge, (route.edge.source, route.edge.target)
         tip, base = _arrowhead(route.curve)
-        shaft = curve_path((*route.curve[:6], *base))
+        start = route.curve[:2]
+        if edge.leads_back:
+            x0, y0, x1, y1, x2, y2, x3, y3 = route.curve
+            tail, start = _arrowhead((x3, y3, x2, y2, x1, y1, x0, y0))
+            tip = (*tip, *tail)
+        shaft = curve_path((*start, *route.curve[2:6], *base))
         if edge.edge_type == "requires":
             drawn = PathShape(commands=shaft, stroke=pal.requires, width=1.3, dash=(9, 4))
             head = PathShape(commands=tip, fill=pal.paper, stroke=pal.requires, width=1.3)

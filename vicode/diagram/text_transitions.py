@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
-from vicode.diagram.transition_labels import transition_label
+from vicode.diagram.drawn_transitions import draw_transitions
 from vicode.model.design import COMMON, Design, Transition
 from vicode.model.traversal import iter_transitions
 
@@ -13,7 +13,7 @@ EVERY_STATE = "every state"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextTransition:
-    """One transition; `source` is the name of a state or COMMON, `label` one line of text."""
+    """One transition; `source` and `target` are the name of a state or COMMON, `label` one line of text."""
 
     source: str
     target: str
@@ -21,19 +21,22 @@ class TextTransition:
 
 
 def list_transitions(design: Design, only: Collection[str] | None = None) -> Iterator[TextTransition]:
-    """Every transition whose source and target exist; numbered if a state has several."""
+    """Every transition whose source and target exist; numbered if a state has several.
+
+    A transition that is drawn with an arrowhead at both ends is followed by the one back.
+    """
     names = {state.name for state in design.states if only is None or state.name in only}
-    located = [item for item in iter_transitions(design) if item.source == COMMON or item.source in names]
-    counts = Counter(item.source for item in located)
+    listed = [drawn for drawn in draw_transitions(design, only) if drawn.source in {COMMON, *names}]
+    counts = Counter(drawn.source for drawn in listed)
     orders: Counter[str] = Counter()
-    for item in located:
-        assert isinstance(item.decision, Transition)
-        orders[item.source] += 1
-        if item.decision.to not in names:
+    for drawn in listed:
+        orders[drawn.source] += 1
+        if drawn.target not in names:
             continue
-        number = f"{orders[item.source]}. " if counts[item.source] > 1 else ""
-        label = number + transition_label(item, design.time_unit, spell_out=True)
-        yield TextTransition(source=item.source, target=item.decision.to, label=label.strip())
+        number = f"{orders[drawn.source]}. " if counts[drawn.source] > 1 else ""
+        yield TextTransition(source=drawn.source, target=drawn.target, label=(number + drawn.full_label).strip())
+        if drawn.leads_back:
+            yield TextTransition(source=drawn.target, target=drawn.source, label="back")
 
 
 def describe_dangling_transitions(design: Design, only: Collection[str] | None = None) -> Iterator[str]:

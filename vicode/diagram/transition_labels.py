@@ -24,7 +24,12 @@ _MEMBER = re.compile(r"\b((?:[^\W\d]\w*\.)+)([^\W\d]\w*)")
 def short_transition_label(located: LocatedDecision, unit: str = "") -> str:
     """The documentation text if it is short enough for a label, else the guard."""
     doc = located.decision.doc
-    return doc if 0 < len(doc) <= _MAX_DOC_LABEL else transition_label(located, unit)
+    return doc if is_short(doc) else transition_label(located, unit)
+
+
+def is_short(doc: str) -> bool:
+    """Whether a description can be the label."""
+    return 0 < len(doc) <= _MAX_DOC_LABEL
 
 
 def without_aliases(label: str) -> str:

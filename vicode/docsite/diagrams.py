@@ -8,6 +8,7 @@ from typing import Any
 from vicode.diagram.decision_tree import TreeLinks, render_decision_tree
 from vicode.diagram.dependency_graph import dependency_diagram
 from vicode.diagram.diagram_model import Diagram, DiagramEdge, DiagramNode, build_diagram
+from vicode.diagram.drawn_transitions import shows_common
 from vicode.diagram.folder_graph import folder_diagram
 from vicode.diagram.layered_layout import NodeLayout
 from vicode.diagram.layout import LayoutMethod, LayoutResult, LayoutService
@@ -162,7 +163,7 @@ def _with_layout(design: Design, service: LayoutService, memory: BuildCache) -> 
         return design
     compute = partial(service.compute, design, timeout_s=_LAYOUT_TIMEOUT_S)
     places = memory.get_or_create("layout", design, compute, _STORED_LAYOUT).layout
-    common = places.common if design.common.transitions or design.common.actions else None
+    common = places.common if shows_common(design) else None
     return move_nodes(design, places.states, places.uses, common)
 
 

@@ -272,6 +272,14 @@ class Layer:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class DerivedPosition:
+    """The position of a state that a competence or layers are lowered to."""
+
+    name: str
+    at: Point
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ReachProperty:
     """Each time that `after` is entered, `reach` becomes active, `within` a time if one is given.
 
@@ -355,6 +363,7 @@ class Design:
     interrupts: tuple[Interrupt, ...] = ()
     competence: Competence | None = None
     layers: tuple[Layer, ...] = ()
+    positions: tuple[DerivedPosition, ...] = ()
     properties: tuple[Property, ...] = ()
     frames: tuple[DiagramFrame, ...] = ()
     notes: tuple[DiagramNote, ...] = ()

@@ -87,7 +87,8 @@ def _rename_in_constructs(design: Design, old: str, new: str) -> Design:
         steps = tuple(replace(each, name=named(each.name)) for each in competence.steps)
         competence = replace(competence, steps=steps)
     layers = tuple(replace(each, name=named(each.name)) for each in design.layers)
-    return replace(design, interrupts=tuple(interrupts), competence=competence, layers=layers)
+    positions = tuple(replace(each, name=named(each.name)) for each in design.positions)
+    return replace(design, interrupts=tuple(interrupts), competence=competence, layers=layers, positions=positions)
 
 
 def rename_states_of(promised: Property, names: Mapping[str, str]) -> Property:
@@ -130,7 +131,8 @@ def _remove_from_constructs(design: Design, names: Collection[str]) -> Design:
     if competence is not None:
         competence = replace(competence, steps=tuple(each for each in competence.steps if each.name not in names))
     layers = tuple(each for each in design.layers if each.name not in names)
-    return replace(design, interrupts=tuple(interrupts), competence=competence, layers=layers)
+    positions = tuple(each for each in design.positions if each.name not in names)
+    return replace(design, interrupts=tuple(interrupts), competence=competence, layers=layers, positions=positions)
 
 
 def replace_in_frames(

@@ -18,6 +18,7 @@ from vicode.model.design import (
     Guard,
     InvariantProperty,
     NeverProperty,
+    Origin,
     Property,
     ReachProperty,
     RecoveryProperty,
@@ -110,16 +111,25 @@ def describe_property(promised: Property) -> str:
 
 def describe_constructs(design: Design) -> Iterator[str]:
     """What a design is lowered from (`vicode.model.lowering`), one line for each construct."""
+    return (text for _origin, text in _iter_constructs(design))
+
+
+def describe_construct(design: Design, origin: Origin) -> str:
+    """The construct that something is derived from in one line; empty for what is not derived."""
+    return next((text for each, text in _iter_constructs(design) if each == origin), "") if origin else ""
+
+
+def _iter_constructs(design: Design) -> Iterator[tuple[Origin, str]]:
     for latch in design.latches:
-        yield _describe_construct(f"latch {latch.name}", latch)
-    for interrupt in design.interrupts:
-        yield _describe_construct(f"interrupt by {interrupt.do}", interrupt, "do")
+        yield ("latches", latch.name), _describe_construct(f"latch {latch.name}", latch)
+    for number, interrupt in enumerate(design.interrupts):
+        yield ("interrupts", number), _describe_construct(f"interrupt by {interrupt.do}", interrupt, "do")
     if design.competence is not None:
-        yield _describe_construct("competence", design.competence)
+        yield ("competence",), _describe_construct("competence", design.competence)
         for step in design.competence.steps:
-            yield _describe_construct(f"step {step.name}", step)
+            yield ("competence", "steps", step.name), _describe_construct(f"step {step.name}", step)
     for layer in design.layers:
-        yield _describe_construct(f"layer {layer.name}", layer)
+        yield ("layers", layer.name), _describe_construct(f"layer {layer.name}", layer)
 
 
 def _describe_construct(title: str, construct: object, *apart: str) -> str:

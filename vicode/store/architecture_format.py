@@ -1,9 +1,17 @@
 """The schemas of what `vicode.model.lowering` turns into states: latches, interrupts, competences and layers."""
 
-from vicode.model.design import INTERRUPT_ENDS, Competence, CompetenceStep, Interrupt, Latch, Layer
-from vicode.store.format_values import CALLS, COUNT, DOC_KEY, EXPRESSION, FLOW_WIDTH, NAME, NAMES
+from vicode.model.design import INTERRUPT_ENDS, Competence, CompetenceStep, DerivedPosition, Interrupt, Latch, Layer
+from vicode.store.format_values import CALLS, COUNT, DOC_KEY, EXPRESSION, FLOW_WIDTH, NAME, NAMES, POSITION
 from vicode.store.schema_types import KeySchema, MapSchema, RecordSchema
 
+POSITIONS = MapSchema(
+    description="a mapping of states to positions",
+    value_schema=POSITION,
+    flow_width=FLOW_WIDTH,
+    name_field="name",
+    entry_model=DerivedPosition,
+    value_field="at",
+)
 LATCH = RecordSchema(
     name="latch",
     description="a latch",

@@ -23,7 +23,7 @@ from vicode.model.design import (
     Transition,
     Use,
 )
-from vicode.store.architecture_format import COMPETENCE, INTERRUPT, LATCH, LAYER, STEP
+from vicode.store.architecture_format import COMPETENCE, INTERRUPT, LATCH, LAYER, POSITIONS, STEP
 from vicode.store.format_values import (
     ARGUMENT,
     ARGUMENTS,
@@ -292,6 +292,7 @@ DESIGN = RecordSchema(
             MapSchema(description="a mapping of names to layers", value_schema=LAYER, name_field="name"),
             "layers of a subsumption architecture, the lowest first, instead of states (docs/architectures.md)",
         ),
+        KeySchema("positions", POSITIONS, "centers on the canvas of the states of a competence or of layers"),
         KeySchema("properties", PROPERTIES, "what the behavior promises (docs/analysis.md)"),
         KeySchema(
             "frames",

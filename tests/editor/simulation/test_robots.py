@@ -136,9 +136,11 @@ def test_requests_are_answered(folder: Path) -> None:
 
 def test_a_breakpoint_on_a_transition_stops_the_robot(folder: Path) -> None:
     _project, lamp = project_and_lamp(folder)
-    breakpoints = Breakpoints().toggled(ItemRef(kind="transitions", id="Lit/0"), ItemRef(kind="states", id="Dark"))
+    breakpoints = Breakpoints().toggled(
+        lamp, ItemRef(kind="transitions", id="Lit/0"), ItemRef(kind="states", id="Dark")
+    )
     assert breakpoints.places(lamp) == (("Dark",), ("Lit", "Dark", None))
-    transition = Breakpoints().toggled(ItemRef(kind="transitions", id="Lit/0"))
+    transition = Breakpoints().toggled(lamp, ItemRef(kind="transitions", id="Lit/0"))
 
     async def act(link: RobotLink) -> None:
         await first_iteration(link)

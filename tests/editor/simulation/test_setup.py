@@ -8,9 +8,10 @@ import pytest
 from tests.editor.simulation.lamp_project import prepare_lamp, write_lamps
 from vicode.editor.session.simulation import Breakpoints
 from vicode.editor.view import ItemRef
+from vicode.model.design import Design, State, Transition
 from vicode.model.edits import move_nodes, update_state
 from vicode.runs import behavior_key, used_components
-from vicode.store import open_project
+from vicode.store import open_project, read_design
 
 
 @pytest.fixture
@@ -93,12 +94,30 @@ def test_used_components_include_indirect_ones(lamps: Path) -> None:
 
 
 def test_breakpoints_are_toggled_together() -> None:
+    design = Design(component="Lamp", states=(State(name="Dark", transitions=(Transition(to="Dark"),)),))
     dark, first = ItemRef(kind="states", id="Dark"), ItemRef(kind="transitions", id="Dark/0")
-    some = Breakpoints().toggled(dark)
-    both = some.toggled(dark, first, ItemRef(kind="components", id="eye"))
+    some = Breakpoints().toggled(design, dark)
+    both = some.toggled(design, dark, first, ItemRef(kind="components", id="eye"))
     assert both.items == {dark, first}
-    assert both.toggled(dark, first).items == frozenset()
+    assert both.toggled(design, dark, first).items == frozenset()
     assert both.stop_conditions(extra_state="Lit").states == ("Dark", "Lit")
+
+
+def test_a_breakpoint_on_an_interrupt_is_on_all_its_transitions() -> None:
+    read = read_design(
+        "vicode: 1\ncomponent: Walk\ninitial: A\ninterrupts: [{do: Wait, when: state_time > 1}]\n"
+        "states: {A: {transitions: [{to: B}]}, B: {}, Wait: {}}\n"
+    )
+    assert read.design is not None
+    interrupt = ItemRef(kind="transitions", id="A/0")
+    points = Breakpoints().toggled(read.design, interrupt)
+    assert points.places(read.design) == (
+        ("A", "Wait", None),
+        ("B", "Wait", None),
+        ("Wait", "A", None),
+        ("Wait", "B", None),
+    )
+    assert points.toggled(read.design, ItemRef(kind="transitions", id="B/0")).items == frozenset()
 
 
 def test_breakpoints_are_removed_with_their_items(lamps: Path) -> None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from nicegui import run, ui
 from nicegui.events import ClickEventArguments, Handler
 
+from vicode.diagram.drawn_transitions import shows_common
 from vicode.diagram.layered_layout import NodeLayout
 from vicode.diagram.layout import LayoutMethod, LayoutService
 from vicode.editor.pages.canvas_controller import CanvasController
@@ -138,5 +139,5 @@ def _node_positions(design: Design, layout: NodeLayout, only: Collection[str] | 
         return
     for alias, (x, y) in layout.uses.items():
         yield NodePosition(kind="components", id=alias, x=x, y=y)
-    if design.common.transitions or design.common.actions:
+    if shows_common(design):
         yield NodePosition(kind="common", id="@common", x=layout.common[0], y=layout.common[1])

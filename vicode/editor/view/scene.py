@@ -3,10 +3,10 @@
 from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable
 
+from vicode.diagram.drawn_transitions import DrawnTransition, draw_transitions, has_work, shows_common
 from vicode.diagram.frames import drawn_frames, frame_padding
 from vicode.diagram.layered_layout import complete_layout, note_position
 from vicode.diagram.node_geometry import note_lines, note_size
-from vicode.diagram.transition_labels import guard_kind, short_transition_label, transition_label
 from vicode.editor.view.scene_types import (
     Scene,
     SceneCommon,
@@ -21,12 +21,10 @@ from vicode.editor.view.scene_types import (
 )
 from vicode.editor.view.selection import ItemRef, item_at_path
 from vicode.findings import DesignPath, Finding, Severity, worst_severity
-from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Call, DecisionGroup, Design, DiagramNote, Guard, Point, State, Transition, Use
-from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.guard_text import write_guard
 from vicode.model.project import Project
-from vicode.model.traversal import LocatedDecision, find_decision, iter_transitions
+from vicode.model.traversal import find_decision
 
 _DEAD = frozenset({"D421", "D423", "D433"})
 _Findings = dict[ItemRef, list[Finding]]
@@ -48,7 +46,7 @@ def make_scene(
         if finding.subject is not None and finding.subject.component == design.component:
             by_item[item_at_path(finding.subject.path)].append(finding)
     layout = complete_layout(design)
-    transitions = list(iter_transitions(design))
+    transitions = draw_transitions(design)
     dead = _find_dead_paths(design, findings)
     return {
         "rev": rev,
@@ -69,7 +67,7 @@ def make_scene(
         "links": list(_links(design)),
         "frames": list(_frames(design, by_item)),
         "notes": [_note(note, index) for index, note in enumerate(design.notes)],
-        "common": _common(design, by_item, layout.common),
+        "common": _common(design, transitions, by_item, layout.common),
     }
 
 
@@ -116,9 +114,9 @@ def finding_messages(findings: Iterable[Finding]) -> list[str]:
     return [f"{finding.severity}: {finding.message}" for finding in findings]
 
 
-def _marks(by_item: _Findings, item: ItemRef) -> SceneMarks:
-    findings = by_item.get(item)
-    if findings is None:
+def _marks(by_item: _Findings, *items: ItemRef) -> SceneMarks:
+    findings = [finding for item in items for finding in by_item.get(item, ())]
+    if not findings:
         return {"severity": None, "count": 0, "messages": []}
     severity: Severity | None = worst_severity(findings)
     count = sum(finding.severity is severity for finding in findings)
@@ -135,7 +133,7 @@ def _state(design: Design, state: State, by_item: _Findings) -> SceneDesignState
         "color": state.color,
         "disabled": state.disabled,
         "enter": bool(state.enter),
-        "actions": any(not isinstance(action, Call) for action in state.actions),
+        "actions": has_work(state.actions),
         "leave": bool(state.leave),
         "requires": len(state.requires),
         "modulates": len(called),
@@ -161,32 +159,36 @@ def _dead_branch(design: Design, path: DesignPath) -> DesignPath:
 
 
 def _transitions(
-    design: Design, transitions: list[LocatedDecision], by_item: _Findings, dead: frozenset[DesignPath]
+    design: Design, transitions: tuple[DrawnTransition, ...], by_item: _Findings, dead: frozenset[DesignPath]
 ) -> Iterable[SceneTransition]:
-    counts = Counter(located.source for located in transitions)
+    counts = Counter(drawn.source for drawn in transitions)
     orders: Counter[str] = Counter()
-    off, unit = disabled_states(design), design.time_unit
-    for located in transitions:
-        transition = located.decision
+    for drawn in transitions:
+        transition = drawn.located.decision
         assert isinstance(transition, Transition)
-        orders[located.source] += 1
-        key = transition_key(located.path)
+        orders[drawn.source] += 1
         yield {
-            "id": key,
-            "source": "@common" if located.source == COMMON else located.source,
-            "target": transition.to,
-            "label": short_transition_label(located, unit),
-            "guard": _guard_text(transition.guard, unit),
-            "order": orders[located.source],
-            "of": counts[located.source],
-            "disabled": not is_enabled(located, off),
-            "dead": any(located.path[:length] in dead for length in range(2, len(located.path) + 1)),
-            "derived": bool(transition.origin),
+            "id": drawn.keys[0],
+            "also": list(drawn.keys[1:]),
+            "source": "@common" if drawn.source == COMMON else drawn.source,
+            "target": drawn.target,
+            "label": drawn.label,
+            "guard": _guard_text(transition.guard, design.time_unit),
+            "order": orders[drawn.source],
+            "of": counts[drawn.source],
+            "disabled": drawn.disabled,
+            "dead": all(_is_dead(path, dead) for path in drawn.paths),
+            "derived": drawn.derived,
+            "leads_back": drawn.leads_back,
             "label_at": list(transition.label_at) if transition.label_at else None,
-            "kind": str(guard_kind(located)),
-            "doc": "\n".join(part for part in (transition_label(located, unit), transition.doc) if part),
-            **_marks(by_item, ItemRef(kind="transitions", id=key)),
+            "kind": str(drawn.guard_kind),
+            "doc": drawn.text,
+            **_marks(by_item, *(ItemRef(kind="transitions", id=key) for key in drawn.keys)),
         }
+
+
+def _is_dead(path: DesignPath, dead: frozenset[DesignPath]) -> bool:
+    return any(path[:length] in dead for length in range(2, len(path) + 1))
 
 
 def _guard_text(guard: Guard, unit: str) -> str | None:
@@ -204,10 +206,11 @@ def _links(design: Design) -> Iterable[SceneLink]:
                     yield {"id": f"{kind}/{state.name}/{alias}", "kind": kind, "state": state.name, "component": alias}
 
 
-def _common(design: Design, by_item: _Findings, at: Point) -> SceneCommon | None:
-    common = design.common
-    if not common.transitions and not common.actions:
+def _common(
+    design: Design, transitions: tuple[DrawnTransition, ...], by_item: _Findings, at: Point
+) -> SceneCommon | None:
+    if not shows_common(design):
         return None
-    count = sum(1 for located in iter_transitions(design) if located.source == COMMON)
+    count = sum(1 for drawn in transitions if drawn.source == COMMON)
     marks = _marks(by_item, ItemRef(kind="common", id="@common"))
-    return {**_at(at), "transitions": count, "actions": bool(common.actions), **marks}
+    return {**_at(at), "transitions": count, "actions": has_work(design.common.actions), **marks}

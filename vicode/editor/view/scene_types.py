@@ -69,6 +69,10 @@ class SceneTransition(SceneMarks):
     """Whether it can never be taken."""
     derived: bool
     """Whether an interrupt, a competence or layers mean it."""
+    also: list[str]
+    """The ids of other transitions that it stands for."""
+    leads_back: bool
+    """Whether it has an arrowhead at both ends."""
     label_at: list[float] | None
     kind: str
     doc: str

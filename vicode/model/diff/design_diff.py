@@ -22,6 +22,7 @@ from vicode.model.diff.item_diff import (
     diff_fields,
     diff_keyed,
     diff_ordered,
+    diff_positions,
     diff_values,
 )
 from vicode.model.edits import rename_state, rename_use
@@ -41,6 +42,7 @@ _APART = {
         "latches",
         "interrupts",
         "layers",
+        "positions",
         "properties",
         "frames",
         "notes",
@@ -168,6 +170,10 @@ def _diff_constructs(old: Design, new: Design) -> Iterator[Change]:
         content=_describe_construct,
         compare=lambda here, before, after: diff_fields(here, f"layer {after.name}", before, after),
     )
+
+    before, after = ({each.name: each.at for each in design.positions} for design in (old, new))
+    for name in {**before, **after}:
+        yield from diff_positions(("positions", name), f"state {name}", before.get(name), after.get(name))
 
 
 def _diff_frame(path: DesignPath, old: DiagramFrame, new: DiagramFrame) -> Iterator[Change]:

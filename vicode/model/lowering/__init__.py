@@ -11,7 +11,18 @@ from itertools import zip_longest
 from typing import Any
 
 from vicode.findings import DesignPath
-from vicode.model.design import Action, Call, Decision, Declaration, Design, Origin, RunCode, State, Stay
+from vicode.model.design import (
+    Action,
+    Call,
+    Decision,
+    Declaration,
+    DerivedPosition,
+    Design,
+    Origin,
+    RunCode,
+    State,
+    Stay,
+)
 from vicode.model.lowering.competences import COMPETENCE_STATES, LATEST, lower_competence, tries_name
 from vicode.model.lowering.ends import FAILED, lower_ends
 from vicode.model.lowering.interrupts import (
@@ -50,7 +61,9 @@ def lower_design(design: Design) -> Design:
     # A competence and layers have states for the other constructs; a latch changes before anything else is done.
     for lower in (lower_competence, lower_layers, lower_interrupts, lower_latches, lower_ends):
         design = lower(design)
-    return design
+    places = {each.name: each.at for each in design.positions}
+    states = (replace(each, at=places.get(each.name)) if each.origin else each for each in design.states)
+    return replace(design, states=tuple(states))
 
 
 def lift_design(design: Design) -> Design:
@@ -70,7 +83,16 @@ def lift_design(design: Design) -> Design:
             transitions=_written_decisions(design.common.transitions),
         ),
         states=tuple(_lift_state(state) for state in design.states if not state.origin),
+        positions=_positions(design),
     )
+
+
+def _positions(design: Design) -> tuple[DerivedPosition, ...]:
+    """The positions of derived states in their order, after those of states that are not derived yet."""
+    derived = [each for each in design.states if each.origin]
+    names = {each.name for each in derived}
+    others = (each for each in design.positions if each.name not in names)
+    return (*others, *(DerivedPosition(name=each.name, at=each.at) for each in derived if each.at))
 
 
 def is_lowered(design: Design) -> bool:
@@ -82,10 +104,16 @@ def is_lowered(design: Design) -> bool:
 def lower_edit(before: Design, after: Design) -> tuple[Design, str]:
     """Lower an edited design; if the edit changes something derived, return the design before it and the reason."""
     origin = find_lost_edit(after)
-    design = lower_design(after)
+    design = _forget_positions(lower_design(after))
     if not origin or (design != before and _keeps_derived(before, after)):
         return design, ""
     return before, f"this part is derived from {describe_origin(origin)}; edit that in the file"
+
+
+def _forget_positions(design: Design) -> Design:
+    """Without the positions of states that are not derived any more."""
+    derived = {each.name for each in design.states if each.origin}
+    return replace(design, positions=tuple(each for each in design.positions if each.name in derived))
 
 
 def _keeps_derived(before: Design, after: Design) -> bool:

@@ -90,11 +90,11 @@ class Canvas {
 
   /** Selection by Python; ignored if the user has changed the selection since the one that Python acknowledges by `seq`. */
   select(items, seq = this.clientSeq) {
-    if (seq === this.clientSeq) this.selection.set(items.map(({ of, id }) => keyOf(of, id)), { quiet: true });
+    if (seq === this.clientSeq) this.selection.set(items.map(({ of, id }) => this.scene.keyOf(of, id)), { quiet: true });
   }
 
   center(of, id) {
-    const element = this.scene.find(keyOf(of, id));
+    const element = this.scene.find(this.scene.keyOf(of, id));
     if (!element) return;
     this.neighborhood.leaveFor(element);
     const { x, y } = this.scene.nameOf(element.key) ?? (this.scene.isDrawable(element) ? this.router.route(element).at : this.viewport.middle());
@@ -103,7 +103,7 @@ class Canvas {
 
   /** Centers an element as the page opens; a view restored from the browser's history only reveals it. */
   scrollToInitial(of, id) {
-    return this.restoredView ? this.reveal(keyOf(of, id)) : this.center(of, id);
+    return this.restoredView ? this.reveal(this.scene.keyOf(of, id)) : this.center(of, id);
   }
 
   fit() {
@@ -134,7 +134,7 @@ class Canvas {
     this.frame.schedule("active", () => {
       this.painter.mark("active", ids.map((id) => keyOf("states", id)));
       this.selection.updateHighlight();
-      this.painter.mark("taken", taken.map((id) => keyOf("transitions", id)));
+      this.painter.mark("taken", taken.map((id) => this.scene.keyOf("transitions", id)));
       this.insets.highlight(inner);
       if (this.isOverview) this.cull();
       this.emit("ack", { seq: this.activeSeq });
@@ -143,7 +143,7 @@ class Canvas {
 
   /** Shows breakpoint signs at exactly these elements. */
   setBreakpoints(items) {
-    this.breakpoints = items.map(({ of, id }) => keyOf(of, id));
+    this.breakpoints = items.map(({ of, id }) => this.scene.keyOf(of, id));
     this.painter.mark("breakpoint", this.breakpoints);
   }
 

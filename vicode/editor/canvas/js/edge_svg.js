@@ -37,8 +37,14 @@ export function placeEdge({ line, chip }, { curve, at }) {
 export function placeLine({ line }, curve) {
   const [, stroke, head] = line.children;
   const { tip, base } = headOf(curve);
-  stroke.setAttribute("d", pathOf(curve, base));
-  head.setAttribute("d", tip);
+  if (!line.classList.contains("leads-back")) {
+    stroke.setAttribute("d", pathOf(curve, base));
+    head.setAttribute("d", tip);
+    return;
+  }
+  const start = headOf([6, 7, 4, 5, 2, 3, 0, 1].map((index) => curve[index]));
+  stroke.setAttribute("d", pathOf([start.base.x, start.base.y, ...curve.slice(2)], base));
+  head.setAttribute("d", tip + start.tip);
 }
 
 /** Path data of a curve that ends at `end` instead of its last point. */
@@ -74,7 +80,7 @@ function drawChip(edge, { chip }, names) {
   return group;
 }
 
-const styleOf = (edge) => [edge.source === "common" ? "common-edge" : "", edge.data.disabled ? "disabled" : "", edge.data.dead ? "dead" : "", edge.data.derived ? "derived" : ""].join(" ");
+const styleOf = (edge) => [edge.source === "common" ? "common-edge" : "", edge.data.disabled ? "disabled" : "", edge.data.dead ? "dead" : "", edge.data.derived ? "derived" : "", edge.data.leads_back ? "leads-back" : ""].join(" ");
 
 /** Returns the tooltip of an edge, with its full text: the label may be truncated. */
 export function edgeTooltip(edge, { source, target }) {

@@ -1,7 +1,6 @@
 // Presence of other users: outlines of their selections in their color with their name, and their pointers.
 import { pathOf } from "./edge_svg.js";
 import { grow } from "./geometry.js";
-import { keyOf } from "./scene.js";
 import { html, svg } from "./svg.js";
 
 const POINTER_MS = 120;
@@ -59,7 +58,7 @@ export class PresenceLayer {
 
   #outlines(person) {
     const { scene, router } = this.canvas;
-    const elements = person.items.slice(0, MAX_OUTLINES).map(({ of, id }) => scene.find(keyOf(of, id))).filter(Boolean);
+    const elements = person.items.slice(0, MAX_OUTLINES).map(({ of, id }) => scene.find(scene.keyOf(of, id))).filter(Boolean);
     const drawn = elements.filter((element) => scene.boxOf(element.key) || scene.isDrawable(element));
     return drawn.map((element, index) => {
       const area = scene.boxOf(element.key);

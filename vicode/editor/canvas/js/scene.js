@@ -24,6 +24,7 @@ export class Scene {
     this.initialNodes = new Set();
     this.pairs = new Map();
     this.edgesAt = new Map();
+    this.drawnAs = new Map();
     this.nodeGrid = new Grid();
     this.edgeGrid = new Grid();
     this.affectedNodes = new Set();
@@ -33,7 +34,7 @@ export class Scene {
   }
 
   load(view) {
-    for (const store of [this.nodes, this.edges, this.frames, this.initialNodes, this.pairs, this.edgesAt, this.nodeGrid, this.edgeGrid, this.hidden]) store.clear();
+    for (const store of [this.nodes, this.edges, this.frames, this.initialNodes, this.pairs, this.edgesAt, this.drawnAs, this.nodeGrid, this.edgeGrid, this.hidden]) store.clear();
     this.rev = view.rev;
     this.component = view.component;
     this.doc = view.doc ?? "";
@@ -59,6 +60,12 @@ export class Scene {
     const nodes = touched.filter((key) => this.nodes.has(key));
     this.#index(nodes, new Set([...this.#edgesAtAll(nodes), ...touched.filter((key) => this.edges.has(key))]));
     return { touched, gone, affectedNodes: this.affectedNodes, changedRects: this.changedRects };
+  }
+
+  /** Returns the key of an element; a transition may be drawn as part of another one. */
+  keyOf(of, id) {
+    const key = keyOf(of, id);
+    return this.drawnAs.get(key) ?? key;
   }
 
   /** Moves a node without updating the spatial index; `reindex` does that at the end of a drag. */
@@ -216,6 +223,7 @@ export class Scene {
     const old = this.edges.get(edge.key);
     if (old && (old.source !== edge.source || old.target !== edge.target)) this.#unlink(old);
     this.affectedNodes.add(edge.source).add(edge.target);
+    this.#drawAlso(old, edge);
     this.edges.set(edge.key, edge);
     member(this.edgesAt, edge.source).add(edge.key);
     member(this.edgesAt, edge.target).add(edge.key);
@@ -223,9 +231,15 @@ export class Scene {
     return edge.key;
   }
 
+  #drawAlso(old, edge) {
+    for (const id of old?.data.also ?? []) this.drawnAs.delete(keyOf(old.of, id));
+    for (const id of edge?.data.also ?? []) this.drawnAs.set(keyOf(edge.of, id), edge.key);
+  }
+
   #dropEdge(key) {
     const edge = this.edges.get(key);
     if (edge) this.#unlink(edge);
+    if (edge) this.#drawAlso(edge, null);
     this.edges.delete(key);
     this.edgeGrid.remove(key);
     return key;

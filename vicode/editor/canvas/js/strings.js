@@ -67,4 +67,4 @@ export const noteName = (text) => `Note: ${text}`;
 export const markName = (name, count) => (count ? `${name} ${count}` : `${name} code`);
 export const linkName = ({ kind, state, component }) => `${state} ${kind} ${component}`;
 export const transitionName = ({ order, of }, source, target) => `Transition ${order} of ${of} from ${source} to ${target}`;
-export const transitionTitle = ({ order, of }, source, target) => `${source} → ${target}${of > 1 ? ` (${order} of ${of})` : ""}`;
+export const transitionTitle = ({ order, of, leads_back: leadsBack }, source, target) => `${source} ${leadsBack ? "↔" : "→"} ${target}${of > 1 ? ` (${order} of ${of})` : ""}`;

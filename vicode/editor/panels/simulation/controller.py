@@ -182,7 +182,7 @@ class SimulationController:
         self._notify()
 
     def toggle_breakpoints(self, *items: ItemRef) -> None:
-        self.breakpoints = self.breakpoints.toggled(*items)
+        self.breakpoints = self.breakpoints.toggled(self.context.design, *items)
         self._show_breakpoints()
         self.robot.tell_breakpoints()
         self._notify()

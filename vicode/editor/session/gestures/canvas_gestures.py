@@ -4,6 +4,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 from typing import ClassVar, Literal
 
+from vicode.diagram.drawn_transitions import shows_common
 from vicode.diagram.layered_layout import NodeLayout
 from vicode.editor.session import texts
 from vicode.editor.session.document import DocumentSession
@@ -286,7 +287,7 @@ def apply_layout(design: Design, layout: NodeLayout, only: Collection[str] | Non
     design = move_notes(design, layout.notes)
     if only is not None:
         return move_nodes(design, {name: point for name, point in layout.states.items() if name in only})
-    has_common = design.common.transitions or design.common.actions
+    has_common = shows_common(design)
     return move_nodes(design, layout.states, layout.uses, layout.common if has_common else None)
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from vicode.diagram.drawn_transitions import draw_transitions
 from vicode.editor.view import ItemRef
 from vicode.model.decision_keys import transition_key
 from vicode.model.design import COMMON, Design, Transition
@@ -17,9 +18,18 @@ class Breakpoints:
 
     items: frozenset[ItemRef] = field(default_factory=frozenset)
 
-    def toggled(self, *items: ItemRef) -> "Breakpoints":
-        """Add breakpoints to these items, or remove the breakpoints if all items have one."""
-        able = {ItemRef(kind=each.kind, id=each.id) for each in items if each.kind in _KINDS}
+    def toggled(self, design: Design, *items: ItemRef) -> "Breakpoints":
+        """Add breakpoints to these items, or remove the breakpoints if all items have one.
+
+        A transition that is drawn for several ones has a breakpoint on each.
+        """
+        rules = {key: drawn.keys for drawn in draw_transitions(design) for key in drawn.keys}
+        able = {
+            ItemRef(kind=each.kind, id=key)
+            for each in items
+            if each.kind in _KINDS
+            for key in (rules.get(each.id, (each.id,)) if each.kind == "transitions" else (each.id,))
+        }
         return Breakpoints(items=self.items - able if able <= self.items else self.items | able)
 
     def existing_in(self, design: Design) -> "Breakpoints":

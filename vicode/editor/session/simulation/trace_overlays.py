@@ -5,11 +5,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from vicode.diagram.drawn_transitions import draw_transitions
 from vicode.diagram.heat_map import heat_color
 from vicode.editor.view import ItemRef
-from vicode.model.decision_keys import transition_key
 from vicode.model.design import Design
-from vicode.model.traversal import iter_transitions
 from vicode.runs.design_trace import TransitionKeys
 from vicode.runs.recording import Recording
 from vicode.simulation import IterationResult
@@ -43,9 +42,8 @@ def measure_heat(recording: Recording, design: Design) -> HeatMap:
         words[item] = _describe_state(known, share) if known else "never entered"
     taken = _count_transitions(recording, design)
     most = sum(taken.values()) or 1
-    for located in iter_transitions(design):
-        key = transition_key(located.path)
-        item, count = ItemRef(kind="transitions", id=key), taken[key]
+    for drawn in draw_transitions(design):
+        item, count = ItemRef(kind="transitions", id=drawn.keys[0]), sum(taken[key] for key in drawn.keys)
         colors[item] = heat_color(count / most) if count else NEVER
         words[item] = f"taken {count} time{'s' * (count != 1)}" if count else "never taken"
     return HeatMap(colors=colors, words=words)
