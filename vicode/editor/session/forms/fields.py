@@ -15,15 +15,21 @@ from vicode.editor.session.gestures import number_text
 from vicode.findings import DesignPath
 from vicode.languages import LANGUAGES
 from vicode.model.design import (
+    INTERRUPT_ENDS,
     STATE_COLORS,
     Assign,
     Call,
     CommonSection,
+    Competence,
+    CompetenceStep,
     DecisionGroup,
     Declaration,
     Design,
     DiagramFrame,
     DiagramNote,
+    Interrupt,
+    Latch,
+    Layer,
     RunCode,
     State,
     Stay,
@@ -58,6 +64,7 @@ _STATE: Mapping[DesignPath, FormField] = {
     ("name",): attribute("name", "State"),
     ("doc",): _DESCRIPTION,
     ("final",): attribute("final", "Final", hint="The component is done in this state"),
+    ("failed",): attribute("failed", "Failed", hint="The component has ended without success"),
     ("disabled",): attribute("disabled", "Disabled", hint="Not generated"),
     ("color",): _COLOR,
     ("requires",): attribute("requires", "Components", parse=tuple),
@@ -70,6 +77,43 @@ _STATE: Mapping[DesignPath, FormField] = {
         help="Robots wait in their current state until this many are ready.",
     ),
     ("xabsl_name",): _XABSL_NAME,
+}
+
+
+def _required(name: str, label: str, hint: str) -> FormField:
+    """A condition that cannot be removed: what is derived from it would disappear while it is typed anew."""
+    return replace(
+        attribute(name, label, hint=hint), validate=lambda text: "" if text.strip() else texts.CONDITION_MISSING
+    )
+
+
+_LINKS: Mapping[DesignPath, FormField] = {("doc",): _DESCRIPTION, ("requires",): _STATE[("requires",)]}
+_STEP: Mapping[DesignPath, FormField] = {
+    ("when",): attribute("when", "When", hint="always"),
+    ("retries",): replace(
+        count("retries", "Retries", "no limit"),
+        validate=lambda text: number_text.validate_count(text) and texts.expected("a whole number"),
+    ),
+    **_LINKS,
+}
+_LATCH: Mapping[DesignPath, FormField] = {
+    ("on",): _required("on", "On", "becomes true when this holds"),
+    ("off",): attribute("off", "Off", hint="when On no longer holds"),
+    ("hold",): attribute("hold", "Hold", hint="none", parse=str.strip),
+    ("doc",): _DESCRIPTION,
+}
+_INTERRUPT: Mapping[DesignPath, FormField] = {
+    ("do",): attribute("do", "Do"),
+    ("when",): _required("when", "When", "interrupts when this holds"),
+    ("until",): attribute("until", "Until", hint="When no longer holds"),
+    ("during",): names("during", "While", "all other states"),
+    ("every",): attribute("every", "Every", hint="no limit", parse=str.strip),
+    ("then",): FormField(
+        label="Then",
+        read=lambda interrupt: interrupt.then or INTERRUPT_ENDS[0],
+        write=lambda interrupt, text: replace(interrupt, then="" if text == INTERRUPT_ENDS[0] else text),
+    ),
+    ("doc",): _DESCRIPTION,
 }
 _FREQUENCY = number("frequency_hz", "Frequency, Hz", "every step")
 _DECLARATION: Mapping[DesignPath, FormField] = {
@@ -146,6 +190,15 @@ _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     Agent: {("root",): attribute("root", "Root"), **_SHARED},
     tuple: {("doc",): _MEANING},
     Declaration: _DECLARATION,
+    Latch: _LATCH,
+    Interrupt: _INTERRUPT,
+    Competence: {("goal",): _required("goal", "Goal", "reached when this holds"), **_LINKS},
+    CompetenceStep: _STEP,
+    Layer: {
+        ("when",): attribute("when", "When", hint="commands when this holds"),
+        ("hold",): attribute("hold", "For", hint="none", parse=str.strip),
+        **_LINKS,
+    },
     DiagramFrame: {
         ("color",): _COLOR,
         ("states",): replace(

@@ -1,4 +1,4 @@
-"""Ids of the actions and declarations in a design and its project, by which forms and edits name them.
+"""Ids of the actions, declarations and constructs in a design and its project, by which forms and edits name them.
 
 An index would name another item as soon as somebody adds, moves or removes one. Ids follow their items from one
 version of the design to the next. A browser chooses the ids of the items that it adds, so it can draw their fields
@@ -18,7 +18,8 @@ from vicode.model.project import Project
 ACTION_LISTS = ("actions", "enter", "leave")
 PROJECT_LISTS = ("enumerations", "constants", "components", "agents")
 DECLARATION_LISTS = ("parameters", "outputs", "variables", "arguments")
-ID_LISTS = (*ACTION_LISTS, *DECLARATION_LISTS, *PROJECT_LISTS, "elements")
+CONSTRUCT_LISTS = ("latches", "interrupts", "steps", "layers")
+ID_LISTS = (*ACTION_LISTS, *DECLARATION_LISTS, *CONSTRUCT_LISTS, *PROJECT_LISTS, "elements")
 """The lists whose items have ids."""
 _NOWHERE: DesignPath = ("",)
 _WANTED = re.compile(r"b[0-9a-z]{4,20}")
@@ -134,6 +135,8 @@ def _owners(root: Design | Project) -> Iterator[tuple[DesignPath, Any]]:
         for state in root.states:
             yield ("states", state.name), state
         yield ("common",), root.common
+        if root.competence is not None:
+            yield ("competence",), root.competence
         yield from _indexed((), "outputs", root.outputs)
         return
     yield from _indexed((), "enumerations", root.enumerations)

@@ -48,7 +48,7 @@ FormAction = Literal[
 ]
 _NEW_PREDICATE = "return self.state_time > 2\n"
 _DECISION_LISTS = ("transitions", "then", "else")
-_MOVES = {"-1": -1, "1": 1}
+MOVES = {"-1": -1, "1": 1}
 
 
 class Press(Protocol):
@@ -203,7 +203,7 @@ def _remove_card(press: Press, document: DocumentSession, owner: DesignPath) -> 
 
 
 def _move_card(press: Press, document: DocumentSession, owner: DesignPath) -> FormResult:
-    found, by = _find_card(press, document, owner), _MOVES.get(press.to)
+    found, by = _find_card(press, document, owner), MOVES.get(press.to)
     if found is None or by is None:
         return _MISSING
     path, index = found
