@@ -19,7 +19,8 @@ _PARTS = {
     **{key: key for key in ("on", "off", "hold", "until", "every", "goal", "for")},
 }
 _SECTIONS = {"parameters": "parameter", "outputs": "output", "variables": "variable", "uses": "component"}
-_CONSTRUCTS = {"latches": "latch", "steps": "step", "layers": "layer"}
+_SECTIONS |= {"latches": "latch", "layers": "layer"}
+_WHOLE = {"module": "module code", "members": "member code", "interrupts": "an interrupt", "competence": "competence"}
 
 
 def item_label(design: Design, path: DesignPath) -> str:
@@ -33,16 +34,8 @@ def item_label(design: Design, path: DesignPath) -> str:
             return "every state"
         case (str(section), str(name), *_) if section in _SECTIONS:
             return f"{_SECTIONS[section]} {name}"
-        case (str(section), str(name), *_) | ("competence", str(section), str(name), *_) if section in _CONSTRUCTS:
-            return f"{_CONSTRUCTS[section]} {name}"
-        case ("interrupts", int(index), *_) if index < len(design.interrupts):
-            return f"interrupt by {design.interrupts[index].do}"
-        case ("competence", *_):
-            return "competence"
-        case ("module", *_):
-            return "module code"
-        case ("members", *_):
-            return "member code"
+        case (str(section), *_):
+            return _WHOLE.get(section, "design")
         case _:
             return "design"
 

@@ -7,20 +7,7 @@ from typing import Any
 
 from vicode.matching import Match, match_equal
 from vicode.model.decisions import retarget
-from vicode.model.design import (
-    Call,
-    CompetenceStep,
-    Declaration,
-    Design,
-    DiagramFrame,
-    DiagramNote,
-    Interrupt,
-    Latch,
-    Layer,
-    State,
-    Transition,
-    Use,
-)
+from vicode.model.design import Call, Declaration, Design, DiagramFrame, DiagramNote, State, Transition, Use
 from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, RemoteReference, TopicReference
 
 Matches = dict[int, int]
@@ -44,10 +31,6 @@ def item_key(item: Any) -> Hashable:
             return name
         case Use(alias=alias) | Call(alias=alias):
             return alias
-        case Latch(name=name) | CompetenceStep(name=name) | Layer(name=name):
-            return name
-        case Interrupt(do=do):
-            return do
         case Enumeration(name=name) | Agent(name=name) | Profile(name=name):
             return name
         case Interface() | ProfileClass() | RemoteReference() | TopicReference():
@@ -55,7 +38,8 @@ def item_key(item: Any) -> Hashable:
         case (name, _text):
             return str(name)
         case _:
-            return str(item)
+            # Latches, steps and layers; interrupts.
+            return str(getattr(item, "name", "") or getattr(item, "do", "") or item)
 
 
 def find_renamed_states(old: Design, new: Design) -> dict[str, str]:
@@ -141,9 +125,7 @@ def _match_neighbors(
 
 
 def _is_renamed(old: Any, new: Any) -> bool:
-    is_same_kind = isinstance(old, Declaration | DiagramFrame | Latch | CompetenceStep | Layer) and type(old) is type(
-        new
-    )
+    is_same_kind = isinstance(old, Declaration | DiagramFrame) and type(old) is type(new)
     return is_same_kind and bool(replace(new, name=old.name) == old)
 
 

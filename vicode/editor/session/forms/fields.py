@@ -78,43 +78,12 @@ _STATE: Mapping[DesignPath, FormField] = {
     ),
     ("xabsl_name",): _XABSL_NAME,
 }
-
-
-def _required(name: str, label: str, hint: str) -> FormField:
-    """A condition that cannot be removed: what is derived from it would disappear while it is typed anew."""
-    return replace(
-        attribute(name, label, hint=hint), validate=lambda text: "" if text.strip() else texts.CONDITION_MISSING
-    )
-
-
-_LINKS: Mapping[DesignPath, FormField] = {("doc",): _DESCRIPTION, ("requires",): _STATE[("requires",)]}
-_STEP: Mapping[DesignPath, FormField] = {
-    ("when",): attribute("when", "When", hint="always"),
-    ("retries",): replace(
-        count("retries", "Retries", "no limit"),
-        validate=lambda text: number_text.validate_count(text) and texts.expected("a whole number"),
-    ),
-    **_LINKS,
-}
-_LATCH: Mapping[DesignPath, FormField] = {
-    ("on",): _required("on", "On", "becomes true when this holds"),
-    ("off",): attribute("off", "Off", hint="when On no longer holds"),
-    ("hold",): attribute("hold", "Hold", hint="none", parse=str.strip),
-    ("doc",): _DESCRIPTION,
-}
-_INTERRUPT: Mapping[DesignPath, FormField] = {
-    ("do",): attribute("do", "Do"),
-    ("when",): _required("when", "When", "interrupts when this holds"),
-    ("until",): attribute("until", "Until", hint="When no longer holds"),
-    ("during",): names("during", "While", "all other states"),
-    ("every",): attribute("every", "Every", hint="no limit", parse=str.strip),
-    ("then",): FormField(
-        label="Then",
-        read=lambda interrupt: interrupt.then or INTERRUPT_ENDS[0],
-        write=lambda interrupt, text: replace(interrupt, then="" if text == INTERRUPT_ENDS[0] else text),
-    ),
-    ("doc",): _DESCRIPTION,
-}
+_STEP: Mapping[DesignPath, FormField] = {("doc",): _DESCRIPTION, ("requires",): _STATE[("requires",)]}
+_THEN = FormField(
+    label="Then",
+    read=lambda interrupt: interrupt.then or INTERRUPT_ENDS[0],
+    write=lambda interrupt, text: replace(interrupt, then="" if text == INTERRUPT_ENDS[0] else text),
+)
 _FREQUENCY = number("frequency_hz", "Frequency, Hz", "every step")
 _DECLARATION: Mapping[DesignPath, FormField] = {
     ("type",): FormField(
@@ -190,15 +159,11 @@ _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     Agent: {("root",): attribute("root", "Root"), **_SHARED},
     tuple: {("doc",): _MEANING},
     Declaration: _DECLARATION,
-    Latch: _LATCH,
-    Interrupt: _INTERRUPT,
-    Competence: {("goal",): _required("goal", "Goal", "reached when this holds"), **_LINKS},
+    Latch: {("doc",): _DESCRIPTION},
+    Interrupt: {("do",): attribute("do", "Do"), ("then",): _THEN, ("doc",): _DESCRIPTION},
+    Competence: _STEP,
     CompetenceStep: _STEP,
-    Layer: {
-        ("when",): attribute("when", "When", hint="commands when this holds"),
-        ("hold",): attribute("hold", "For", hint="none", parse=str.strip),
-        **_LINKS,
-    },
+    Layer: _STEP,
     DiagramFrame: {
         ("color",): _COLOR,
         ("states",): replace(
@@ -314,6 +279,9 @@ def _derived_field(kind: type, record: RecordSchema, key: KeySchema) -> FormFiel
         case ScalarSchema(scalar_type=type_, choices=choices):
             make = _MAKERS.get(type_, attribute)
             field = _with_error(replace(make(name, label), help=about), " or ".join(choices) or type_, choices)
+            if key.required:
+                # What is derived from it would disappear while it is typed anew.
+                field = replace(field, validate=lambda text: "" if text.strip() else texts.VALUE_MISSING)
         case ListSchema() if key.schema == NAMES:
             field = replace(names(name, label), help=about)
         case _:

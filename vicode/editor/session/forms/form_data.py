@@ -36,7 +36,6 @@ from vicode.model.design import (
     DiagramFrame,
     DiagramNote,
     State,
-    Stay,
     Use,
 )
 from vicode.model.project import Project
@@ -75,7 +74,7 @@ class FormWriter:
         return {
             **self._write_project(project, ids),
             **self._write_design(project, design, ids),
-            **self._write_constructs(project, design, ids),
+            **{key: form_json(nodes) for key, nodes in construct_parts(project, design, ids).items()},
             **self._write_owners(project, design, ids),
             **self._write_decisions(project, design, ids),
         }
@@ -100,10 +99,6 @@ class FormWriter:
         if self._design is None or self._design[0] != inputs:
             self._design = (inputs, form_json(design_form(project, design, ids)))
         return {"design/": self._design[1]}
-
-    @staticmethod
-    def _write_constructs(project: Project, design: Design, ids: ListIds) -> Forms:
-        return {key: form_json(nodes) for key, nodes in construct_parts(project, design, ids).items()}
 
     def lists(self, project: Project, design: Design) -> FormLists:
         """What the forms share; the same object while nothing of it changes."""
@@ -161,20 +156,16 @@ def item_form(project: Project, design: Design, item: ItemRef, ids: ListIds) -> 
 
 
 def _decision_form(project: Project, design: Design, located: LocatedDecision, ids: ListIds) -> tuple[Node, ...]:
-    decision = located.decision
-    if not isinstance(decision, Stay) and decision.origin:
-        return derived_decision_form(design, ids, located.source, decision)
-    return decision_form(project, design, located.source, decision)
+    source, decision = located.source, located.decision
+    return derived_decision_form(design, ids, source, decision) or decision_form(project, design, source, decision)
 
 
 def _owner_form(project: Project, design: Design, owner: _Owner, ids: ListIds) -> tuple[Node, ...]:
     match owner:
         case Design():
             return design_form(project, owner, ids)
-        case State() if owner.origin:
-            return derived_state_form(design, ids, owner)
         case State():
-            return state_form(project, design, owner, ids)
+            return derived_state_form(design, ids, owner) or state_form(project, design, owner, ids)
         case CommonSection():
             return common_form(project, design, ids)
         case Use():

@@ -21,6 +21,13 @@ DECLARATION_LISTS = ("parameters", "outputs", "variables", "arguments")
 CONSTRUCT_LISTS = ("latches", "interrupts", "steps", "layers")
 ID_LISTS = (*ACTION_LISTS, *DECLARATION_LISTS, *CONSTRUCT_LISTS, *PROJECT_LISTS, "elements")
 """The lists whose items have ids."""
+
+
+def noun_of(section: str) -> str:
+    """What an item of a list is called."""
+    return section.removesuffix("es" if section == "latches" else "s")
+
+
 _NOWHERE: DesignPath = ("",)
 _WANTED = re.compile(r"b[0-9a-z]{4,20}")
 _Ids = Mapping[str, tuple[str, ...]]
