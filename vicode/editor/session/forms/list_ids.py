@@ -128,8 +128,10 @@ class ListIds:
         )
 
     def _new_id(self, path: DesignPath, taken: tuple[str, ...]) -> str:
-        wanted, self._wanted = self._wanted, None
+        wanted = self._wanted
+        # What is derived from a new construct is added to other lists.
         if wanted is not None and wanted[0] == path and wanted[1] not in taken:
+            self._wanted = None
             return wanted[1]
         self._last += 1
         return f"n{self._last}"
