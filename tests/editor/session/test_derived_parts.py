@@ -31,7 +31,7 @@ def test_a_derived_state_cannot_be_moved(tmp_path: Path) -> None:
     document.edit("Move", lambda design: move_nodes(design, {"Look": (10.0, 20.0)}))
     assert document.is_saved
     assert document.shared.notice.text == (
-        "Not changed: this part is derived from 'Look' in 'competence'; edit that in the file"
+        "Not changed: this part is derived from 'Look' in 'competence'; edit it in the form of the design"
     )
 
 

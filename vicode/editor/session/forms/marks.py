@@ -10,7 +10,7 @@ from vicode.editor.session.forms.construct_form import construct_parts
 from vicode.editor.session.forms.form_data import item_form
 from vicode.editor.session.forms.form_paths import file_path, item_path, resolve
 from vicode.editor.session.forms.list_ids import ListIds
-from vicode.editor.session.forms.nodes import CodeText, Field, MultiChoice, Node, iter_fields
+from vicode.editor.session.forms.nodes import CodeText, Field, ItemName, MultiChoice, Node, iter_fields
 from vicode.editor.session.forms.project_places import project_fields
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath, Finding
@@ -79,6 +79,9 @@ def note_at(path: DesignPath, text: str) -> dict[str, Any]:
 
 
 def _marks(node: Field, path: DesignPath, findings: Sequence[Finding], lint: Lint) -> Iterable[CodeMark]:
+    if isinstance(node, ItemName) and node.path[:1] == ("design",):
+        # Conditions of constructs have fields of their own.
+        findings = [each for each in findings if each.subject is not None and each.subject.path == path]
     if isinstance(node, MultiChoice):
         return mark_text(", ".join(node.value), path, findings)
     if isinstance(node, CodeText) and node.language == "pairs":
