@@ -81,7 +81,7 @@ def test_a_design_without_constructs_shows_nothing_but_a_menu() -> None:
     assert not headings(nodes) & {"Latches", "Interrupts", "Steps", "Layers", "Competence"}
     cards = [node for node in nodes if isinstance(node, Cards)]
     assert [node.path for node in cards if node.menu] == [("variables",)]
-    assert [node.adders for node in cards if node.path[0] == "design"] == ["", "", ""]
+    assert [node.adders for node in cards if node.path[0] == "design"] == [""] * 4
 
 
 @pytest.mark.parametrize(
@@ -96,7 +96,7 @@ def test_a_design_without_constructs_shows_nothing_but_a_menu() -> None:
 )
 def test_the_menu_adds_what_the_design_can_have(text: str, possible: set[str]) -> None:
     menu = construct_adders(PROJECT, opened(text).design)["constructs"]
-    assert [each["label"] for each in menu] == ["Latch", "Interrupt", "Layer", "Competence"]
+    assert [each["label"] for each in menu] == ["Latch", "Interrupt", "Competence", "Layer"]
     assert {each["label"] for each in menu if each["adds"]} == possible
 
 

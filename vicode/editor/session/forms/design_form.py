@@ -35,7 +35,6 @@ _SECTIONS: tuple[tuple[DeclarationList, str, str], ...] = (
     ("outputs", "Outputs", "values other components can read"),
     ("variables", "Variables", "internal values"),
 )
-_MENU = "Latch, interrupt…"
 _XABSL_CHOICES: tuple[tuple[str, OptionList, str], ...] = (
     ("arithmetic", "arithmetic", "xabsl: arithmetic and restart semantics of XABSL. Empty: default semantics."),
     ("time_unit", "time_units", "Unit of state_time and component_time in expressions. Empty: seconds."),
@@ -47,11 +46,20 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
     declared: list[Node] = []
     for section, title, hint in _SECTIONS:
         cards = declaration_cards(ItemPlace(ids=ids), section, getattr(design, section))
-        declared += [Heading(text=title, hint=hint), replace(cards, menu=_MENU if section == "variables" else "")]
+        declared += [
+            Heading(text=title, hint=hint),
+            replace(cards, menu="Latch, interrupt…" if section == "variables" else ""),
+        ]
+    initial: tuple[Node, ...] = (
+        Choice(path=("initial",), label="Initial state", value=design.initial, options="states"),
+    )
+    if design.competence is not None or design.layers:
+        # They define it.
+        initial = ()
     return (
         Title(text="Component", name=design.component),
         field_node(design, "doc"),
-        Row(nodes=(*_initial(design), field_node(design, "frequency_hz"))),
+        Row(nodes=(*initial, field_node(design, "frequency_hz"))),
         field_node(design, "resume"),
         *other_nodes(design),
         *interface_lists(project, design, ids.of_project(project)),
@@ -66,13 +74,6 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
         _code(project, design),
         project_section(project),
     )
-
-
-def _initial(design: Design) -> tuple[Node, ...]:
-    """The choice of the initial state, which a competence or layers define."""
-    if design.competence is not None or design.layers:
-        return ()
-    return (Choice(path=("initial",), label="Initial state", value=design.initial, options="states"),)
 
 
 def _properties(design: Design) -> tuple[Node, ...]:

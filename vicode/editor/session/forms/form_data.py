@@ -90,10 +90,8 @@ class FormWriter:
     def _write_design(self, project: Project, design: Design, ids: ListIds) -> Forms:
         counts = (len(design.common.transitions), len(design.common.actions))
         shown = replace(design, states=(), frames=(), notes=(), common=CommonSection())
-        lists = [
-            ids.of_owner(path)
-            for path in ((), ("competence",), *(("outputs", at) for at in range(len(design.outputs))))
-        ]
+        owners = ((), ("competence",), *(("outputs", at) for at in range(len(design.outputs))))
+        lists = [ids.of_owner(path) for path in owners]
         interfaces = [project.interface(use.component) for use in design.uses]
         inputs = (shown, counts, lists, interfaces, self._project and self._project[0])
         if self._design is None or self._design[0] != inputs:

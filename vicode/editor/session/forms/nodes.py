@@ -26,7 +26,7 @@ ProjectList = Literal[
     "component-variables",
     "component-arguments",
 ]
-ConstructList = Literal["latches", "interrupts", "steps", "layers", "constructs"]
+ConstructList = Literal["latches", "interrupts", "competence", "steps", "layers", "constructs"]
 AdderList = Literal["actions", "effects", "modulates"] | DeclarationList | ConstructList | ProjectList
 """The kinds of cards that can be added to a list: actions with and without calls, modulated components, declarations
 of the design and of project.yaml, constructs."""

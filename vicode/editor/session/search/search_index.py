@@ -33,7 +33,6 @@ class SearchKind(StrEnum):
     STATE = "state"
     USE = "used component"
     DECLARATION = "declaration"
-    LATCH = "latch"
     TRANSITION = "transition"
     FRAME = "frame"
     NOTE = "note"
@@ -45,7 +44,6 @@ _WEIGHTS = {
     SearchKind.COMMAND: 4.0,
     SearchKind.USE: 2.0,
     SearchKind.DECLARATION: 1.0,
-    SearchKind.LATCH: 1.0,
 }
 
 
@@ -214,16 +212,10 @@ def _design_items(key: str, design: Design, suffix: str) -> Iterator[SearchItem]
     for note in design.notes:
         first, _break, rest = note.text.strip().partition("\n")
         yield SearchItem(SearchKind.NOTE, first, rest, location, make_target("notes", note.name))
-    latches = {latch.name for latch in design.latches}
-    for latch in design.latches:
-        detail = " – ".join(part for part in (latch.doc, latch.on, latch.off) if part)
-        yield SearchItem(SearchKind.LATCH, latch.name, detail, location, make_target())
+    conditions = {latch.name: f" – {latch.on} – {latch.off}".removesuffix(" – ") for latch in design.latches}
     for section, declaration in design.declarations():
-        if declaration.origin and declaration.name in latches:
-            continue
-        yield SearchItem(
-            SearchKind.DECLARATION, declaration.name, _declaration_detail(section, declaration), location, make_target()
-        )
+        detail = _declaration_detail(section, declaration) + conditions.get(declaration.name, "")
+        yield SearchItem(SearchKind.DECLARATION, declaration.name, detail, location, make_target())
     for located in iter_transitions(design):
         transition = located.decision
         assert isinstance(transition, Transition)
