@@ -14,7 +14,7 @@ from vicode.editor.session.forms.form_data import FormWriter, form_lists, item_f
 from vicode.editor.session.forms.form_paths import at_design
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.marks import ItemFields, marks_of
-from vicode.editor.session.forms.nodes import Cards, FormPart, Heading, Node
+from vicode.editor.session.forms.nodes import Cards, Check, FormPart, Heading, Node, Row, Section
 from vicode.editor.view import ItemRef, item_at_path, item_label
 from vicode.findings import Finding, FindingSubject, get_rule
 from vicode.model.design import Design, State
@@ -70,6 +70,11 @@ def opened(text: str) -> DocumentSession:
 def saved(document: DocumentSession, text: str) -> str:
     """The lines of the file that are new."""
     return "\n".join(line for line in save_design(document.design, text).splitlines() if line not in text.splitlines())
+
+
+def iter_checks(nodes: tuple[Node, ...]) -> list[Check]:
+    inner = [each for node in nodes for each in (node.nodes if isinstance(node, Row | Section) else (node,))]
+    return [node for node in inner if isinstance(node, Check)]
 
 
 def headings(nodes: tuple[Node, ...]) -> set[str]:
@@ -239,3 +244,14 @@ def test_items_have_labels() -> None:
     design = opened(STATES).design
     assert item_label(design, ("latches", "hot", "on")) == "latch hot"
     assert item_label(design, ("interrupts", 0, "when")) == "an interrupt"
+
+
+def test_only_final_states_can_be_failed() -> None:
+    document, ids = opened(STATES), ListIds()
+    forms = [
+        [node.path for node in iter_checks(item_form(PROJECT, document.design, ItemRef(kind="states", id=name), ids))]
+        for name in ("Walk", "Done")
+    ]
+    assert [("failed",) in paths for paths in forms] == [False, True]
+    edit(document, "check", {"of": "states", "id": "Done"}, path="failed", value=True)
+    assert saved(document, STATES) == "  Done: {final: true, failed: true}"
