@@ -41,6 +41,7 @@ from vicode.editor.session.forms.state_form import OUTSIDE
 from vicode.editor.view import guard_label
 from vicode.model.construct_edits import new_construct
 from vicode.model.design import (
+    INTERRUPT_ENDS,
     Competence,
     CompetenceStep,
     Decision,
@@ -106,6 +107,11 @@ def construct_adders(project: Project, design: Design) -> dict[AdderList, Any]:
     lists: dict[AdderList, list[Adder]] = {section: [each] if each.nodes else [] for section, each in found.items()}
     lists["constructs"] = [each for section, each in found.items() if section != "steps"]
     return {section: json.loads(form_json(each)) for section, each in lists.items()}
+
+
+def interrupt_ends(design: Design) -> list[str]:
+    """What can follow an interrupt."""
+    return [*INTERRUPT_ENDS, *(state.name for state in design.states)]
 
 
 def derived_state_form(design: Design, ids: ListIds, state: State) -> tuple[Node, ...]:

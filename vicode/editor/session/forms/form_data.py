@@ -10,6 +10,7 @@ from vicode.editor.session.forms.construct_form import (
     construct_parts,
     derived_decision_form,
     derived_state_form,
+    interrupt_ends,
 )
 from vicode.editor.session.forms.decision_form import decision_form
 from vicode.editor.session.forms.declaration_form import declaration_adders
@@ -27,17 +28,7 @@ from vicode.editor.session.project.interface_edits import type_names
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.decision_keys import parse_transition_key, transition_key
-from vicode.model.design import (
-    COMMON,
-    INTERRUPT_ENDS,
-    CommonSection,
-    Decision,
-    Design,
-    DiagramFrame,
-    DiagramNote,
-    State,
-    Use,
-)
+from vicode.model.design import COMMON, CommonSection, Decision, Design, DiagramFrame, DiagramNote, State, Use
 from vicode.model.project import Project
 from vicode.model.traversal import LocatedDecision, find_decision, iter_decisions
 
@@ -186,7 +177,7 @@ def form_lists(project: Project, design: Design) -> FormLists:
     """What the forms of a design share."""
     return {
         "states": [state.name for state in design.states],
-        "ends": [*INTERRUPT_ENDS, *(state.name for state in design.states)],
+        "ends": interrupt_ends(design),
         "uses": [use.alias for use in design.uses],
         "types": [FROM_VALUE, *type_names(project)],
         "arithmetic": ["xabsl"],

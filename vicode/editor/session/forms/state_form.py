@@ -29,12 +29,13 @@ OUTSIDE: DesignPath = ("outside",)
 def state_form(project: Project, design: Design, state: State, ids: ListIds) -> tuple[Node, ...]:
     """The form of a state: what it does and when it ends first, what few states need behind "More"."""
     owner: DesignPath = ("states", state.name)
+    ends = ("final", "failed") if state.final or state.failed else ("final",)
     return (
         Title(text="State", name=state.name, is_hidden=True),
         ItemName(path=("name",), label="State", value=state.name),
         Notice(path=OUTSIDE),
         field_node(state, "doc"),
-        Row(nodes=(_initial(design, state), *_ends(state))),
+        Row(nodes=(_initial(design, state), *(field_node(state, name) for name in ends))),
         Heading(text="Actions", hint="run in order in each iteration"),
         action_cards(project, ("actions",), state.actions, ids.ids((*owner, "actions"), state.actions)),
         Heading(text="Modulates", hint="components this state runs, with parameters"),
@@ -71,12 +72,6 @@ def uses_xabsl(project: Project, design: Design) -> bool:
 def _initial(design: Design, state: State) -> Check:
     field = initial_field(state.name)
     return Check(path=("initial",), label=field.label, value=field.read(design))
-
-
-def _ends(state: State) -> tuple[Node, ...]:
-    """Whether it is final, and only then whether it is failed."""
-    names = ("final", "failed") if state.final or state.failed else ("final",)
-    return tuple(field_node(state, name) for name in names)
 
 
 def _enter_and_leave(project: Project, state: State, ids: ListIds) -> Section:
