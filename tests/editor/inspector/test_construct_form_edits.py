@@ -18,7 +18,9 @@ from vicode.editor.session.forms.nodes import Cards, Check, FormPart, Heading, N
 from vicode.editor.view import ItemRef, item_at_path, item_label
 from vicode.findings import Finding, FindingSubject, get_rule
 from vicode.model.design import Design, State
+from vicode.model.edits import rename_state
 from vicode.model.lowering import lift_design
+from vicode.model.merge import find_renamed_states, merge_designs
 from vicode.model.project import Interface, Project
 from vicode.store import read_design, save_design
 
@@ -255,3 +257,19 @@ def test_only_final_states_can_be_failed() -> None:
     assert [("failed",) in paths for paths in forms] == [False, True]
     edit(document, "check", {"of": "states", "id": "Done"}, path="failed", value=True)
     assert saved(document, STATES) == "  Done: {final: true, failed: true}"
+
+
+def test_two_people_edit_one_latch() -> None:
+    base = opened(STATES).design
+    ours, theirs = opened(STATES), opened(STATES)
+    edit(ours, "text", HERE, path="latches/0/on", base="near > 2", text="near > 4")
+    edit(theirs, "text", HERE, path="latches/0/doc", base="", text="too hot")
+    merged = merge_designs(base, ours.design, theirs.design)
+    assert merged.conflicts == ()
+    assert [(each.on, each.doc) for each in merged.design.latches] == [("near > 4", "too hot")]
+
+
+def test_a_renamed_step_is_the_same_state() -> None:
+    old = opened(COMPETENCE).design
+    new = rename_state(rename_state(old, "Walk", "Go"), "Stop", "Halt")
+    assert find_renamed_states(old, new) == {"Walk": "Go", "Stop": "Halt"}

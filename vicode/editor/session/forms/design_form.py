@@ -50,16 +50,12 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
             Heading(text=title, hint=hint),
             replace(cards, menu="Latch, interrupt…" if section == "variables" else ""),
         ]
-    initial: tuple[Node, ...] = (
-        Choice(path=("initial",), label="Initial state", value=design.initial, options="states"),
-    )
-    if design.competence is not None or design.layers:
-        # They define it.
-        initial = ()
+    initial = Choice(path=("initial",), label="Initial state", value=design.initial, options="states")
+    has_initial = design.competence is None and not design.layers
     return (
         Title(text="Component", name=design.component),
         field_node(design, "doc"),
-        Row(nodes=(*initial, field_node(design, "frequency_hz"))),
+        Row(nodes=(*((initial,) if has_initial else ()), field_node(design, "frequency_hz"))),
         field_node(design, "resume"),
         *other_nodes(design),
         *interface_lists(project, design, ids.of_project(project)),

@@ -21,13 +21,6 @@ DECLARATION_LISTS = ("parameters", "outputs", "variables", "arguments")
 CONSTRUCT_LISTS = ("latches", "interrupts", "steps", "layers")
 ID_LISTS = (*ACTION_LISTS, *DECLARATION_LISTS, *CONSTRUCT_LISTS, *PROJECT_LISTS, "elements")
 """The lists whose items have ids."""
-
-
-def noun_of(section: str) -> str:
-    """What an item of a list is called."""
-    return section.removesuffix("es" if section == "latches" else "s")
-
-
 _NOWHERE: DesignPath = ("",)
 _WANTED = re.compile(r"b[0-9a-z]{4,20}")
 _Ids = Mapping[str, tuple[str, ...]]
@@ -135,6 +128,11 @@ class ListIds:
             return wanted[1]
         self._last += 1
         return f"n{self._last}"
+
+
+def noun_of(section: str) -> str:
+    """What an item of a list is called."""
+    return section.removesuffix("es" if section == "latches" else "s")
 
 
 def _owners(root: Design | Project) -> Iterator[tuple[DesignPath, Any]]:
