@@ -12,7 +12,7 @@ from hypothesis import given
 from tests.strategies.designs import lowered_designs, written_designs
 from vicode.check import check_project
 from vicode.findings import Severity
-from vicode.model.design import Design, Transition
+from vicode.model.design import Design, Latch, Transition
 from vicode.model.edits import remove_states, rename_state
 from vicode.model.lowering import find_lost_edit, lift_design, lower_design, lower_edit, source_path
 from vicode.model.project import Interface, Project
@@ -98,7 +98,7 @@ def test_an_edit_of_something_derived_is_refused() -> None:
     )
     assert lower_edit(design, only_derived) == (
         design,
-        "this part is derived from 'interrupts' (number 1); edit that in the file",
+        "this part is derived from 'interrupts' (number 1); edit it in the form of the design",
     )
 
 
@@ -255,3 +255,9 @@ states:
         interpreter.set_input("Eyes", "distance", float(distance))
         states.append(interpreter.step(step * 100_000_000)["tree"][0]["state"])
     assert states == ["Go", "Avoid", "Wait", "Wait", "Avoid", "Go", "Go"]
+
+
+def test_a_latch_without_condition_is_a_variable() -> None:
+    design = lower_design(Design(component="Player", latches=(Latch(name="near", hold="1"), Latch(name="far"))))
+    assert {each.name for each in design.variables} >= {"near", "far"}
+    assert "()" not in str(design.common.actions)

@@ -9,8 +9,10 @@ from hypothesis import strategies as st
 from tests.strategies.designs import designs
 from vicode.model import text_search
 from vicode.model.design import Code, Declaration, Design, Guard, RunCode, State, Transition
+from vicode.model.lowering import lower_edit
 from vicode.model.text_search import TextQuery, find_text, replace_matches
 from vicode.model.texts import TextKind, iter_texts
+from vicode.store import read_design, save_design
 
 DESIGN = Design(
     component="Player",
@@ -102,3 +104,33 @@ def test_replacing_back_restores_the_design(design: Design, text: str) -> None:
     there = replace_matches(design, query, "⟦⟧")
     back = replace_matches(there.design, TextQuery(text="⟦⟧", match_case=True), text)
     assert (there.count, back.design) == (len(hits), design)
+
+
+CONSTRUCTS = """\
+vicode: 1
+component: Rover
+uses: {drive: Drive}
+parameters: {near: 1}
+latches:
+  hot: {on: near > 2, doc: too near}
+layers:
+  Walk: {modulates: [drive]}
+  Stop: {when: near > 3, for: near, doc: stops near walls, modulates: {drive: {speed: near}}}
+"""
+
+
+def test_the_texts_of_constructs_are_found_once_and_replaced() -> None:
+    design = read_design(CONSTRUCTS).design
+    assert design is not None
+    found = find_text(design, TextQuery(text="near")).matches
+    assert sorted(match.path for match in found) == [
+        ("latches", "hot", "doc"),
+        ("latches", "hot", "on"),
+        ("layers", "Stop", "doc"),
+        ("layers", "Stop", "for"),
+        ("layers", "Stop", "modulates", "drive", "speed"),
+        ("layers", "Stop", "when"),
+    ]
+    changed, error = lower_edit(design, replace_matches(design, TextQuery(text="near"), "far").design)
+    assert error == ""
+    assert save_design(changed, CONSTRUCTS) == CONSTRUCTS.replace("near", "far").replace("{far: 1}", "{near: 1}")

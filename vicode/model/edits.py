@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 from vicode.findings import DesignPath
 from vicode.model.decisions import drop_targets, retarget
@@ -10,12 +10,14 @@ from vicode.model.design import (
     STATE_KEYS,
     Action,
     Call,
+    CompetenceStep,
     Decision,
     DecisionGroup,
     Declaration,
     Design,
     DiagramFrame,
     Guard,
+    Layer,
     Point,
     Property,
     State,
@@ -26,6 +28,8 @@ from vicode.model.lowering import lower_design
 from vicode.model.names import snake_case
 from vicode.model.rename import rename_alias
 from vicode.model.traversal import find_decision, has_code, iter_decisions
+
+_Linked = TypeVar("_Linked", State, CompetenceStep, Layer)
 
 
 def unique_name(wanted: str, taken: Collection[str]) -> str:
@@ -309,19 +313,27 @@ def remove_uses(design: Design, aliases: Collection[str]) -> Design:
     def without_calls(actions: tuple[Action, ...]) -> tuple[Action, ...]:
         return tuple(action for action in actions if not (isinstance(action, Call) and action.alias in aliases))
 
-    states = tuple(
-        replace(
-            state,
-            requires=tuple(alias for alias in state.requires if alias not in aliases),
-            modulates=tuple(call for call in state.modulates if call.alias not in aliases),
-            actions=without_calls(state.actions),
-        )
-        for state in design.states
+    def without_links(owner: _Linked) -> _Linked:
+        changes: dict[str, Any] = {
+            "requires": tuple(alias for alias in owner.requires if alias not in aliases),
+            "modulates": tuple(call for call in owner.modulates if call.alias not in aliases),
+        }
+        return replace(owner, **changes)
+
+    states = tuple(replace(without_links(each), actions=without_calls(each.actions)) for each in design.states)
+    competence = design.competence
+    if competence is not None:
+        requires = tuple(alias for alias in competence.requires if alias not in aliases)
+        competence = replace(competence, requires=requires, steps=tuple(map(without_links, competence.steps)))
+    reduced = replace(
+        design,
+        uses=tuple(use for use in design.uses if use.alias not in aliases),
+        states=states,
+        common=replace(design.common, actions=without_calls(design.common.actions)),
+        competence=competence,
+        layers=tuple(map(without_links, design.layers)),
     )
-    common = replace(design.common, actions=without_calls(design.common.actions))
-    return replace(
-        design, uses=tuple(use for use in design.uses if use.alias not in aliases), states=states, common=common
-    )
+    return lower_design(reduced)
 
 
 def set_declarations(design: Design, section: str, declarations: tuple[Declaration, ...]) -> Design:

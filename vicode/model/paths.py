@@ -8,6 +8,8 @@ _KINDS = {
     "parameters": "parameter",
     "outputs": "output",
     "variables": "variable",
+    "latches": "latch",
+    "layers": "layer",
     "notes": "note",
     "constants": "constant",
     "enumerations": "enumeration",
@@ -21,6 +23,7 @@ _ITEM_KINDS = {
     "enter": "enter action",
     "actions": "action",
     "leave": "leave action",
+    "interrupts": "interrupt",
 }
 _ATTRIBUTES = {"at": "position", "doc": "description", "label_at": "label position", "to": "target"}
 
@@ -35,6 +38,8 @@ def describe_path(path: DesignPath, whole: str = "the design") -> str:
     section, *rest = path
     if section in _KINDS and rest:
         return _within(rest[1:], f"{_KINDS[str(section)]} {rest[0]}")
+    if section == "competence" and len(rest) > 1:
+        return _within(rest[2:], f"step {rest[1]}")
     if section == "common":
         return _within(rest, "the common section")
     return _within(list(path), whole)

@@ -1,13 +1,14 @@
 """Search and replace in the texts of a design: code, expressions and docs."""
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from time import monotonic
 
 import regex
 
 from vicode.findings import DesignPath
 from vicode.model.design import Design
+from vicode.model.lowering import find_origin, is_lowered, source_path
 from vicode.model.texts import LocatedText, TextKind, iter_texts, rewrite_text
 
 TIME_LIMIT_S = 1.0
@@ -132,7 +133,15 @@ def _with_text(design: Design, path: DesignPath, text: str) -> Design:
 
 
 def _texts(design: Design, query: TextQuery) -> Iterator[LocatedText]:
-    return (located for located in iter_texts(design) if located.kind in query.kinds)
+    """The texts of the file: of what is derived from a construct, only the commands, which are at the construct."""
+    is_plain = not is_lowered(design)
+    for located in iter_texts(design):
+        if located.kind not in query.kinds:
+            continue
+        if is_plain or not find_origin(design, located.path):
+            yield located
+        elif located.path[2:3] == ("modulates",):
+            yield replace(located, path=source_path(design, located.path))
 
 
 def _compiled(query: TextQuery) -> "regex.Pattern[str]":

@@ -10,18 +10,22 @@ from vicode.model.design import (
     Assign,
     Call,
     Code,
+    CompetenceStep,
     DecisionGroup,
     Declaration,
     Design,
     DiagramNote,
+    Interrupt,
     InvariantProperty,
+    Latch,
+    Layer,
     ReachProperty,
     RunCode,
     State,
     Stay,
     Transition,
 )
-from vicode.model.traversal import iter_code, iter_decisions, iter_expressions
+from vicode.model.traversal import iter_code, iter_constructs, iter_decisions, iter_expressions
 
 Rewrite = Callable[[str], str]
 
@@ -71,6 +75,8 @@ def _iter_docs(design: Design) -> Iterator[tuple[DesignPath, str]]:
         yield ("states", state.name, "doc"), state.doc
     for located in iter_decisions(design):
         yield (*located.path, "doc"), located.decision.doc
+    for path, construct in iter_constructs(design):
+        yield (*path, "doc"), construct.doc
     for note in design.notes:
         yield ("notes", note.name, "text"), note.text
 
@@ -81,6 +87,7 @@ _ATTRIBUTE_BY_KEY: Mapping[type, Mapping[str, str]] = {
     Call: {"with": "arguments"},
     Assign: {"set": "values"},
     Declaration: {"default": "initial"},
+    Layer: {"for": "hold"},
 }
 _GUARD_KEYS = ("when", "after", "code")
 
@@ -107,8 +114,8 @@ def _rewrite_item(item: Any, at: int, path: DesignPath, rewrite: Rewrite) -> Any
     """Rewrite a list item if the first key is its index or name."""
     key, rest = path[0], path[1:]
     match item:
-        case State(name=name) | Declaration(name=name) | DiagramNote(name=name) if isinstance(key, str):
-            return _rewrite(item, rest, rewrite) if name == key else item
+        case State() | Declaration() | DiagramNote() | Latch() | CompetenceStep() | Layer() if isinstance(key, str):
+            return _rewrite(item, rest, rewrite) if item.name == key else item
         case Call(alias=alias, arguments=arguments) if isinstance(key, str):
             # In `modulates`, parameters follow the alias directly.
             return replace(item, arguments=_rewrite(arguments, rest, rewrite)) if alias == key else item
@@ -116,7 +123,7 @@ def _rewrite_item(item: Any, at: int, path: DesignPath, rewrite: Rewrite) -> Any
             return (name, rewrite(text)) if name == key and not rest else item
         case Transition() | Stay() | DecisionGroup() | Assign() | Call() | RunCode() if at == key:
             return _rewrite(item, rest, rewrite)
-        case ReachProperty() | InvariantProperty() if at == key:
+        case ReachProperty() | InvariantProperty() | Interrupt() if at == key:
             return _rewrite(item, rest, rewrite)
         case _:
             return item

@@ -1,6 +1,6 @@
 """Traversal of the decisions, actions, expressions and code of a design, with their paths."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from vicode.findings import DesignPath
@@ -10,12 +10,17 @@ from vicode.model.design import (
     Assign,
     Call,
     Code,
+    Competence,
+    CompetenceStep,
     Decision,
     DecisionGroup,
     Declaration,
     Design,
     Guard,
+    Interrupt,
     InvariantProperty,
+    Latch,
+    Layer,
     ReachProperty,
     RunCode,
     State,
@@ -146,27 +151,40 @@ def iter_expressions(design: Design) -> Iterator[LocatedExpression]:
             yield LocatedExpression(path=("properties", index, "holds"), text=promised.holds, expected="bool")
 
 
-def iter_construct_expressions(design: Design) -> Iterator[LocatedExpression]:
-    """Yield the conditions and times of latches, interrupts, competences and layers (`vicode.model.lowering`)."""
+Construct = Latch | Interrupt | Competence | CompetenceStep | Layer
+"""What other states, transitions and variables are derived from (`vicode.model.lowering`)."""
+
+_CONSTRUCT_EXPRESSIONS: Mapping[type, Mapping[str, str]] = {
+    Latch: {"on": "bool", "off": "bool", "hold": "float"},
+    Interrupt: {"when": "bool", "until": "bool", "every": "float"},
+    Competence: {"goal": "bool"},
+    CompetenceStep: {"when": "bool"},
+    Layer: {"when": "bool", "hold": "float"},
+}
+
+
+def iter_constructs(design: Design) -> Iterator[tuple[DesignPath, Construct]]:
+    """Yield the latches, interrupts, competence with its steps, and layers with their paths."""
     for latch in design.latches:
-        yield from _iter_fields(latch, ("latches", latch.name), on="bool", off="bool", hold="float")
+        yield ("latches", latch.name), latch
     for index, interrupt in enumerate(design.interrupts):
-        yield from _iter_fields(interrupt, ("interrupts", index), when="bool", until="bool", every="float")
+        yield ("interrupts", index), interrupt
     if design.competence is not None:
-        yield from _iter_fields(design.competence, ("competence",), goal="bool")
+        yield ("competence",), design.competence
         for step in design.competence.steps:
-            yield from _iter_fields(step, ("competence", "steps", step.name), when="bool")
+            yield ("competence", "steps", step.name), step
     for layer in design.layers:
-        yield from _iter_fields(layer, ("layers", layer.name), when="bool", hold="float")
+        yield ("layers", layer.name), layer
 
 
-def _iter_fields(record: object, path: DesignPath, **types: str) -> Iterator[LocatedExpression]:
-    is_layer = path[0] == "layers"
-    for name, expected in types.items():
-        text = getattr(record, name)
-        if text:
-            key = "for" if is_layer and name == "hold" else name
-            yield LocatedExpression(path=(*path, key), text=text, expected=expected)
+def iter_construct_expressions(design: Design) -> Iterator[LocatedExpression]:
+    """Yield the conditions and times of constructs."""
+    for path, construct in iter_constructs(design):
+        for name, expected in _CONSTRUCT_EXPRESSIONS[type(construct)].items():
+            text = getattr(construct, name)
+            if text:
+                key = "for" if isinstance(construct, Layer) and name == "hold" else name
+                yield LocatedExpression(path=(*path, key), text=text, expected=expected)
 
 
 def _iter_initial_values(section: str, declaration: Declaration) -> Iterator[LocatedExpression]:

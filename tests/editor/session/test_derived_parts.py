@@ -32,7 +32,9 @@ def test_a_derived_state_cannot_be_edited(tmp_path: Path) -> None:
     document = open_fetch(tmp_path)
     document.edit("Rename", lambda design: replace(design, states=design.states[:-1]))
     assert document.is_saved
-    assert document.shared.notice.text == ("Not changed: this part is derived from 'competence'; edit that in the file")
+    assert document.shared.notice.text == (
+        "Not changed: this part is derived from 'competence'; edit it in the form of the design"
+    )
 
 
 def test_a_derived_state_can_be_moved(tmp_path: Path) -> None:

@@ -74,6 +74,11 @@ def test_matched_letters_are_reported(items: list[SearchItem]) -> None:
     assert [match.item.title[place] for place in match.positions] == ["L", "F", "B"]
 
 
+def test_latches_are_found_by_their_conditions(items: list[SearchItem]) -> None:
+    found = first(items, "rover.bumped backing")
+    assert (found.kind, found.title, found.location) == (SearchKind.DECLARATION, "backing", "ByCompetence · Styles")
+
+
 def test_unchanged_designs_are_cached() -> None:
     index = SearchIndex(Library(DESIGNS))
     before = {id(thing) for thing in index.items() if thing.target and thing.kind is SearchKind.STATE}

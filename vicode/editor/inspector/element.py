@@ -12,6 +12,7 @@ from vicode.editor.inspector.protocol import FORM_EVENTS, FormEvent
 from vicode.editor.js_modules import INSPECTOR_JS
 from vicode.editor.session.forms.edits import FORM_EDITS, FormEdit
 from vicode.editor.session.forms.form_data import diff_forms
+from vicode.editor.session.forms.form_paths import at_design
 from vicode.editor.session.gestures.delivery import Inbox
 from vicode.editor.view import ItemRef
 
@@ -96,7 +97,7 @@ class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
         if not self._inbox.take(event.args):
             return
         try:
-            edit = decode_event(event.args, FORM_EDITS)
+            edit = at_design(decode_event(event.args, FORM_EDITS))
         except MalformedEventError as error:
             self._on_malformed(str(error))
             return
@@ -106,7 +107,7 @@ class FormView(ui.element, component=INSPECTOR_JS / "vicode_inspector.js"):
         if not self._inbox.take(event.args):
             return
         try:
-            decoded = decode_event(event.args, FORM_EVENTS)
+            decoded = at_design(decode_event(event.args, FORM_EVENTS))
         except MalformedEventError as error:
             self._on_malformed(str(error))
             return

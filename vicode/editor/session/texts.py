@@ -99,6 +99,7 @@ def invalid_alias(name: str) -> str:
 # Gestures, the clipboard and the table.
 
 INVALID_REQUEST = "the editor cannot read this request: reload the page"
+VALUE_MISSING = "this is required"
 ITEM_MISSING = "this item no longer exists"
 TRANSITION_GONE = "this transition no longer exists"
 NOTHING_TO_PASTE = "the clipboard contains no part of a design"

@@ -16,8 +16,11 @@ _PARTS = {
     "modulates": "modulates",
     "default": "default",
     "initial": "initial value",
+    **{key: key for key in ("on", "off", "hold", "until", "every", "goal", "for")},
 }
 _SECTIONS = {"parameters": "parameter", "outputs": "output", "variables": "variable", "uses": "component"}
+_SECTIONS |= {"latches": "latch", "layers": "layer"}
+_WHOLE = {"module": "module code", "members": "member code", "interrupts": "an interrupt", "competence": "competence"}
 
 
 def item_label(design: Design, path: DesignPath) -> str:
@@ -31,10 +34,8 @@ def item_label(design: Design, path: DesignPath) -> str:
             return "every state"
         case (str(section), str(name), *_) if section in _SECTIONS:
             return f"{_SECTIONS[section]} {name}"
-        case ("module", *_):
-            return "module code"
-        case ("members", *_):
-            return "member code"
+        case (str(section), *_):
+            return _WHOLE.get(section, "design")
         case _:
             return "design"
 

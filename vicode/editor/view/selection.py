@@ -22,7 +22,7 @@ def item_at_path(path: DesignPath) -> ItemRef:
     match path:
         case ("states", _, "transitions", int(), *_) | ("common", "transitions", int(), *_):
             return ItemRef(kind="transitions", id=transition_key(decision_path(path)))
-        case ("states", str(name), *_):
+        case ("states", str(name), *_) | ("competence", "steps", str(name), *_) | ("layers", str(name), *_):
             return ItemRef(kind="states", id=name)
         case ("common", *_):
             return ItemRef(kind="common", id="@common")

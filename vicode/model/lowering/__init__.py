@@ -107,7 +107,8 @@ def lower_edit(before: Design, after: Design) -> tuple[Design, str]:
     design = _forget_positions(lower_design(after))
     if not origin or (design != before and _keeps_derived(before, after)):
         return design, ""
-    return before, f"this part is derived from {describe_origin(origin)}; edit that in the file"
+    form = f"the state '{origin[1]}'" if origin[0] == "states" else "the design"
+    return before, f"this part is derived from {describe_origin(origin)}; edit it in the form of {form}"
 
 
 def _forget_positions(design: Design) -> Design:

@@ -13,7 +13,7 @@ from vicode.model.lowering.additions import (
 def lower_latches(design: Design) -> Design:
     # Each is added before those that follow it, so that these can read it.
     for latch in reversed(design.latches):
-        if latch.on and not names_of(design) & set(latch_names(latch)):
+        if not names_of(design) & set(latch_names(latch)):
             design = _lower_latch(design, latch)
     return design
 
@@ -26,14 +26,16 @@ def latch_names(latch: Latch) -> tuple[str, ...]:
 
 def _lower_latch(design: Design, latch: Latch) -> Design:
     name, origin = latch.name, ("latches", latch.name)
-    off = latch.off or f"not ({latch.on})"
+    # Without `on`, which is an error, expressions still find the variable.
+    on = latch.on or "false"
+    off = latch.off or f"not ({on})"
     state = Declaration(name=name, type="bool", initial="false", doc=latch.doc, origin=origin)
     design = add_variables(design, state)
     if not latch.hold:
-        value = f"({latch.on}) or {name} and not ({off})" if latch.off else latch.on
+        value = f"({on}) or {name} and not ({off})" if latch.off else on
         return add_first_action(design, Assign(values=((name, value),), origin=origin))
     _name, changes, until = latch_names(latch)
-    differs = f"{name} and ({off}) and not ({latch.on}) or not {name} and ({latch.on})"
+    differs = f"{name} and ({off}) and not ({on}) or not {name} and ({on})"
     values = (
         (changes, f"(component_time <= 0 or component_time >= {until}) and ({differs})"),
         (name, f"{name} and not {changes} or not {name} and {changes}"),

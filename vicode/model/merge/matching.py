@@ -38,7 +38,8 @@ def item_key(item: Any) -> Hashable:
         case (name, _text):
             return str(name)
         case _:
-            return str(item)
+            # Latches, steps and layers; interrupts.
+            return str(getattr(item, "name", "") or getattr(item, "do", "") or item)
 
 
 def find_renamed_states(old: Design, new: Design) -> dict[str, str]:
@@ -69,6 +70,10 @@ def _is_same_state(old: State, new: State) -> bool:
         return True
     if replace(new, name=old.name, id=old.id, transitions=retarget(new.transitions, new.name, old.name)) == old:
         return True
+    if old.origin and new.origin:
+        # All transitions of a derived state name its construct.
+        kept = ("doc", "requires", "modulates")
+        return old.origin[:-1] == new.origin[:-1] and all(getattr(old, name) == getattr(new, name) for name in kept)
     compared = {field.name for field in fields(State)} - {"color", "final", "transitions"}
     shared: int = sum(bool(getattr(old, name)) and getattr(old, name) == getattr(new, name) for name in compared)
     arrows = retarget(new.transitions, new.name, old.name)

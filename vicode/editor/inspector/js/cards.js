@@ -39,21 +39,48 @@ export const Group = {
   },
 };
 
+/** The buttons that move and remove a card of a list. */
+const OrderButtons = {
+  props: { node: Object, card: Object, index: Number },
+  inject: ["store"],
+  template: `
+    <div class="row-buttons nicegui-row">
+      <template v-if="node.is_ordered">
+        <q-btn v-bind="small" icon="arrow_upward" :disable="index === 0" :aria-label="name('Move up')" @click="move(-1)" />
+        <q-btn v-bind="small" icon="arrow_downward" :disable="index === node.cards.length - 1" :aria-label="name('Move down')" @click="move(1)" />
+      </template>
+      <q-btn v-bind="small" icon="close" :aria-label="name('Remove')" @click="store.press('remove-card', { path })" />
+    </div>`,
+  computed: {
+    small: () => SMALL,
+    path() {
+      return [...this.node.path, this.card.id].join("/");
+    },
+  },
+  methods: {
+    name(verb) {
+      return this.node.is_ordered ? `${verb}: ${this.index + 1} ${this.card.title}` : `${verb}: ${this.card.title}`;
+    },
+    move(by) {
+      this.store.press("move-card", { path: this.path, to: String(by) });
+    },
+  },
+};
+
 export const Cards = {
+  components: { OrderButtons },
   props: { node: Object },
   inject: ["store"],
   template: `
-    <template v-if="node.noun" v-for="card in node.cards" :key="card.id"><form-nodes :nodes="card.nodes" /></template>
+    <div v-if="node.noun && node.is_ordered" v-for="(card, index) in node.cards" :key="card.id" class="construct nicegui-row" role="group" :aria-label="node.noun + ' ' + card.title" :data-card="pathOf(card)">
+      <form-nodes :nodes="card.nodes" />
+      <order-buttons :node="node" :card="card" :index="index" />
+    </div>
+    <template v-else-if="node.noun" v-for="card in node.cards" :key="card.id"><form-nodes :nodes="card.nodes" /></template>
     <div v-else v-for="(card, index) in node.cards" :key="card.id" class="card nicegui-column" :data-card="pathOf(card)">
       <div class="card-head nicegui-row">
         <div class="card-title">{{ card.title }}</div>
-        <div class="row-buttons nicegui-row">
-          <template v-if="node.is_ordered">
-            <q-btn v-bind="small" icon="arrow_upward" :disable="index === 0" :aria-label="name('Move up', card, index)" @click="move(card, -1)" />
-            <q-btn v-bind="small" icon="arrow_downward" :disable="index === node.cards.length - 1" :aria-label="name('Move down', card, index)" @click="move(card, 1)" />
-          </template>
-          <q-btn v-bind="small" icon="close" :aria-label="name('Remove', card, index)" @click="store.press('remove-card', { path: pathOf(card) })" />
-        </div>
+        <order-buttons :node="node" :card="card" :index="index" />
       </div>
       <form-nodes :nodes="card.nodes" />
     </div>
@@ -62,6 +89,13 @@ export const Cards = {
         :disable="adder.options && !optionsOf(adder).length" @click="adder.options || add(adder)">
         <q-menu v-if="adder.options" auto-close no-refocus><q-list>
           <q-item v-for="option in optionsOf(adder)" clickable class="mono" role="menuitem" @click="add(adder, option)"><q-item-section>{{ option }}</q-item-section></q-item>
+        </q-list></q-menu>
+      </q-btn>
+      <q-btn v-if="node.menu" flat dense no-caps size="sm" icon="add" :label="node.menu" :aria-label="'Add ' + node.menu">
+        <q-menu auto-close no-refocus><q-list>
+          <q-item v-for="adder in store.view.lists.adders.constructs" clickable role="menuitem" :disable="!adder.adds" @click="add(adder, '', ['design', adder.adds])">
+            <q-item-section><q-item-label>{{ adder.label }}</q-item-label><q-item-label caption>{{ adder.hint }}</q-item-label></q-item-section>
+          </q-item>
         </q-list></q-menu>
       </q-btn>
     </div>`,
@@ -75,9 +109,6 @@ export const Cards = {
     },
   },
   methods: {
-    name(verb, { title }, index) {
-      return this.node.is_ordered ? `${verb}: ${index + 1} ${title}` : `${verb}: ${title}`;
-    },
     nameOf({ label }) {
       const { noun, owner } = this.node;
       if (!noun) return `Add to ${this.list}: ${label}`;
@@ -90,21 +121,21 @@ export const Cards = {
       const options = this.store.view.lists[adder.options];
       return adder.is_unique ? options.filter((option) => !this.node.cards.some(({ id }) => id === option)) : options;
     },
-    move(card, by) {
-      this.store.press("move-card", { path: this.pathOf(card), to: String(by) });
-    },
-    add(adder, alias = "") {
+    add(adder, alias = "", path = this.node.path) {
+      if (!adder.nodes.length) return this.store.press("add-card", { path: path.join("/") });
       const id = adder.is_unique ? alias : newId();
-      const title = this.node.noun ? this.store.freeName(this.node, adder.title || this.node.noun) : [adder.title, alias].filter(Boolean).join(" ");
+      const title = this.node.noun ? this.store.freeName(this.node, path, adder.title || this.node.noun) : [adder.title, alias].filter(Boolean).join(" ");
       const text = this.node.noun ? title : (adder.nodes[0].value ?? "");
-      this.store.addCard(this.node.path, adder, { id, alias, title, text });
-      nextTick(() => this.edit(`${this.list}/${id}`));
+      this.store.addCard(path, adder, { id, alias, title, text });
+      nextTick(() => this.edit([...path, id].join("/")));
     },
     /** Focuses the first field of a card; its text is selected, to be typed over. */
     edit(path) {
       // The same declarations may stand in two lists of a form.
       const card = [...document.querySelectorAll(`[data-card="${CSS.escape(path)}"]`)].find((each) => each.offsetParent);
-      if (this.node.noun) return card?.querySelector("input").select();
+      const input = card?.querySelector("input:not([role=combobox])");
+      // The condition of an interrupt is its first text.
+      if (this.node.noun && !path.includes("/interrupts/")) return input.select();
       const content = card?.querySelector(".cm-content");
       const view = content && CM.EditorView.findFromDOM(content);
       if (!view) return;

@@ -10,16 +10,17 @@ const DecisionRows = {
   data: () => ({ dragged: null, over: null }),
   template: `
     <template v-for="(row, index) in rows">
-      <div class="decision-row nicegui-row" :class="{ 'is-disabled': row.is_disabled, 'is-over': over === index }" draggable="true"
+      <div class="decision-row nicegui-row" :class="{ 'is-disabled': row.is_disabled, 'is-over': over === index }" :draggable="!row.is_derived"
         @dragstart="dragged = index" @dragend="dragged = over = null" @dragover.prevent="over = index" @dragleave="over = null" @drop.prevent="drop(index)">
         <button type="button" class="decision" @click="store.openDecision(path, index)">
           <div class="order">{{ index + 1 }}</div>
           <div class="decision-target">{{ row.target }}{{ row.is_disabled ? " (disabled)" : "" }}</div>
           <div class="decision-guard mono">{{ row.guard }}</div>
         </button>
-        <div class="row-buttons nicegui-row">
-          <q-btn flat dense round size="sm" icon="arrow_upward" class="icon-button" :disable="index === 0" :aria-label="name('Move up', row, index)" @click="move(index, index - 1)" />
-          <q-btn flat dense round size="sm" icon="arrow_downward" class="icon-button" :disable="index === rows.length - 1" :aria-label="name('Move down', row, index)" @click="move(index, index + 1)" />
+        <div v-if="row.is_derived" class="empty">derived</div>
+        <div v-else class="row-buttons nicegui-row">
+          <q-btn flat dense round size="sm" icon="arrow_upward" class="icon-button" :disable="isEnd(index - 1)" :aria-label="name('Move up', row, index)" @click="move(index, index - 1)" />
+          <q-btn flat dense round size="sm" icon="arrow_downward" class="icon-button" :disable="isEnd(index + 1)" :aria-label="name('Move down', row, index)" @click="move(index, index + 1)" />
           <q-btn flat dense round size="sm" icon="close" class="icon-button" :aria-label="name('Remove', row, index)" @click="remove(index)" />
         </div>
       </div>
@@ -30,6 +31,9 @@ const DecisionRows = {
       </div>
     </template>`,
   methods: {
+    isEnd(index) {
+      return this.rows[index]?.is_derived ?? !this.rows[index];
+    },
     name: (verb, row, index) => `${verb}: ${index + 1} ${row.target}`,
     move(index, to) {
       this.store.press("move-row", { path: this.path.join("/"), index, to: String(to) });
@@ -40,7 +44,7 @@ const DecisionRows = {
     drop(index) {
       const from = this.dragged;
       this.dragged = this.over = null;
-      if (from !== null && from !== index) this.move(from, index);
+      if (from !== null && from !== index && !this.rows[index].is_derived) this.move(from, index);
     },
   },
 };

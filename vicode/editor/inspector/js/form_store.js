@@ -9,8 +9,8 @@ const FIRST_PATHS = { common: "doc", notes: "text" };
 // The fields in which Python looks for times when their user leaves them.
 const READS_TIMES = /^guard\/(when|after)$/;
 
-// The items whose forms have parts of the form of the project.
-const SHOWS_PARTS = /^(design|components)\//;
+// The forms that are parts of those of several items.
+const PARTS = /^project\/|^design\/./;
 
 export const keyOf = ({ of, id }) => `${of}/${id}`;
 
@@ -84,8 +84,8 @@ export class FormStore {
       if (list === null) delete this.view.marks[key];
       else this.view.marks[key] = list;
     }
-    const hasNewParts = Object.keys(forms).some((key) => key.startsWith("project/"));
-    const isNew = (key) => key in forms || (hasNewParts && SHOWS_PARTS.test(key));
+    const hasNewParts = Object.keys(forms).some((key) => PARTS.test(key));
+    const isNew = (key) => key in forms || hasNewParts;
     for (const [key, item] of this.items) if (isNew(key)) this.#refresh(item);
     for (const ack of acks) this.#acknowledge(ack);
     if (isNew(this.view.key) || this.view.key in moved) this.#draw();
@@ -190,10 +190,11 @@ export class FormStore {
     this.#draw();
   }
 
-  /** A name for a new declaration in a list. */
-  freeName(list, base) {
+  /** A name for a new declaration or construct in a list at a path. */
+  freeName(list, path, base) {
     // All declarations of the design have different names.
-    const lists = list.path.length === 1 ? this.view.nodes.filter((node) => node.noun) : [list];
+    const isOfDesign = path.length === 1 || path[0] === "design";
+    const lists = isOfDesign ? this.view.nodes.filter((node) => node.noun) : [list];
     const taken = new Set(lists.flatMap(({ cards = [] }) => cards).map(({ title }) => title));
     let name = base;
     for (let number = 2; taken.has(name); number += 1) name = `${base}${number}`;

@@ -1,6 +1,6 @@
 // Messages below a field: why its text is not in the design, findings, who else types there.
 
-export const marksAt = (store, path) => (store.view.marks[path.startsWith("project/") ? "project/" : store.view.key] ?? []).filter((mark) => mark.path === path);
+export const marksAt = (store, path) => (store.view.marks[path.match(/^(project|design)\//)?.[0] ?? store.view.key] ?? []).filter((mark) => mark.path === path);
 
 export const sentence = (text) => text.slice(0, 1).toUpperCase() + text.slice(1);
 

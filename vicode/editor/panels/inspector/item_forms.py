@@ -26,7 +26,7 @@ from vicode.editor.panels.window_context import WindowContext
 from vicode.editor.session.fixes import find_fixes
 from vicode.editor.session.forms.action_form import component_parameters, settable_declarations
 from vicode.editor.session.forms.declaration_form import declared_symbol
-from vicode.editor.session.forms.edits import ButtonEdit, FormEdit, NameEdit, TextEdit
+from vicode.editor.session.forms.edits import ButtonEdit, FormEdit, NameEdit, TextEdit, rename_item
 from vicode.editor.session.forms.form_data import Forms, has_form
 from vicode.editor.session.forms.form_paths import file_path, item_path, parse_path, resolve
 from vicode.editor.session.forms.form_places import FormResult
@@ -45,6 +45,7 @@ from vicode.model.completion import (
     complete_python,
 )
 from vicode.model.design import Call, Design
+from vicode.model.lowering import is_lowered
 
 _MOVING_KINDS: Mapping[str, ItemKind] = {
     "states": "states",
@@ -137,6 +138,9 @@ class ItemForms:
             for finding in findings
             if finding.subject is not None and finding.subject.component == context.design.component
         }
+        if is_lowered(context.design):
+            # Other forms show the fields of its constructs.
+            items.add(ItemRef(kind="design"))
         selected = self._shown_item()
         marks = {
             f"{item.kind}/{item.id}": marks_of(self._fields(item), findings)
@@ -198,9 +202,13 @@ class ItemForms:
                 return edit.apply(self.context.document)
 
     def _rename(self, path: str, new: str) -> FormResult:
-        """Rename a declaration of the design; a dialog may ask first, and the name stays until then."""
+        """Rename a declaration or construct; a dialog may ask first, and the name stays until then."""
         document = self.context.document
         ids = document.shared.list_ids
+        match resolve(document.design, ids, (), parse_path(path)):
+            case (*place, int(index), "name") if place[-1] in ("steps", "layers"):
+                state = item_at(document.design, (*place, index)).name
+                return rename_item(document, ItemRef(kind="states", id=state), new)
         symbol = declared_symbol(document.design, ids, path)
         if symbol is None:
             return FormResult(error=ITEM_MISSING)

@@ -22,17 +22,18 @@ _NEW_CODE = RunCode(code=replace_text(None, "python", ""))
 def action_cards(
     project: Project, path: DesignPath, actions: tuple[Action, ...], ids: Sequence[str], *, calls: bool = True
 ) -> Cards:
-    """The list of actions at a path of the item."""
+    """The list of actions at a path of the item, without those that are derived from a construct."""
     cards = tuple(
         Card(id=id_, title=_title(action), nodes=_nodes(project, action, (*path, id_)))
         for id_, action in zip(ids, actions, strict=True)
+        if not (isinstance(action, Assign) and action.origin)
     )
     return Cards(path=path, cards=cards, adders="actions" if calls else "effects", is_ordered=True)
 
 
-def modulation_cards(project: Project, calls: tuple[Call, ...]) -> Cards:
-    """The components that a state modulates, with their parameters."""
-    path = ("modulates",)
+def modulation_cards(project: Project, calls: tuple[Call, ...], base: DesignPath = ()) -> Cards:
+    """The components that a state, or a step or layer at `base`, modulates, with their parameters."""
+    path = (*base, "modulates")
     cards = tuple(
         Card(id=call.alias, title=call.alias, nodes=_nodes(project, call, (*path, call.alias))) for call in calls
     )
@@ -89,7 +90,7 @@ def new_action(kind: str, alias: str, text: str) -> Action | None:
 
 def settable_declarations(project: Project, design: Design) -> tuple[Declaration, ...]:
     """The variables and outputs of the design, and variables of used components as `alias.variable`."""
-    declarations = [*design.variables, *design.outputs]
+    declarations = [each for each in (*design.variables, *design.outputs) if not each.origin]
     for use in design.uses:
         interface = project.interface(use.component)
         variables = interface.variables if interface else ()

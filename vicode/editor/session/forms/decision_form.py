@@ -29,7 +29,7 @@ CODE_HINTS = {
 def decision_form(project: Project, design: Design, source: str, decision: Decision) -> tuple[Node, ...]:
     """The form of a decision of a state, or of COMMON."""
     unit = "milliseconds" if design.time_unit == "ms" else "seconds"
-    nodes: list[Node] = [_title(source, decision)]
+    nodes: list[Node] = [decision_title(source, decision)]
     if isinstance(decision, Transition):
         nodes.append(Choice(path=("to",), label="To", value=decision.to, options="states"))
     guard = decision.guard
@@ -49,7 +49,7 @@ def decision_form(project: Project, design: Design, source: str, decision: Decis
     return (*nodes, Button(label="Remove", icon="delete", action="remove", is_danger=True))
 
 
-def _title(source: str, decision: Decision) -> Title:
+def decision_title(source: str, decision: Decision) -> Title:
     noun = _NOUNS[type(decision)]
     if source == COMMON:
         return Title(text=noun, name="every state", opens=("common", COMMON))
@@ -63,9 +63,10 @@ def decisions_list(design: Design, path: DesignPath, decisions: tuple[Decision, 
 def _rows(design: Design, decisions: tuple[Decision, ...]) -> tuple[DecisionRow, ...]:
     return tuple(
         DecisionRow(
-            target=_decision_target(each),
+            target=decision_target(each),
             guard=guard_label(each.guard, design.time_unit) or "always",
             is_disabled=each.disabled,
+            is_derived=not isinstance(each, Stay) and bool(each.origin),
             then=_rows(design, each.then) if isinstance(each, DecisionGroup) else (),
             otherwise=_rows(design, each.otherwise) if isinstance(each, DecisionGroup) else (),
         )
@@ -73,7 +74,7 @@ def _rows(design: Design, decisions: tuple[Decision, ...]) -> tuple[DecisionRow,
     )
 
 
-def _decision_target(item: Decision) -> str:
+def decision_target(item: Decision) -> str:
     match item:
         case Transition(to=to):
             return f"→ {to}"

@@ -44,6 +44,7 @@ def declaration_cards(
     cards = (
         Card(id=each.id, title=declaration.name, nodes=(declaration_group(each, declaration, is_shared=is_shared),))
         for each, declaration in place.items(section, declarations)
+        if not declaration.origin
     )
     return Cards(
         path=place.within(section),
@@ -173,7 +174,9 @@ def describe_value(declaration: Declaration) -> str:
 def declared_symbol(design: Design, ids: ListIds, path: str) -> SymbolRef | None:
     """The symbol whose name is at a path of the form; None if there is no such declaration."""
     match resolve(design, ids, (), parse_path(path)):
-        case (str(section), int(index), "name"):
+        case ("latches", int(index), "name"):
+            return SymbolRef(component=design.component, section="variables", name=design.latches[index].name)
+        case ("parameters" | "outputs" | "variables" as section, int(index), "name"):
             name = getattr(design, section)[index].name
             return SymbolRef(component=design.component, section=section, name=name)
         case ("outputs", int(index), "arguments", int(at), "name"):

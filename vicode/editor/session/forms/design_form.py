@@ -1,5 +1,8 @@
 """The form of the design: what it is, what it uses and declares, and its code."""
 
+from dataclasses import replace
+
+from vicode.editor.session.forms.construct_form import construct_lists
 from vicode.editor.session.forms.decision_form import code_texts
 from vicode.editor.session.forms.declaration_form import declaration_cards
 from vicode.editor.session.forms.fields import field_node, known_field, other_nodes
@@ -23,8 +26,9 @@ from vicode.editor.session.forms.nodes import (
 from vicode.editor.session.forms.project_form import project_section
 from vicode.editor.session.forms.state_form import uses_xabsl
 from vicode.model.design import COMMON, Design
+from vicode.model.lowering import lift_design
 from vicode.model.project import Project
-from vicode.model.words import describe_constructs, describe_property
+from vicode.model.words import describe_property
 
 _SECTIONS: tuple[tuple[DeclarationList, str, str], ...] = (
     ("parameters", "Parameters", "values set by the states that modulate this component"),
@@ -41,17 +45,17 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
     """The form of the design, shown while nothing is selected."""
     declared: list[Node] = []
     for section, title, hint in _SECTIONS:
-        declared.append(Heading(text=title, hint=hint))
-        declared.append(declaration_cards(ItemPlace(ids=ids), section, getattr(design, section)))
+        cards = declaration_cards(ItemPlace(ids=ids), section, getattr(design, section))
+        declared += [
+            Heading(text=title, hint=hint),
+            replace(cards, menu="Latch, interrupt…" if section == "variables" else ""),
+        ]
+    initial = Choice(path=("initial",), label="Initial state", value=design.initial, options="states")
+    has_initial = design.competence is None and not design.layers
     return (
         Title(text="Component", name=design.component),
         field_node(design, "doc"),
-        Row(
-            nodes=(
-                Choice(path=("initial",), label="Initial state", value=design.initial, options="states"),
-                field_node(design, "frequency_hz"),
-            )
-        ),
+        Row(nodes=(*((initial,) if has_initial else ()), field_node(design, "frequency_hz"))),
         field_node(design, "resume"),
         *other_nodes(design),
         *interface_lists(project, design, ids.of_project(project)),
@@ -59,22 +63,12 @@ def design_form(project: Project, design: Design, ids: ListIds) -> tuple[Node, .
         Heading(text="Uses", hint="components this design requires or modulates"),
         Uses(rows=tuple(UseLine(alias=use.alias, component=use.component) for use in design.uses)),
         *declared,
-        *_constructs(design),
+        *construct_lists(design, ids),
         *_properties(design),
         Heading(text="Every state", hint="transitions and actions before those of each state"),
         ItemLink(label="Common transitions and actions", caption=_describe_common(design), opens=("common", COMMON)),
         _code(project, design),
         project_section(project),
-    )
-
-
-def _constructs(design: Design) -> tuple[Node, ...]:
-    """Latches, interrupts, the competence and layers, which are edited in the file."""
-    lines = tuple(Paragraph(text=line, look="small") for line in describe_constructs(design))
-    return (
-        (Heading(text="Derived from", hint="what states and transitions come from; edited in the file"), *lines)
-        if lines
-        else ()
     )
 
 
@@ -120,7 +114,7 @@ def _code(project: Project, design: Design) -> Section:
 
 
 def _describe_common(design: Design) -> str:
-    common = design.common
+    common = lift_design(design).common
     parts = [
         f"{len(items)} {noun}{'s' * (len(items) != 1)}"
         for items, noun in ((common.transitions, "transition"), (common.actions, "action"))

@@ -20,6 +20,14 @@ from vicode.model.guard_text import settle_guard
 from vicode.model.paths import describe_path
 
 
+def rename_item(document: DocumentSession, item: ItemRef, name: str) -> FormResult:
+    """Rename a state, a step or layer by its state, a frame, or the alias of a component."""
+    result = apply_edit(document, RenameGesture(item=item, name=name))
+    selection = result.new_selection
+    renamed = None if selection is None else (item, selection[0])
+    return FormResult(own=item.id if renamed is None else renamed[1].id, error=result.error, renamed=renamed)
+
+
 class FormEdit(Protocol):
     """An edit of the form of `item`; the browser showed revision `rev`, and numbers its edits by `id`."""
 
@@ -84,11 +92,7 @@ class NameEdit:
         owner = rebase_owner(document, item_path(self.item), self.rev)
         if self.item.kind not in ("states", "frames", "components") or not owner:
             return FormResult(error=texts.ITEM_MISSING)
-        before = ItemRef(kind=self.item.kind, id=str(owner[1]))
-        result = apply_edit(document, RenameGesture(item=before, name=self.text))
-        selection = result.new_selection
-        renamed = None if selection is None else (before, selection[0])
-        return FormResult(own=before.id if renamed is None else renamed[1].id, error=result.error, renamed=renamed)
+        return rename_item(document, ItemRef(kind=self.item.kind, id=str(owner[1])), self.text)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

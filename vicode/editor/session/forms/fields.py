@@ -15,15 +15,21 @@ from vicode.editor.session.gestures import number_text
 from vicode.findings import DesignPath
 from vicode.languages import LANGUAGES
 from vicode.model.design import (
+    INTERRUPT_ENDS,
     STATE_COLORS,
     Assign,
     Call,
     CommonSection,
+    Competence,
+    CompetenceStep,
     DecisionGroup,
     Declaration,
     Design,
     DiagramFrame,
     DiagramNote,
+    Interrupt,
+    Latch,
+    Layer,
     RunCode,
     State,
     Stay,
@@ -58,6 +64,7 @@ _STATE: Mapping[DesignPath, FormField] = {
     ("name",): attribute("name", "State"),
     ("doc",): _DESCRIPTION,
     ("final",): attribute("final", "Final", hint="The component is done in this state"),
+    ("failed",): attribute("failed", "Failed", hint="The component has ended without success"),
     ("disabled",): attribute("disabled", "Disabled", hint="Not generated"),
     ("color",): _COLOR,
     ("requires",): attribute("requires", "Components", parse=tuple),
@@ -71,6 +78,12 @@ _STATE: Mapping[DesignPath, FormField] = {
     ),
     ("xabsl_name",): _XABSL_NAME,
 }
+_STEP: Mapping[DesignPath, FormField] = {("doc",): _DESCRIPTION, ("requires",): _STATE[("requires",)]}
+_THEN = FormField(
+    label="Then",
+    read=lambda interrupt: interrupt.then or INTERRUPT_ENDS[0],
+    write=lambda interrupt, text: replace(interrupt, then="" if text == INTERRUPT_ENDS[0] else text),
+)
 _FREQUENCY = number("frequency_hz", "Frequency, Hz", "every step")
 _DECLARATION: Mapping[DesignPath, FormField] = {
     ("type",): FormField(
@@ -146,6 +159,11 @@ _FIELDS: Mapping[type, Mapping[DesignPath, FormField]] = {
     Agent: {("root",): attribute("root", "Root"), **_SHARED},
     tuple: {("doc",): _MEANING},
     Declaration: _DECLARATION,
+    Latch: {("doc",): _DESCRIPTION},
+    Interrupt: {("do",): attribute("do", "Do"), ("then",): _THEN, ("doc",): _DESCRIPTION},
+    Competence: _STEP,
+    CompetenceStep: _STEP,
+    Layer: _STEP,
     DiagramFrame: {
         ("color",): _COLOR,
         ("states",): replace(
@@ -261,6 +279,9 @@ def _derived_field(kind: type, record: RecordSchema, key: KeySchema) -> FormFiel
         case ScalarSchema(scalar_type=type_, choices=choices):
             make = _MAKERS.get(type_, attribute)
             field = _with_error(replace(make(name, label), help=about), " or ".join(choices) or type_, choices)
+            if key.required:
+                # What is derived from it would disappear while it is typed anew.
+                field = replace(field, validate=lambda text: "" if text.strip() else texts.VALUE_MISSING)
         case ListSchema() if key.schema == NAMES:
             field = replace(names(name, label), help=about)
         case _:

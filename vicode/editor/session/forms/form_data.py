@@ -5,6 +5,13 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from vicode.editor.session.forms.action_form import adders, parameter_hints
+from vicode.editor.session.forms.construct_form import (
+    construct_adders,
+    construct_parts,
+    derived_decision_form,
+    derived_state_form,
+    interrupt_ends,
+)
 from vicode.editor.session.forms.decision_form import decision_form
 from vicode.editor.session.forms.declaration_form import declaration_adders
 from vicode.editor.session.forms.design_form import design_form
@@ -23,7 +30,7 @@ from vicode.findings import DesignPath
 from vicode.model.decision_keys import parse_transition_key, transition_key
 from vicode.model.design import COMMON, CommonSection, Decision, Design, DiagramFrame, DiagramNote, State, Use
 from vicode.model.project import Project
-from vicode.model.traversal import find_decision, iter_decisions
+from vicode.model.traversal import LocatedDecision, find_decision, iter_decisions
 
 _Owner = Design | State | CommonSection | DiagramFrame | DiagramNote | Use
 Forms = dict[str, str]
@@ -58,8 +65,9 @@ class FormWriter:
         return {
             **self._write_project(project, ids),
             **self._write_design(project, design, ids),
+            **{key: form_json(nodes) for key, nodes in construct_parts(project, design, ids).items()},
             **self._write_owners(project, design, ids),
-            **self._write_decisions(project, design),
+            **self._write_decisions(project, design, ids),
         }
 
     def _write_project(self, project: Project, ids: ListIds) -> Forms:
@@ -73,7 +81,8 @@ class FormWriter:
     def _write_design(self, project: Project, design: Design, ids: ListIds) -> Forms:
         counts = (len(design.common.transitions), len(design.common.actions))
         shown = replace(design, states=(), frames=(), notes=(), common=CommonSection())
-        lists = [ids.of_owner(path) for path in ((), *(("outputs", at) for at in range(len(design.outputs))))]
+        owners = ((), ("competence",), *(("outputs", at) for at in range(len(design.outputs))))
+        lists = [ids.of_owner(path) for path in owners]
         interfaces = [project.interface(use.component) for use in design.uses]
         inputs = (shown, counts, lists, interfaces, self._project and self._project[0])
         if self._design is None or self._design[0] != inputs:
@@ -84,7 +93,8 @@ class FormWriter:
         """What the forms share; the same object while nothing of it changes."""
         names = [state.name for state in design.states]
         known, lists = self._lists
-        inputs = (project, design.uses, design.variables, design.outputs, names)
+        constructs = (design.interrupts, design.initial, design.competence, design.layers)
+        inputs = (project, design.uses, design.variables, design.outputs, names, constructs)
         if not known or known[0] is not project or known[1:] != inputs[1:]:
             now = form_lists(project, design)
             lists = lists if now == lists else now
@@ -109,7 +119,7 @@ class FormWriter:
             self._owners[key] = before
         return {key: text for key, (_inputs, text) in self._owners.items()}
 
-    def _write_decisions(self, project: Project, design: Design) -> Forms:
+    def _write_decisions(self, project: Project, design: Design, ids: ListIds) -> Forms:
         known, self._decisions = self._decisions, {}
         for located in iter_decisions(design):
             key, decision = f"transitions/{transition_key(located.path)}", located.decision
@@ -117,7 +127,7 @@ class FormWriter:
             if before is not None and before[0] is decision:
                 self._decisions[key] = before
             else:
-                form = decision_form(project, design, located.source, decision)
+                form = _decision_form(project, design, located, ids)
                 self._decisions[key] = (decision, form_json(form))
         return {key: text for key, (_decision, text) in self._decisions.items()}
 
@@ -127,11 +137,16 @@ def item_form(project: Project, design: Design, item: ItemRef, ids: ListIds) -> 
     match item:
         case ItemRef(kind="transitions", id=key):
             located = find_decision(design, parse_transition_key(key))
-            return decision_form(project, design, located.source, located.decision) if located else ()
+            return _decision_form(project, design, located, ids) if located else ()
         case _:
             path = item_path(item)
             owner = item_at(design, path) if path is not None else None
             return () if owner is None else _owner_form(project, design, owner, ids)
+
+
+def _decision_form(project: Project, design: Design, located: LocatedDecision, ids: ListIds) -> tuple[Node, ...]:
+    source, decision = located.source, located.decision
+    return derived_decision_form(design, ids, source, decision) or decision_form(project, design, source, decision)
 
 
 def _owner_form(project: Project, design: Design, owner: _Owner, ids: ListIds) -> tuple[Node, ...]:
@@ -139,7 +154,7 @@ def _owner_form(project: Project, design: Design, owner: _Owner, ids: ListIds) -
         case Design():
             return design_form(project, owner, ids)
         case State():
-            return state_form(project, design, owner, ids)
+            return derived_state_form(design, ids, owner) or state_form(project, design, owner, ids)
         case CommonSection():
             return common_form(project, design, ids)
         case Use():
@@ -162,6 +177,7 @@ def form_lists(project: Project, design: Design) -> FormLists:
     """What the forms of a design share."""
     return {
         "states": [state.name for state in design.states],
+        "ends": interrupt_ends(design),
         "uses": [use.alias for use in design.uses],
         "types": [FROM_VALUE, *type_names(project)],
         "arithmetic": ["xabsl"],
@@ -169,7 +185,12 @@ def form_lists(project: Project, design: Design) -> FormLists:
         "components": sorted(project.interfaces()),
         "unused": _unused_components(project, design),
         "parameters": parameter_hints(project, design),
-        "adders": {**adders(project, design), **declaration_adders(), **project_adders(project)},
+        "adders": {
+            **adders(project, design),
+            **declaration_adders(),
+            **project_adders(project),
+            **construct_adders(project, design),
+        },
     }
 
 

@@ -5,6 +5,8 @@ its own: "enter/n3/values", "guard/when".
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, TypeVar, cast
 
 from vicode.editor.session.forms.list_ids import ID_LISTS, ListIds
 from vicode.editor.session.gestures.item_paths import item_at
@@ -14,6 +16,7 @@ from vicode.model.decision_keys import parse_transition_key
 from vicode.model.design import Design
 from vicode.model.project import Project
 
+_Message = TypeVar("_Message")
 _KEYS = {"values": "set", "arguments": "with"}
 
 
@@ -40,14 +43,26 @@ def parse_path(path: str) -> DesignPath:
 
 
 def is_in_list(steps: DesignPath) -> bool:
-    """Whether a path in the browser leads to an action or declaration, or a part of one."""
-    return len(steps) > 1 and steps[0] in ID_LISTS
+    """Whether a path in the browser leads to an action, a declaration or a construct, or a part of one."""
+    return len(steps) > 1 and steps[0] in (*ID_LISTS, "competence")
+
+
+def at_design(message: _Message) -> _Message:
+    """A message about a field that several forms show ("design/latches/0/on"), as one about the form of the design."""
+    path = getattr(message, "path", None) or ""
+    if not path.startswith("design/"):
+        return message
+    changed: Any = message
+    return cast(_Message, replace(changed, item=ItemRef(kind="design"), path=path.removeprefix("design/")))
 
 
 def resolve(root: Design | Project, ids: ListIds, item: DesignPath, steps: DesignPath) -> DesignPath | None:
     """The path with indices instead of ids; None if there is no such action or declaration."""
     if not is_in_list(steps):
         return steps
+    if steps[0] == "competence":
+        below = resolve(root, ids, (*item, steps[0]), steps[1:])
+        return None if below is None else (steps[0], *below)
     path = (*item, steps[0])
     index = ids.index(path, item_at(root, path) or (), str(steps[1]))
     if index is None:
@@ -58,9 +73,11 @@ def resolve(root: Design | Project, ids: ListIds, item: DesignPath, steps: Desig
 
 def split_path(steps: DesignPath) -> tuple[DesignPath, DesignPath]:
     """The owner of a resolved path, relative to the item, and the path of the value in its owner."""
-    if steps[:1] == ("modulates",):
-        return steps[:2], steps[2:]
-    last = max((at for at, step in enumerate(steps) if isinstance(step, int)), default=-1) + 1
+    if "modulates" in steps:
+        last = steps.index("modulates") + 2
+    else:
+        start = 0 if steps[:1] == ("competence",) else -1
+        last = max((at for at, step in enumerate(steps) if isinstance(step, int)), default=start) + 1
     return steps[:last], steps[last:]
 
 
@@ -84,8 +101,15 @@ def _path_in_design(design: Design, steps: DesignPath) -> DesignPath:
     """Declarations are named in the file, and some of their values have other keys there."""
     named: list[str | int] = []
     for at, step in enumerate(steps):
-        named.append(getattr(item_at(design, steps[: at + 1]), "name", "") if isinstance(step, int) else step)
+        named.append(getattr(item_at(design, steps[: at + 1]), "name", step) if isinstance(step, int) else step)
     match steps:
+        case (*_, int(), "modulates", alias, "arguments"):
+            # Findings about commands are at the state of the step or layer.
+            return ("states", named[steps.index("modulates") - 1], "modulates", alias)
+        case ("interrupts", int(), "during"):
+            return (*named[:-1], "while")
+        case ("layers", int(), "hold"):
+            return (*named[:-1], "for")
         case (*_, int(), "name"):
             return tuple(named[:-1])
         case (*_, "parameters" | "arguments", int(), "initial"):

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
-from vicode.editor.session.forms.list_ids import ListIds
+from vicode.editor.session.forms.list_ids import ListIds, noun_of
 from vicode.findings import DesignPath
 
 T = TypeVar("T")
@@ -37,7 +37,7 @@ class ItemPlace:
 
     @property
     def noun(self) -> str:
-        return self.section.removesuffix("s")
+        return noun_of(self.section)
 
     def within(self, *steps: str) -> DesignPath:
         """The path of a part of the item in the form."""

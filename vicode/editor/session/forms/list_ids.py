@@ -1,4 +1,4 @@
-"""Ids of the actions and declarations in a design and its project, by which forms and edits name them.
+"""Ids of the actions, declarations and constructs in a design and its project, by which forms and edits name them.
 
 An index would name another item as soon as somebody adds, moves or removes one. Ids follow their items from one
 version of the design to the next. A browser chooses the ids of the items that it adds, so it can draw their fields
@@ -18,7 +18,8 @@ from vicode.model.project import Project
 ACTION_LISTS = ("actions", "enter", "leave")
 PROJECT_LISTS = ("enumerations", "constants", "components", "agents")
 DECLARATION_LISTS = ("parameters", "outputs", "variables", "arguments")
-ID_LISTS = (*ACTION_LISTS, *DECLARATION_LISTS, *PROJECT_LISTS, "elements")
+CONSTRUCT_LISTS = ("latches", "interrupts", "steps", "layers")
+ID_LISTS = (*ACTION_LISTS, *DECLARATION_LISTS, *CONSTRUCT_LISTS, *PROJECT_LISTS, "elements")
 """The lists whose items have ids."""
 _NOWHERE: DesignPath = ("",)
 _WANTED = re.compile(r"b[0-9a-z]{4,20}")
@@ -120,11 +121,18 @@ class ListIds:
         )
 
     def _new_id(self, path: DesignPath, taken: tuple[str, ...]) -> str:
-        wanted, self._wanted = self._wanted, None
+        wanted = self._wanted
+        # What is derived from a new construct is added to other lists.
         if wanted is not None and wanted[0] == path and wanted[1] not in taken:
+            self._wanted = None
             return wanted[1]
         self._last += 1
         return f"n{self._last}"
+
+
+def noun_of(section: str) -> str:
+    """What an item of a list is called."""
+    return section.removesuffix("es" if section == "latches" else "s")
 
 
 def _owners(root: Design | Project) -> Iterator[tuple[DesignPath, Any]]:
@@ -134,6 +142,8 @@ def _owners(root: Design | Project) -> Iterator[tuple[DesignPath, Any]]:
         for state in root.states:
             yield ("states", state.name), state
         yield ("common",), root.common
+        if root.competence is not None:
+            yield ("competence",), root.competence
         yield from _indexed((), "outputs", root.outputs)
         return
     yield from _indexed((), "enumerations", root.enumerations)

@@ -6,10 +6,11 @@ from typing import Any
 
 from vicode.editor.session.code.code_marks import CodeMark, mark_assignments, mark_text
 from vicode.editor.session.fixes import is_fixable
+from vicode.editor.session.forms.construct_form import construct_parts
 from vicode.editor.session.forms.form_data import item_form
 from vicode.editor.session.forms.form_paths import file_path, item_path, resolve
 from vicode.editor.session.forms.list_ids import ListIds
-from vicode.editor.session.forms.nodes import CodeText, Field, MultiChoice, Node, iter_fields
+from vicode.editor.session.forms.nodes import CodeText, Field, ItemName, MultiChoice, Node, iter_fields
 from vicode.editor.session.forms.project_places import project_fields
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath, Finding
@@ -33,8 +34,12 @@ class ItemFields:
     @classmethod
     def of(cls, project: Project, design: Design, item: ItemRef, ids: ListIds) -> "ItemFields":
         nodes, path = item_form(project, design, item, ids), item_path(item) or ()
+        if not path:
+            nodes += tuple(node for part in construct_parts(project, design, ids).values() for node in part)
         own = [node for node in iter_fields(nodes) if node.path[:1] != ("project",)]
-        found = {node.path: resolve(design, ids, path, node.path) for node in own}
+        # Parts that several forms show have the paths of the design's form.
+        steps = {node.path: node.path[1:] if node.path[:1] == ("design",) else node.path for node in own}
+        found = {known: resolve(design, ids, path, inner) for known, inner in steps.items()}
         paths = {known: file_path(design, path, steps) for known, steps in found.items() if steps is not None}
         return cls(item=path, nodes=nodes, paths=paths)
 
@@ -74,6 +79,9 @@ def note_at(path: DesignPath, text: str) -> dict[str, Any]:
 
 
 def _marks(node: Field, path: DesignPath, findings: Sequence[Finding], lint: Lint) -> Iterable[CodeMark]:
+    if isinstance(node, ItemName) and node.path[:1] == ("design",):
+        # Conditions of constructs have fields of their own.
+        findings = [each for each in findings if each.subject is not None and each.subject.path == path]
     if isinstance(node, MultiChoice):
         return mark_text(", ".join(node.value), path, findings)
     if isinstance(node, CodeText) and node.language == "pairs":

@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from vicode.findings import DesignPath
 
-OptionList = Literal["states", "uses", "types", "arithmetic", "time_units", "components"]
+OptionList = Literal["states", "ends", "uses", "types", "arithmetic", "time_units", "components"]
 """A list of options that many forms share; `form_data.FormLists` has its values."""
 DeclarationList = Literal["parameters", "outputs", "variables", "arguments"]
 ProjectList = Literal[
@@ -26,9 +26,10 @@ ProjectList = Literal[
     "component-variables",
     "component-arguments",
 ]
-AdderList = Literal["actions", "effects", "modulates"] | DeclarationList | ProjectList
+ConstructList = Literal["latches", "interrupts", "competence", "steps", "layers", "constructs"]
+AdderList = Literal["actions", "effects", "modulates"] | DeclarationList | ConstructList | ProjectList
 """The kinds of cards that can be added to a list: actions with and without calls, modulated components, declarations
-of the design and of project.yaml."""
+of the design and of project.yaml, constructs."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -166,6 +167,7 @@ class DecisionRow:
     target: str
     guard: str
     is_disabled: bool
+    is_derived: bool = False
     then: tuple["DecisionRow", ...] = ()
     otherwise: tuple["DecisionRow", ...] = ()
 
@@ -203,6 +205,7 @@ class Cards:
     """The list at a path, with buttons that add, move and remove its items.
 
     The items of a list with a `noun` are declarations, titled by their names; `owner` is the name of their output.
+    A `menu` with this label adds constructs.
     """
 
     path: DesignPath
@@ -211,13 +214,15 @@ class Cards:
     is_ordered: bool = False
     noun: str = ""
     owner: str = ""
+    menu: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Adder:
     """A button that adds a card with these nodes, whose paths are relative to it.
 
-    With `options`, it is a menu: the chosen one is the alias of the nodes, and completes the title.
+    With `options`, it is a menu: the chosen one is the alias of the nodes, and completes the title. An entry of a menu
+    has a `hint`, and if nothing can be added, `adds` is empty.
     """
 
     label: str
@@ -228,6 +233,7 @@ class Adder:
     options: OptionList | None = None
     is_unique: bool = False
     """Whether each option is added once, and is the id of its card."""
+    hint: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,7 +10,7 @@ from vicode.editor.session.forms.action_form import new_action
 from vicode.editor.session.forms.form_field import replace_text
 from vicode.editor.session.forms.form_paths import item_path, parse_path, resolve
 from vicode.editor.session.forms.form_places import FormResult, rebase_owner
-from vicode.editor.session.forms.list_ids import ACTION_LISTS
+from vicode.editor.session.forms.list_ids import ACTION_LISTS, CONSTRUCT_LISTS, noun_of
 from vicode.editor.session.gestures.item_paths import change_item, item_at
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
@@ -180,7 +180,7 @@ def _add_card(press: Press, document: DocumentSession, owner: DesignPath) -> For
 
 
 def _add_modulation(press: Press, document: DocumentSession, owner: DesignPath) -> FormResult:
-    if owner[0] != "states":
+    if owner[:1] != ("states",):
         return _MISSING
     document.edit(
         texts.add_link(str(owner[1]), "modulates", press.to),
@@ -213,21 +213,24 @@ def _move_card(press: Press, document: DocumentSession, owner: DesignPath) -> Fo
         rest.insert(max(0, index + by), items[index])
         return tuple(rest)
 
-    document.edit("move action", lambda design: change_item(design, path, move))
+    noun = "action" if path[-1] in ACTION_LISTS else noun_of(str(path[-1]))
+    document.edit(f"move {noun}", lambda design: change_item(design, path, move))
     return FormResult()
 
 
 def _find_card(press: Press, document: DocumentSession, owner: DesignPath) -> tuple[DesignPath, int] | None:
     """The path of the list, and the index of the item of a card."""
-    steps = parse_path(press.path)
-    if steps[:1] == ("modulates",):
-        calls = item_at(document.design, (*owner, "modulates")) or ()
-        index = next((at for at, call in enumerate(calls) if call.alias == press.path.partition("/")[2]), None)
-        return None if index is None else ((*owner, "modulates"), index)
-    resolved = resolve(document.design, document.shared.list_ids, owner, steps)
-    if resolved is None or len(resolved) != 2 or resolved[0] not in ACTION_LISTS:
-        return None
-    return (*owner, resolved[0]), int(resolved[1])
+    resolved = resolve(document.design, document.shared.list_ids, owner, parse_path(press.path))
+    match resolved:
+        case (*_, "modulates", alias):
+            path = (*owner, *resolved[:-1])
+            calls = item_at(document.design, path) or ()
+            index = next((at for at, call in enumerate(calls) if call.alias == str(alias)), None)
+            return None if index is None else (path, index)
+        case (*_, section, int(at)) if section in (*ACTION_LISTS, *CONSTRUCT_LISTS):
+            return (*owner, *resolved[:-1]), at
+        case _:
+            return None
 
 
 PRESSES: Mapping[str, Handler] = {

@@ -29,12 +29,13 @@ OUTSIDE: DesignPath = ("outside",)
 def state_form(project: Project, design: Design, state: State, ids: ListIds) -> tuple[Node, ...]:
     """The form of a state: what it does and when it ends first, what few states need behind "More"."""
     owner: DesignPath = ("states", state.name)
+    ends = ("final", "failed") if state.final or state.failed else ("final",)
     return (
         Title(text="State", name=state.name, is_hidden=True),
         ItemName(path=("name",), label="State", value=state.name),
         Notice(path=OUTSIDE),
         field_node(state, "doc"),
-        Row(nodes=(_initial(design, state), field_node(state, "final"))),
+        Row(nodes=(_initial(design, state), *(field_node(state, name) for name in ends))),
         Heading(text="Actions", hint="run in order in each iteration"),
         action_cards(project, ("actions",), state.actions, ids.ids((*owner, "actions"), state.actions)),
         Heading(text="Modulates", hint="components this state runs, with parameters"),

@@ -212,10 +212,10 @@ def _design_items(key: str, design: Design, suffix: str) -> Iterator[SearchItem]
     for note in design.notes:
         first, _break, rest = note.text.strip().partition("\n")
         yield SearchItem(SearchKind.NOTE, first, rest, location, make_target("notes", note.name))
+    conditions = {latch.name: f" – {latch.on} – {latch.off}".removesuffix(" – ") for latch in design.latches}
     for section, declaration in design.declarations():
-        yield SearchItem(
-            SearchKind.DECLARATION, declaration.name, _declaration_detail(section, declaration), location, make_target()
-        )
+        detail = _declaration_detail(section, declaration) + conditions.get(declaration.name, "")
+        yield SearchItem(SearchKind.DECLARATION, declaration.name, detail, location, make_target())
     for located in iter_transitions(design):
         transition = located.decision
         assert isinstance(transition, Transition)
