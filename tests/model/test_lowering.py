@@ -151,7 +151,7 @@ def test_a_latch_and_an_interrupt_are_what_a_program_does(seed: int) -> None:
             state = "GotoA"
         if state == "Wait":
             if not person:
-                state = back
+                state, again = back, now + 1.95
         elif person and now >= again:
             back, state = state, "Wait"
         elif state == "GotoA" and near:
@@ -161,7 +161,6 @@ def test_a_latch_and_an_interrupt_are_what_a_program_does(seed: int) -> None:
         if changed < 0 or now >= changed + 0.25:
             wanted = distance < 300 or (near and not distance > 400)
             changed, near = (now, wanted) if wanted != near else (changed, near)
-        again = now + 1.95 if state == "Wait" else again
         record = interpreter.step(round(now * 1e9))
         assert record["tree"][0]["state"] == state, step
 

@@ -1,7 +1,6 @@
 """Rules for latches, interrupts, competences, layers and failed states (`vicode.model.lowering`)."""
 
 from collections.abc import Iterable, Iterator
-from fnmatch import fnmatchcase
 
 from vicode.check.context import RuleContext
 from vicode.findings import DesignPath, Finding, Severity, did_you_mean
@@ -12,6 +11,7 @@ from vicode.model.lowering import (
     derived_variables,
     find_origin,
     find_target,
+    fits_pattern,
     interrupted_states,
     is_handled_before,
     lift_design,
@@ -49,16 +49,36 @@ def find_bad_interrupts(context: RuleContext) -> Iterator[Finding]:
             message = f"'{interrupt.do}' is the initial state, which no interrupt precedes"
             yield context.make_finding("D447", (*path, "do"), message, "add a state for the interrupt")
         for index, pattern in enumerate(interrupt.during):
-            if not any(fnmatchcase(name, pattern) for name in names):
+            if not any(fits_pattern(name, pattern) for name in names):
                 fix = did_you_mean(pattern, names)
                 yield context.make_finding("D447", (*path, "while", index), f"no state is named '{pattern}'", fix)
+        yield from _check_effect(context, number)
         yield from _check_ends(context, number, names)
+
+
+def _check_effect(context: RuleContext, number: int) -> Iterator[Finding]:
+    """Whether an interrupt interrupts anything, and ends."""
+    design, interrupt = context.design, context.design.interrupts[number]
+    if design.layers:
+        message = "layers decide before interrupts, which have no effect"
+        yield context.make_finding("D447", ("interrupts", number), message, "add a layer above the others")
+    states = interrupted_states(design, number)
+    if interrupt.during and not states and not is_handled_before(design, number):
+        message = "no state is interrupted: those of 'while' are disabled, or states of this or an earlier interrupt"
+        yield context.make_finding("D447", ("interrupts", number, "while"), message, "name other states")
+    if any(find_target(design, interrupt, each) == interrupt.do for each in states):
+        message = f"'{interrupt.do}' follows itself, so the interrupt never ends"
+        path = ("interrupts", number, *(("then",) if interrupt.then else ()))
+        yield context.make_finding("D447", path, message, "name another state")
 
 
 def _check_ends(context: RuleContext, number: int, names: list[str]) -> Iterator[Finding]:
     design, interrupt = context.design, context.design.interrupts[number]
     where: DesignPath = ("interrupts", number, "then")
     then = interrupt.then or "resume"
+    if interrupt.then in INTERRUPT_ENDS and interrupt.then in names:
+        message = f"'{then}' is a way to continue, but also a state"
+        yield context.make_finding("D447", where, message, "rename the state")
     if then not in INTERRUPT_ENDS and then not in names:
         fix = did_you_mean(then, [*INTERRUPT_ENDS, *names])
         yield context.make_finding("D447", where, f"'{then}' is no state and no way to continue", fix)

@@ -53,12 +53,14 @@ def find_nonconstant_nodes(tree: Expr) -> Iterator[tuple[str, Expr]]:
 
 
 def find_bad_times(context: RuleContext) -> Iterator[Finding]:
-    """E309: `after` with something other than a constant or a non-negative number of seconds."""
-    fix = "use a number of seconds, such as after: 2.5, or a guard: state_time >= …"
+    """E309: a time that is something other than a constant or a non-negative number of seconds."""
     for expression in context.expressions:
         if expression.site == ExpressionSite.AFTER and expression.is_sound:
             problem = _validate_time(expression, context)
             if problem:
+                key = expression.path[-1]
+                guard = ", or a guard: state_time >= …" if key == "after" else ""
+                fix = f"use a number of seconds, such as {key}: 2.5{guard}"
                 span = (0, len(expression.text))
                 yield context.make_finding("E309", expression.path, problem, fix, span=span)
 
@@ -70,7 +72,7 @@ def _validate_time(expression: TypedExpression, context: RuleContext) -> str:
         case Variable(kind=ScopeSymbolKind.CONSTANT):
             pass
         case _:
-            return "'after' takes a number or a constant"
+            return f"'{expression.path[-1]}' takes a number or a constant"
     value = literal_value(expression.tree, context.scope)
     if value is not None and not (value >= 0 and math.isfinite(value)):
         return f"{value:g} is not a valid time"

@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any, TypeVar
 
 from vicode.findings import DesignPath
+from vicode.model.construct_states import remove_from_constructs, rename_in_constructs
 from vicode.model.decisions import drop_targets, retarget
 from vicode.model.design import (
     STATE_KEYS,
@@ -73,26 +74,7 @@ def rename_state(design: Design, old: str, new: str) -> Design:
     initial = new if design.initial == old else design.initial
     properties = tuple(rename_states_of(each, {old: new}) for each in design.properties)
     design = replace(design, states=states, common=common, frames=frames, initial=initial, properties=properties)
-    return lower_design(_rename_in_constructs(design, old, new))
-
-
-def _rename_in_constructs(design: Design, old: str, new: str) -> Design:
-    """Rename a state in interrupts, and the step or layer that it is derived from."""
-
-    def named(name: str) -> str:
-        return new if name == old else name
-
-    interrupts = (
-        replace(each, do=named(each.do), during=tuple(map(named, each.during)), then=named(each.then))
-        for each in design.interrupts
-    )
-    competence = design.competence
-    if competence is not None:
-        steps = tuple(replace(each, name=named(each.name)) for each in competence.steps)
-        competence = replace(competence, steps=steps)
-    layers = tuple(replace(each, name=named(each.name)) for each in design.layers)
-    positions = tuple(replace(each, name=named(each.name)) for each in design.positions)
-    return replace(design, interrupts=tuple(interrupts), competence=competence, layers=layers, positions=positions)
+    return lower_design(rename_in_constructs(design, old, new))
 
 
 def rename_states_of(promised: Property, names: Mapping[str, str]) -> Property:
@@ -121,22 +103,7 @@ def remove_states(design: Design, names: Collection[str]) -> Design:
         each for each in design.properties if not any(getattr(each, key, None) in names for key in STATE_KEYS)
     )
     design = replace(design, states=states, common=common, frames=frames, initial=initial, properties=properties)
-    return lower_design(_remove_from_constructs(design, names))
-
-
-def _remove_from_constructs(design: Design, names: Collection[str]) -> Design:
-    """Remove interrupts that need these states, and the steps and layers that they are derived from."""
-    interrupts = (
-        replace(each, during=tuple(name for name in each.during if name not in names))
-        for each in design.interrupts
-        if each.do not in names and each.then not in names and (not each.during or set(each.during) - set(names))
-    )
-    competence = design.competence
-    if competence is not None:
-        competence = replace(competence, steps=tuple(each for each in competence.steps if each.name not in names))
-    layers = tuple(each for each in design.layers if each.name not in names)
-    positions = tuple(each for each in design.positions if each.name not in names)
-    return replace(design, interrupts=tuple(interrupts), competence=competence, layers=layers, positions=positions)
+    return lower_design(remove_from_constructs(design, names))
 
 
 def replace_in_frames(

@@ -38,6 +38,10 @@ def name_exists(kind: str, name: str) -> str:
     return f"there is already {'an' if kind[0] in 'aeio' else 'a'} {kind} {name}"
 
 
+def derived_name(name: str, origin: str) -> str:
+    return f"{name} is derived from {origin}, which determines its name"
+
+
 def not_representable(reason: object) -> str:
     return f"this cannot be saved in a file: {reason}"
 

@@ -20,7 +20,9 @@ LATCH = RecordSchema(
     keys=(
         KeySchema("on", EXPRESSION, "condition that makes it true", required=True),
         KeySchema("off", EXPRESSION, "condition that makes it false; default: the end of `on`"),
-        KeySchema("hold", EXPRESSION, "minimum time between two changes, in seconds or in `time_unit`"),
+        KeySchema(
+            "hold", EXPRESSION, "minimum time between two changes, a number or constant in seconds or in `time_unit`"
+        ),
         DOC_KEY,
     ),
 )
@@ -45,7 +47,11 @@ INTERRUPT = RecordSchema(
             NAME,
             "what follows: a state, or " + ", ".join(f"`{each}`" for each in INTERRUPT_ENDS) + "; default: `resume`",
         ),
-        KeySchema("every", EXPRESSION, "minimum time from its end to the next one, in seconds or in `time_unit`"),
+        KeySchema(
+            "every",
+            EXPRESSION,
+            "minimum time from its end to the next one, a number or constant in seconds or in `time_unit`",
+        ),
         DOC_KEY,
     ),
 )
@@ -88,7 +94,12 @@ LAYER = RecordSchema(
     keys=(
         DOC_KEY,
         KeySchema("when", EXPRESSION, "condition under which the layer commands; the lowest layer has none"),
-        KeySchema("for", EXPRESSION, "how long it commands after that, in seconds or in `time_unit`", field="hold"),
+        KeySchema(
+            "for",
+            EXPRESSION,
+            "how long it commands after that, a number or constant in seconds or in `time_unit`",
+            field="hold",
+        ),
         *_STEP_KEYS,
     ),
 )

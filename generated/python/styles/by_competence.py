@@ -45,7 +45,7 @@ class ByCompetence(Component):
     def _act_common(self) -> None:
         """Run the common actions."""
         self.charging = float(self.world.battery) < empty or (self.charging and not float(self.world.battery) > full)
-        self.backing_changes = (self.component_time <= 0 or self.component_time >= self.backing_until) and (
+        self.backing_changes = (self.component_time <= 0 or self.component_time + 0.0001 >= self.backing_until) and (
             (self.backing and not bool(self.world.bumped) and not bool(self.world.bumped))
             or (not self.backing and bool(self.world.bumped))
         )

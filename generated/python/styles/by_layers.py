@@ -34,7 +34,7 @@ class ByLayers(Component):
 
     def _decide_common(self) -> bool:
         """Test the common transitions; return whether one of them ended the decision."""
-        if bool(self.world.bumped) or (self.component_time > 0 and self.component_time < self.back_off_until):
+        if bool(self.world.bumped) or (self.component_time > 0 and self.component_time + 0.0001 < self.back_off_until):
             self._change_to("BackOff")
             return True
         if self.charging:

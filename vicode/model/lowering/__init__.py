@@ -27,6 +27,7 @@ from vicode.model.lowering.competences import COMPETENCE_STATES, LATEST, lower_c
 from vicode.model.lowering.ends import FAILED, lower_ends
 from vicode.model.lowering.interrupts import (
     find_target,
+    fits_pattern,
     interrupt_names,
     interrupted_states,
     is_handled_before,
@@ -43,6 +44,7 @@ __all__ = [
     "find_lost_edit",
     "find_origin",
     "find_target",
+    "fits_pattern",
     "interrupted_states",
     "is_handled_before",
     "is_lowered",
@@ -70,13 +72,12 @@ def lift_design(design: Design) -> Design:
     """The design as its file says it, without anything derived."""
     if not is_lowered(design):
         return design
-    is_whole = design.competence is not None or bool(design.layers)
     initial = design.state(design.initial)
     return replace(
         design,
         outputs=_written(design.outputs),
         variables=_written(design.variables),
-        initial="" if is_whole and initial is not None and initial.origin else design.initial,
+        initial="" if initial is not None and initial.origin else design.initial,
         common=replace(
             design.common,
             actions=_written_actions(design.common.actions),
@@ -137,7 +138,8 @@ def find_lost_edit(design: Design) -> Origin:
     for now, then in zip_longest(_derived_parts(design), _derived_parts(again)):
         if now != then:
             return _origin(then or now)
-    return ()
+    initial = again.state(again.initial)
+    return initial.origin if initial is not None and design.initial != again.initial else ()
 
 
 def derived_variables(design: Design) -> tuple[tuple[str, Origin], ...]:

@@ -36,6 +36,10 @@ def names_of(design: Design) -> set[str]:
     return {each.name for _section, each in design.declarations()}
 
 
+NOW = "component_time + 0.0001"
+"""The present as it is compared with a computed time, whose sum may be rounded up."""
+
+
 def negated(condition: str) -> str:
     return f"not ({condition})"
 

@@ -18,7 +18,7 @@ LATEST = "latest_step"
 
 def lower_competence(design: Design) -> Design:
     competence = design.competence
-    if competence is None or design.states or not competence.goal:
+    if competence is None or design.states or design.initial or not competence.goal:
         return design
     steps = [each for each in competence.steps if each.name not in COMPETENCE_STATES]
     origin = ("competence",)
@@ -37,7 +37,7 @@ def lower_competence(design: Design) -> Design:
         State(name=DONE, final=True, origin=origin),
         State(name=FAILED_STATE, final=True, failed=True, origin=origin),
     ]
-    design = replace(design, states=tuple(states), initial=design.initial or CHOOSE)
+    design = replace(design, states=tuple(states), initial=CHOOSE)
     return _add_counters(design, steps)
 
 
@@ -70,6 +70,7 @@ def tries_name(step: CompetenceStep) -> str:
 
 def _way_to(step: CompetenceStep) -> Transition:
     limit = "" if step.retries is None else f"component_time <= 0 or {tries_name(step)} < {step.retries}"
+    limit = "false" if step.retries == 0 else limit
     return Transition(
         to=step.name, guard=Guard(when=all_of(step.when, limit)), origin=("competence", "steps", step.name)
     )

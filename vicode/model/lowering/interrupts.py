@@ -4,9 +4,9 @@ The first ones of the list are the most urgent: the states of earlier interrupts
 resume, each state sets a number, by which the handling state finds the way back.
 """
 
+import re
 from collections.abc import Iterable
 from dataclasses import replace
-from fnmatch import fnmatchcase
 
 from vicode.model.design import (
     Assign,
@@ -19,7 +19,9 @@ from vicode.model.design import (
     State,
     Transition,
 )
+from vicode.model.disabled import disabled_states, is_enabled
 from vicode.model.lowering.additions import (
+    NOW,
     add_first_action,
     add_time,
     add_variables,
@@ -30,6 +32,14 @@ from vicode.model.lowering.additions import (
 )
 from vicode.model.names import snake_case
 from vicode.model.traversal import iter_state_decisions
+
+_END = r"(done\s*\(\s*\w+\s*\)|action_done)"
+_ENDS = re.compile(rf"{_END}(\s+and\s+{_END})*")
+
+
+def fits_pattern(name: str, pattern: str) -> bool:
+    """Whether a name fits a pattern, in which `*` stands for any text."""
+    return re.fullmatch(".*".join(map(re.escape, pattern.split("*"))), name, re.DOTALL) is not None
 
 
 def lower_interrupts(design: Design) -> Design:
@@ -52,7 +62,7 @@ def interrupted_states(design: Design, number: int) -> tuple[State, ...]:
     candidates = (each for each in design.states if each.name not in urgent and not each.disabled)
     if not interrupt.during:
         return tuple(each for each in candidates if not each.final)
-    return tuple(each for each in candidates if any(fnmatchcase(each.name, name) for name in interrupt.during))
+    return tuple(each for each in candidates if any(fits_pattern(each.name, name) for name in interrupt.during))
 
 
 def is_handled_before(design: Design, number: int) -> bool:
@@ -68,11 +78,11 @@ def find_target(design: Design, interrupt: Interrupt, state: State) -> str:
         case "restart":
             return design.initial
         case "skip":
-            return _next_state(state)
+            return _next_state(design, state)
         case "done":
-            return _single(each.name for each in design.states if each.final and not each.failed)
+            return _single(each.name for each in design.states if each.final and not each.failed and not each.disabled)
         case "fail":
-            return _single(each.name for each in design.states if each.failed)
+            return _single(each.name for each in design.states if each.failed and not each.disabled)
         case name:
             return name if design.state(name) is not None else ""
 
@@ -94,10 +104,11 @@ def _add_variables(design: Design) -> Design:
             continue
         interrupt, origin = design.interrupts[number], ("interrupts", number)
         if name == _again_name(interrupt):
+            # It is -1 during the interruption, and counts from the iteration that ends it.
             design = add_time(design, name, origin)
-            reset = Assign(values=((name, since_restart(name)),), origin=origin)
-            last = Assign(values=((name, f"component_time + {interrupt.every}"),), origin=origin)
-            design = _add_state_action(add_first_action(design, reset), interrupt.do, last)
+            value = since_restart(f"(component_time + {interrupt.every} if {name} < 0 else {name})")
+            design = add_first_action(design, Assign(values=((name, value),), origin=origin))
+            design = _add_state_action(design, interrupt.do, Assign(values=((name, "-1"),), origin=origin))
         else:
             design = add_variables(design, Declaration(name=name, type="int", initial="0", origin=origin))
             # The initial state may be interrupted before it acts.
@@ -134,7 +145,7 @@ def _lower_interrupt(design: Design, number: int, states: tuple[State, ...]) -> 
     interrupt, origin = design.interrupts[number], ("interrupts", number)
     way_in: Decision = Transition(to=interrupt.do, guard=Guard(when=interrupt.when), doc=interrupt.doc, origin=origin)
     if interrupt.every:
-        allowed = f"component_time <= 0 or component_time >= {_again_name(interrupt)}"
+        allowed = f"component_time <= 0 or {NOW} >= {_again_name(interrupt)}"
         inner = Transition(to=interrupt.do, guard=Guard(when=allowed), doc=interrupt.doc, origin=origin)
         way_in = DecisionGroup(guard=Guard(when=interrupt.when), then=(inner,), origin=origin)
     interrupted = {each.name for each in states}
@@ -169,15 +180,22 @@ def _remembers(interrupt: Interrupt) -> bool:
     return (interrupt.then or "resume") in ("resume", "skip")
 
 
-def _next_state(state: State) -> str:
+def _next_state(design: Design, state: State) -> str:
     """The target of the transition that is taken when the work of a state is done, or of its only one."""
-    transitions = [
-        each.decision
-        for each in iter_state_decisions(state)
+    off = disabled_states(design)
+    enabled = [each for each in iter_state_decisions(state) if is_enabled(each, off)]
+    written = [
+        (each.decision, bool(each.groups))
+        for each in enabled
         if isinstance(each.decision, Transition) and not each.decision.origin
     ]
-    ends = [each.to for each in transitions if "done(" in each.guard.when or "action_done" in each.guard.when]
-    return ends[0] if ends else _single(dict.fromkeys(each.to for each in transitions))
+    ends = [each.to for each, is_nested in written if not is_nested and _is_end(each.guard)]
+    return _single(dict.fromkeys(ends or (each.to for each, _is_nested in written)))
+
+
+def _is_end(guard: Guard) -> bool:
+    """Whether a guard says that the work of the state is done, and nothing else."""
+    return not guard.after and guard.code is None and _ENDS.fullmatch(guard.when.strip()) is not None
 
 
 def _single(names: Iterable[str]) -> str:

@@ -2,6 +2,7 @@
 
 from vicode.model.design import Assign, Declaration, Design, Latch
 from vicode.model.lowering.additions import (
+    NOW,
     add_first_action,
     add_time,
     add_variables,
@@ -37,7 +38,7 @@ def _lower_latch(design: Design, latch: Latch) -> Design:
     _name, changes, until = latch_names(latch)
     differs = f"{name} and ({off}) and not ({on}) or not {name} and ({on})"
     values = (
-        (changes, f"(component_time <= 0 or component_time >= {until}) and ({differs})"),
+        (changes, f"(component_time <= 0 or {NOW} >= {until}) and ({differs})"),
         (name, f"{name} and not {changes} or not {name} and {changes}"),
         (until, f"component_time + {latch.hold} if {changes} else {since_restart(until)}"),
     )

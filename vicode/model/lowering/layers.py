@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from vicode.model.design import Assign, Design, Guard, Layer, State, Transition
 from vicode.model.lowering.additions import (
+    NOW,
     add_first_action,
     add_time,
     names_of,
@@ -16,7 +17,7 @@ from vicode.model.names import snake_case
 
 
 def lower_layers(design: Design) -> Design:
-    if not design.layers or design.states or design.competence is not None:
+    if not design.layers or design.states or design.initial or design.competence is not None:
         return design
     requires = tuple(dict.fromkeys(alias for layer in design.layers for alias in layer.requires))
     states = tuple(
@@ -27,7 +28,7 @@ def lower_layers(design: Design) -> Design:
     )
     ways = tuple(_way_to(layer, is_lowest=layer is design.layers[0]) for layer in reversed(design.layers))
     common = replace(design.common, transitions=(*design.common.transitions, *ways))
-    design = replace(design, states=states, initial=design.initial or design.layers[0].name, common=common)
+    design = replace(design, states=states, initial=design.layers[0].name, common=common)
     for layer in design.layers[1:]:
         name = until_name(layer)
         if layer.hold and layer.when and name not in names_of(design):
@@ -46,5 +47,5 @@ def until_name(layer: Layer) -> str:
 def _way_to(layer: Layer, *, is_lowest: bool) -> Transition:
     when = "" if is_lowest else layer.when
     if when and layer.hold:
-        when = f"({when}) or component_time > 0 and component_time < {until_name(layer)}"
+        when = f"({when}) or component_time > 0 and {NOW} < {until_name(layer)}"
     return Transition(to=layer.name, guard=Guard(when=when), origin=("layers", layer.name))

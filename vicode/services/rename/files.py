@@ -1,18 +1,20 @@
 """Renames any symbol in the files of a project, outside of an open editor."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from vicode.model.design import Design
 from vicode.model.edits import rename_state
+from vicode.model.lowering import describe_origin
+from vicode.model.project import Project
 from vicode.model.rename import SymbolRef
 from vicode.services import messages
 from vicode.services.rename.component import FileChange, plan_component_rename
 from vicode.services.rename.modules import plan_module_renames
 from vicode.services.rename.name_errors import state_name_error
 from vicode.services.rename.project_files import ProjectFiles, validate_writable
-from vicode.services.rename.symbol import plan_symbol_rename
+from vicode.services.rename.symbol import derived_names, describe_new_errors, plan_symbol_rename
 from vicode.store import replace_text, save_design
 
 
@@ -46,13 +48,22 @@ def plan_rename(project_files: ProjectFiles, symbol: SymbolRef, new: str) -> Fil
     if symbol.section == "states":
         assert design is not None
         error = state_name_error(new, {state.name for state in design.states})
+        origin = derived_names(design).get(symbol.name, ())
+        error = error or (messages.derived_name(symbol.name, describe_origin(origin)) if origin else "")
         error = error or validate_writable(project_files, [design.component])
-        changes = () if error else _design_changes(project_files, rename_state(design, symbol.name, new))
+        renamed = rename_state(design, symbol.name, new)
+        error = error or _describe_new_errors(project_files.project, renamed)
+        changes = () if error else _design_changes(project_files, renamed)
         return FileRenamePlan(changes=changes, error=error)
     found = plan_symbol_rename(project_files, symbol, new)
     changes = found.changes if found.design is None else _design_changes(project_files, found.design)
     notes = (*_notes(found.ambiguous_places), *((found.note,) if found.note else ()))
     return FileRenamePlan(changes=changes, error=found.error, notes=notes)
+
+
+def _describe_new_errors(project: Project, renamed: Design) -> str:
+    designs = tuple(renamed if each.component == renamed.component else each for each in project.designs)
+    return describe_new_errors(project, replace(project, designs=designs), (renamed.component,))
 
 
 def write_changes(changes: Sequence[FileChange], removed: Path | None = None) -> None:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from vicode.check import find_errors as check_for_errors
 from vicode.findings import Finding
-from vicode.model.design import Design
+from vicode.model.design import Design, Origin
+from vicode.model.lowering import derived_variables, describe_origin
 from vicode.model.paths import describe_path
 from vicode.model.project import Project
 from vicode.model.rename import ReferenceKind, ReferenceRename, SymbolRef, is_declared, rename_symbol, sibling_names
@@ -91,6 +92,13 @@ def plan_symbol_rename(project_files: ProjectFiles, symbol: SymbolRef, new: str)
     return replace(plan, is_declaration_only=is_alone)
 
 
+def derived_names(design: Design) -> dict[str, Origin]:
+    """The names of the declarations and states that constructs need, which only these can change."""
+    declared = {each.name: each.origin for _section, each in design.declarations() if each.origin}
+    states = {each.name: each.origin for each in design.states if each.origin == ("competence",)}
+    return {**dict(derived_variables(design)), **declared, **states}
+
+
 def _kind(symbol: SymbolRef) -> str:
     return _KINDS.get(symbol.section, symbol.section.removesuffix("s"))
 
@@ -101,8 +109,12 @@ def _validate_name(project: Project, symbol: SymbolRef, new: str) -> str:
         return invalid
     if not is_declared(project, symbol):
         return f"{describe_symbol(symbol)} no longer exists"
-    if new in sibling_names(project, symbol):
+    design = project.design(symbol.component)
+    derived = derived_names(design) if design is not None else {}
+    if new in sibling_names(project, symbol) or new in derived:
         return messages.name_exists(_kind(symbol), new)
+    if symbol.section != "uses" and symbol.name in derived and derived[symbol.name] != ("latches", symbol.name):
+        return messages.derived_name(symbol.name, describe_origin(derived[symbol.name]))
     if symbol.section == "components" and project.interface(new) is not None:
         return messages.name_exists("component", new)
     return ""
