@@ -1,8 +1,11 @@
 """What operating systems do differently: locks of files, folders of the user, sessions of processes, signals."""
 
+import _thread
 import os
 import signal
 import subprocess
+import sys
+import threading
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -127,3 +130,11 @@ def end_signals() -> Iterator[int]:
 def send_end_signal(process: "subprocess.Popen[str]", number: int) -> None:
     """Forward a signal that ends programs to one that was started with `session_options`."""
     process.send_signal(getattr(signal, "CTRL_BREAK_EVENT", number))
+
+
+def interrupt_main_thread() -> None:
+    """Raise KeyboardInterrupt in the main thread, on Windows not before it has read what it waits for."""
+    if sys.platform == "win32":
+        _thread.interrupt_main()
+    else:
+        signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)

@@ -1,6 +1,7 @@
 """`vicode attach` prints the state changes of a running robot, and says in one line why it cannot."""
 
 import contextlib
+import io
 import os
 import subprocess
 import sys
@@ -131,3 +132,98 @@ def test_a_project_in_cpp_must_ask_for_the_live_view(
     assert err.startswith("vicode: no robot listens")
     assert words in err
     assert ("live: true" in err) == bool(words)
+
+
+@contextlib.contextmanager
+def controlled() -> Iterator[LiveServer]:
+    """A robot with control that runs until it is left."""
+    root, is_over = Root(Blinker), threading.Event()
+    server = root.watch(control=True, without_hold=True)
+
+    def run() -> None:
+        while not is_over.is_set():
+            root.step()
+            time.sleep(0.002)
+        root.close()
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    try:
+        yield server
+    finally:
+        is_over.set()
+        thread.join(LIMIT_S)
+        assert not thread.is_alive()
+
+
+def console(server: LiveServer, folder: Path, script: str, monkeypatch: pytest.MonkeyPatch) -> int:
+    monkeypatch.setattr(sys, "stdin", io.StringIO(script))
+    return vicode("attach", server.address, str(folder), "--token", server.token, "--console")
+
+
+def test_a_script_commands_a_robot(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with controlled() as server:
+        assert console(server, tmp_path, "# twice\n\npause\nstep 2\ngo Lit\nstates\n", monkeypatch) == 0
+    out, err = capsys.readouterr()
+    assert f"attached to {server.address}: Blinker (with control)" in err
+    lines = out.splitlines()
+    assert lines[0].split("  ")[-1] in ("Blinker: Dark", "Blinker: Lit")
+    assert "Blinker is paused" in lines
+    answers = ("paused", "runs 2 iterations", "Blinker: Lit (of Dark, Lit)")
+    assert [line for line in lines if line in answers] == list(answers)
+
+
+def test_a_script_ends_at_the_first_command_that_fails(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with controlled() as server:
+        assert console(server, tmp_path, "pause\n\ngo Litt\nresume\n", monkeypatch) == 1
+    out, err = capsys.readouterr()
+    assert "vicode: line 3: there is no state 'Litt'; did you mean 'Lit'?\n" in err
+    assert "resumed" not in out
+
+
+def test_a_console_needs_a_robot_with_control(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with Root(Blinker) as root:
+        server = root.watch()
+        root.step()
+        assert console(server, tmp_path, "help\npause\n", monkeypatch) == 1
+        assert vicode("attach", server.address, str(tmp_path), "--token", "wrong", "--console") == 2
+    out, err = capsys.readouterr()
+    assert "set NAME VALUE                  set an output" in out
+    assert "line 2: The robot may only be watched. To control it, start it with --control" in err
+    assert "the token is wrong" in err
+
+
+def test_a_terminal_completes_names_and_ends_with_the_robot(tmp_path: Path) -> None:
+    import pty
+
+    terminal, inner = pty.openpty()
+    with controlled() as server:
+        options = ["attach", server.address, str(tmp_path), "--token", server.token, "--console"]
+        command = [sys.executable, "-m", "vicode", *options]
+        process = subprocess.Popen(command, stdin=inner, stdout=inner, stderr=inner)
+        os.close(inner)
+        shown = ""
+
+        def read_until(words: str) -> None:
+            nonlocal shown
+            while words not in shown:
+                shown += os.read(terminal, 4096).decode()
+
+        read_until("> ")
+        os.write(terminal, b"pau\t\r")
+        read_until("\npaused")
+        os.write(terminal, b"go Blinker.L\t\r")
+        read_until("→ Lit\r\n")
+        os.write(terminal, b"nonsense\r")
+        read_until("there is no command 'nonsense'")
+        os.write(terminal, b"resume\r")
+        read_until("\nresumed")
+    read_until("vicode: the robot closed the connection")
+    assert process.wait(LIMIT_S) == 1
+    os.close(terminal)

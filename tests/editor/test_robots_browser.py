@@ -145,3 +145,57 @@ def test_a_tuned_constant_is_written_back(robot: RobotProgram, folder: Path, tmp
         page.keyboard.press("Control+z")
         expect(page.get_by_role("button", name="Write bright back")).to_be_visible()
         assert "bright: {value: 10," in (folder / "project.yaml").read_text()
+
+
+def type_command(page: Page, text: str) -> None:
+    page.get_by_label("Command", exact=True).press_sequentially(text)
+    page.keyboard.press("Enter")
+
+
+def test_commands_are_typed_in_the_console(robot: RobotProgram, folder: Path, tmp_path: Path, page: Page) -> None:
+    attaching = ("attach", robot.address, str(folder.parent), "--token", robot.token)
+    with started_editor(folder.parent, tmp_path / "storage", (), command=attaching) as url:
+        open_lamp(page, url)
+        expect(active(page)).to_have_attribute("data-id", "Dark")
+        page.get_by_role("tab", name="Console").click()
+        # Without a pause between the keys, and with those of commands of the canvas.
+        for command in (
+            "pause",
+            "set eye.seen true",
+            "hold eye.light 4",
+            "step 2",
+            "print eye.seen and eye.light < bright",
+        ):
+            type_command(page, command)
+        answers = page.get_by_role("log", name="Answers")
+        expect(answers.locator(".console-row").first).to_have_text("eye.seen and eye.light < bright = true")
+        expect(answers.locator(".console-command")).to_have_text(
+            [
+                "> print eye.seen and eye.light < bright",
+                "> step 2",
+                "> hold eye.light 4",
+                "> set eye.seen true",
+                "> pause",
+            ]
+        )
+        expect(active(page)).to_have_attribute("data-id", "Lit")
+        expect(state(page, "Dark")).to_be_visible()
+        field = page.get_by_label("Command", exact=True)
+        page.keyboard.press("ArrowUp")
+        page.keyboard.press("ArrowUp")
+        expect(field).to_have_value("step 2")
+        page.keyboard.press("ArrowDown")
+        page.keyboard.press("ArrowDown")
+        expect(field).to_have_value("")
+        page.keyboard.type("set eye.l")
+        page.keyboard.press("Tab")
+        expect(field).to_have_value("set eye.light ")
+        type_command(page, "500")
+        expect(answers.locator(".error")).to_have_text("'500' is no value of Eye.light: it must be from 0 to 100 lx")
+        page.keyboard.type("go D")
+        page.keyboard.press("Tab")
+        expect(field).to_have_value("go Dark ")
+        assert not complaints(page)
+        page.keyboard.press("Enter")
+        type_command(page, "break Dark -> Lit")
+        expect(page.locator('[data-id="Dark/0"] .breakpoint-sign')).not_to_have_count(0)

@@ -11,7 +11,10 @@ from vicode.cli.ports import port_number
 from vicode.findings import escape_text
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from vicode.robots import Hello, RobotAddress, SocketTransport
+    from vicode.traces.descriptions import TraceRecord
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,6 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--find", action="store_true", help="list the robots that are connected (docs/network.md) and can be watched")
     add("--token", help="token that the robot prints (default: VICODE_WATCH_TOKEN)")
     add("--print", action="store_true", help="print one line per state change instead of opening the editor")
+    add("--console", action="store_true", help="print state changes, and read commands: pause, set, break, … (help)")
     add("--port", type=port_number, help="port of the editor (default: a free port)")
     add("--no-open", action="store_true", help="do not open a browser")
 
@@ -43,6 +47,10 @@ def run(args: argparse.Namespace) -> int:
         return 2
     address = parse_address(find_address(args.address))
     token = args.token if args.token is not None else os.environ.get(TOKEN_VARIABLE, "")
+    if args.console:
+        from vicode.cli.attach_console import run_console
+
+        return run_console(address, token, Path(args.path))
     if args.print:
         return asyncio.run(_print_changes(address, token))
     try:
@@ -114,21 +122,29 @@ async def _print_changes(address: "RobotAddress", token: str) -> int:
 
 async def _print_lines(transport: "SocketTransport", hello: "Hello") -> None:
     from vicode.robots import decode_line
-    from vicode.traces.descriptions import describe_message
 
-    is_alone = len(hello.robots) == 1
     seen: set[str] = set()
     while line := await transport.receive():
         message = decode_line(line)
         if "tree" in message:
-            robot = escape_text(str(message.get("robot")))
-            lines = describe_message(message, is_first=robot not in seen)
-            seen.add(robot)
-            for each in lines:
-                print(each if is_alone and len(seen) == 1 else f"{robot}  {each}", flush=True)
+            for each in describe_changes(message, seen, is_alone=len(hello.robots) == 1):
+                print(each, flush=True)
+
+
+def describe_changes(message: "TraceRecord", seen: set[str], *, is_alone: bool) -> list[str]:
+    """The lines of a message; each has the name of its robot if there are several. `seen` gets the name."""
+    from vicode.traces.descriptions import describe_message
+
+    robot = escape_text(str(message.get("robot")))
+    lines = describe_message(message, is_first=robot not in seen)
+    seen.add(robot)
+    return lines if is_alone and len(seen) == 1 else [f"{robot}  {each}" for each in lines]
+
+
+def describe_connection(address: "RobotAddress", robots: "Iterable[str]", *, control: bool) -> str:
+    names = escape_text(", ".join(robots)) or "no robot yet"
+    return f"attached to {address}: {names} ({'with control' if control else 'may only be watched'})"
 
 
 def _describe(address: "RobotAddress", hello: "Hello") -> str:
-    names = escape_text(", ".join(robot.name for robot in hello.robots)) or "no robot yet"
-    access = "with control" if hello.control else "may only be watched"
-    return f"attached to {address}: {names} ({access})"
+    return describe_connection(address, (robot.name for robot in hello.robots), control=hello.control)

@@ -48,11 +48,8 @@ def parse_input(text: str, inputs: Sequence[SimulationInput], design: Design) ->
     if not equals:
         raise InputTextError(f"'{text.strip()}' has no '='; write NAME=VALUE or 'TIME: NAME=VALUE'")
     input_ = _find_input(name.strip(), inputs, design, _column(text, start))
-    return TimedInput(
-        time_ns=time_ns,
-        input=input_,
-        value=_read_value(value.strip(), input_, _column(text, start + len(name) + 1)),
-    )
+    column = _column(text, start + len(name) + 1)
+    return TimedInput(time_ns=time_ns, input=input_, value=read_value(value.strip(), input_, column))
 
 
 def parse_input_lines(text: str, inputs: Sequence[SimulationInput], design: Design) -> tuple[TimedInput, ...]:
@@ -69,6 +66,27 @@ def parse_input_lines(text: str, inputs: Sequence[SimulationInput], design: Desi
             except InputTextError as error:
                 raise InputTextError(f"{number}:{error.column}: {error}", error.column) from error
     return tuple(found)
+
+
+def read_value(text: str, input_: SimulationInput, column: int = 1) -> Any:
+    """Read a value in the type of an input; its range does not limit it.
+
+    Raises:
+        InputTextError: It is no such value.
+    """
+    if input_.type == "bool":
+        value: Any = _BOOLS.get(text)
+        wanted = "true or false"
+    elif input_.options:
+        value = next((option for option in input_.options if text in (option, option.rpartition(".")[2])), None)
+        wanted = ", ".join(option.rpartition(".")[2] for option in input_.options)
+    else:
+        value, wanted = input_.accept(_number(text)), "an integer" if input_.type == "int" else "a number"
+        if input_.type == "int" and value is not None and value != _number(text):
+            value = None
+    if value is None:
+        raise InputTextError(f"'{text}' is no value of {_name(input_)}: it must be {wanted}", column)
+    return value
 
 
 def format_input(timed: TimedInput) -> str | None:
@@ -126,22 +144,6 @@ def _find_input(name: str, inputs: Sequence[SimulationInput], design: Design, co
 
 def _name(input_: SimulationInput) -> str:
     return f"{input_.component}.{input_.name}" if input_.component else input_.name
-
-
-def _read_value(text: str, input_: SimulationInput, column: int) -> Any:
-    if input_.type == "bool":
-        value: Any = _BOOLS.get(text)
-        wanted = "true or false"
-    elif input_.options:
-        value = next((option for option in input_.options if text in (option, option.rpartition(".")[2])), None)
-        wanted = ", ".join(option.rpartition(".")[2] for option in input_.options)
-    else:
-        value, wanted = input_.accept(_number(text)), "an integer" if input_.type == "int" else "a number"
-        if input_.type == "int" and value is not None and value != _number(text):
-            value = None
-    if value is None:
-        raise InputTextError(f"'{text}' is no value of {_name(input_)}: it must be {wanted}", column)
-    return value
 
 
 def _number(text: str) -> float | None:

@@ -74,11 +74,11 @@ def collect_inputs(project: Project, design: Design, stubbed: tuple[str, ...]) -
     inputs: list[SimulationInput] = []
     for component in sorted((PARAMETERS, *stubbed), key=lambda name: name not in missing):
         if component == PARAMETERS:
-            inputs += [_input(project, PARAMETERS, each) for each in design.parameters]
+            inputs += [declared_input(project, PARAMETERS, each) for each in design.parameters]
         interface = project.interface(component)
         if interface is None:
             continue
-        inputs += [_input(project, component, output) for output in interface.readable]
+        inputs += [declared_input(project, component, output) for output in interface.readable]
         own = project.design(component)
         if own is not None and any(state.final for state in own.states):
             doc = f"{component} is in a final state."
@@ -95,7 +95,7 @@ def collect_tunable(project: Project, design: Design) -> tuple[SimulationInput, 
             if not each.tunable:
                 continue
             try:
-                tunable = _input(project, component, each)
+                tunable = declared_input(project, component, each)
             except UnsoundDesignError:
                 continue
             value = constants.get(each.name) if component == PARAMETERS else None
@@ -104,6 +104,32 @@ def collect_tunable(project: Project, design: Design) -> tuple[SimulationInput, 
                 tunable = replace(tunable, initial=value)
             inputs.append(tunable)
     return tuple(inputs)
+
+
+def declared_input(project: Project, component: str, declaration: Declaration) -> SimulationInput:
+    """A declared value of a component, or a constant, as an input.
+
+    Raises:
+        UnsoundDesignError: Its type is unknown.
+    """
+    scope = build_scope(project, None)
+    type_ = scope.type_of(declaration)
+    elements = scope.enumerations.get(type_, ())
+    options = tuple(f"{type_}.{element}" for element in elements)
+    if not options and type_ not in (BOOL, INT, FLOAT):
+        raise UnsoundDesignError(f"'{declaration.name}' has an unknown type")
+    arguments = declaration.arguments
+    return SimulationInput(
+        component=component,
+        name=declaration.name,
+        type="" if options else type_,
+        initial=_initial(project, declaration, type_, options),
+        unit=declaration.unit,
+        range=declaration.range,
+        options=options,
+        arguments=None if arguments is None else tuple(each.name for each in arguments),
+        doc=declaration.doc,
+    )
 
 
 def make_stub(
@@ -127,27 +153,6 @@ def make_stub(
 def input_types(project: Project, inputs: tuple[SimulationInput, ...]) -> dict[tuple[str, str], str]:
     """The type of each input by its key; an enumeration by its name."""
     return {each.key: each.type or _enumeration(project, each) for each in inputs}
-
-
-def _input(project: Project, component: str, declaration: Declaration) -> SimulationInput:
-    scope = build_scope(project, None)
-    type_ = scope.type_of(declaration)
-    elements = scope.enumerations.get(type_, ())
-    options = tuple(f"{type_}.{element}" for element in elements)
-    if not options and type_ not in (BOOL, INT, FLOAT):
-        raise UnsoundDesignError(f"'{declaration.name}' has an unknown type")
-    arguments = declaration.arguments
-    return SimulationInput(
-        component=component,
-        name=declaration.name,
-        type="" if options else type_,
-        initial=_initial(project, declaration, type_, options),
-        unit=declaration.unit,
-        range=declaration.range,
-        options=options,
-        arguments=None if arguments is None else tuple(each.name for each in arguments),
-        doc=declaration.doc,
-    )
 
 
 def _initial(project: Project, declaration: Declaration, type_: str, options: tuple[str, ...]) -> Any:

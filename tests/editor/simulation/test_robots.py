@@ -14,7 +14,6 @@ from tests.editor.simulation.robot_program import RobotProgram, running_robot, w
 from vicode.bica import Component, Root, SimulatedClock
 from vicode.editor.panels.robots.robot_view import RobotView
 from vicode.editor.panels.simulation.status_message import robot_message
-from vicode.editor.session.robots import LinkStatus, RobotLink, RobotRequestError
 from vicode.editor.session.simulation import Breakpoints
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design, State
@@ -23,6 +22,7 @@ from vicode.runs import Recording, Simulation, prepare_view
 from vicode.runs.design_trace import focus_iteration
 from vicode.runs.guard_values import evaluate_guards
 from vicode.services.robot_version import find_other_versions
+from vicode.services.running_robots.robot_link import LinkStatus, RobotLink, RobotRequestError
 from vicode.simulation import IterationResult
 from vicode.store import open_project
 
@@ -220,7 +220,7 @@ def test_a_design_that_the_robot_does_not_use_is_told(folder: Path) -> None:
 
 
 def test_the_last_window_that_leaves_ends_the_connection(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("vicode.editor.session.robots._LEAVE_DELAY_S", 0.0)
+    monkeypatch.setattr("vicode.services.running_robots.robot_link._LEAVE_DELAY_S", 0.0)
 
     async def act(link: RobotLink) -> None:
         leave_first = link.changes.subscribe(lambda: None)

@@ -12,9 +12,9 @@ from vicode.editor.panels.toasts import show_toast
 from vicode.editor.session import DocumentSession, PresenceRoom, Workspace
 from vicode.editor.session.external_editor import ExternalEditor
 from vicode.editor.session.gestures.delivery import Inbox
-from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design
+from vicode.subscribers import Subscribers
 
 
 class PageServices(Protocol):

@@ -14,7 +14,6 @@ from vicode.editor.session.forms.form_data import FormLists, Forms, FormWriter
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.history import CompoundEdit, HistoryEntry, UndoConflict, UndoHistory
 from vicode.editor.session.presence import DISK_USER, PresenceRoom, UserDirectory
-from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import Scene, SceneChanges, diff_scenes, make_scene
 from vicode.editor.view.unfinished import unfinished_states
 from vicode.findings import Finding
@@ -26,6 +25,7 @@ from vicode.model.paths import describe_path
 from vicode.model.project import Project
 from vicode.model.traversal import find_decision
 from vicode.store import UnreadContentError, save_design
+from vicode.subscribers import Subscribers
 
 DesignChecker = Callable[[Design], tuple[Finding, ...]]
 _MAX_RECENT_DESIGNS = 60

@@ -9,12 +9,12 @@ from pathlib import Path
 from vicode.editor.session.external_editor import ExternalEditor
 from vicode.editor.session.presence import UserDirectory
 from vicode.editor.session.project.overview import ProjectOverview
-from vicode.editor.session.robots import RobotLink
 from vicode.editor.session.trust import trust_folder
 from vicode.editor.session.workspace import Workspace
 from vicode.output import remove_leftovers
 from vicode.platform import state_folder
 from vicode.samples import DEFAULT_SAMPLE, copy_sample
+from vicode.services.running_robots.robot_link import RobotLink
 from vicode.store import find_projects, folder_times
 
 _SEARCH_INTERVAL_S = 2.0

@@ -4,10 +4,10 @@ from dataclasses import dataclass, field, replace
 from itertools import count
 from typing import Any
 
-from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.view import ItemRef
 from vicode.findings import DesignPath
 from vicode.model.design import Point
+from vicode.subscribers import Subscribers
 
 DISK_USER = "disk"
 """The user id of edits by other programs."""

@@ -10,7 +10,6 @@ from vicode.check import check_design, check_project
 from vicode.editor.session.code import code_sync
 from vicode.editor.session.document import DiskVersion, DocumentSession, FileTransaction, SharedDocument
 from vicode.editor.session.presence import DISK_USER, UserDirectory
-from vicode.editor.session.robots import RobotLink
 from vicode.findings import DesignPath, Finding
 from vicode.model.design import Design, State
 from vicode.model.merge import merge_designs
@@ -19,6 +18,7 @@ from vicode.model.project import Project
 from vicode.output import back_up_edited
 from vicode.services.generation import design_output
 from vicode.services.generation.design_output import GenerationRequest, GenerationResult, PendingOutput
+from vicode.services.running_robots.robot_link import RobotLink
 from vicode.store import (
     FileChangedError,
     OpenProject,

@@ -3,11 +3,11 @@
 from nicegui import background_tasks, run
 
 from vicode.editor.session.document import DocumentSession
-from vicode.editor.session.subscribers import Subscribers
 from vicode.editor.session.workspace import Workspace
 from vicode.findings import DesignPath
 from vicode.model.texts import iter_texts
 from vicode.services.lint import LintWarning, LintWarnings, lint_design
+from vicode.subscribers import Subscribers
 
 
 class CodeLinter:

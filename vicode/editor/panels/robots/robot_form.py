@@ -7,9 +7,10 @@ from nicegui import ui
 
 from vicode.editor.panels.robots.robot_tuning import RobotTuning
 from vicode.editor.panels.robots.robot_values import RobotValues
-from vicode.editor.panels.robots.robot_view import NO_CONTROL, RobotView
-from vicode.editor.session.robots import LinkStatus, WatchedRobot
+from vicode.editor.panels.robots.robot_view import RobotView
 from vicode.robots import AttachError
+from vicode.services.running_robots.robot_link import NO_CONTROL, LinkStatus
+from vicode.services.running_robots.watched_robot import WatchedRobot
 
 _STALE_S = 1.0
 

@@ -92,9 +92,9 @@ class _TuningRow:
             if control.value != accepted:
                 control.set_value(accepted)
         if self.input.component == PARAMETERS:
-            self.view.tune(self.input.name, accepted)
+            self.view.ask("tune", name=self.input.name, value=accepted)
         else:
-            self.view.set_value(self.input.component, self.input.name, accepted, hold=True)
+            self.view.ask("set", component=self.input.component, name=self.input.name, value=accepted, hold=True)
 
     def _ask_to_write(self) -> None:
         """Show what the value changes in recorded runs, and write it if the user agrees."""

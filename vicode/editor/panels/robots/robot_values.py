@@ -9,8 +9,8 @@ from nicegui import ui
 from vicode.editor.panels.dialogs import titled_dialog
 from vicode.editor.panels.robots.robot_view import RobotView
 from vicode.editor.panels.widgets import icon_button, primary_button
-from vicode.editor.session.robots import WatchedRobot
 from vicode.editor.view.robot_values import RobotComponentRow, RobotValueRow, component_row, input_row, parse_value
+from vicode.services.running_robots.watched_robot import WatchedRobot
 
 
 class RobotValues:
@@ -123,11 +123,11 @@ class RobotValues:
             if value is None:
                 field.error = f"Not a value like {row.text}"
                 return
-            self.view.set_value(component, name, value, hold=hold)
+            self.view.ask("set", component=component, name=name, value=value, hold=hold)
             dialog.close()
 
         def release() -> None:
-            self.view.release_value(component, name)
+            self.view.ask("unset", component=component, name=name)
             dialog.close()
 
         with titled_dialog(f"Set {component}.{name}") as dialog:
@@ -148,10 +148,9 @@ class RobotValues:
 
         def apply() -> None:
             hertz = field.value
-            if not isinstance(hertz, int | float) or robot is None:
+            if not isinstance(hertz, int | float):
                 return
-            remember = partial(robot.frequencies_hz.__setitem__, component, float(hertz))
-            self.view.ask("frequency", remember, component=component, hz=hertz)
+            self.view.ask("frequency", component=component, hz=float(hertz))
             dialog.close()
 
         with titled_dialog(f"Frequency of {component}") as dialog:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from nicegui import run
 
-from vicode.editor.session.robots import LinkStatus, RobotRequestError, WatchedRobot
+from vicode.editor.session.simulation import Breakpoints
 from vicode.editor.view import ItemRef
 from vicode.model.design import Design
 from vicode.model.project import Project
@@ -16,12 +16,14 @@ from vicode.runs.design_trace import focus_iteration
 from vicode.runs.guard_values import evaluate_guards
 from vicode.runs.why_not import PastConditions, WhyNot, explain
 from vicode.services.robot_version import find_other_versions
+from vicode.services.running_robots.console import RobotConsole
+from vicode.services.running_robots.robot_link import NO_CONTROL, LinkStatus, Place, RobotRequestError
+from vicode.services.running_robots.watched_robot import WatchedRobot
 from vicode.simulation import IterationResult
 
 if TYPE_CHECKING:
     from vicode.editor.panels.simulation.controller import SimulationController
 
-NO_CONTROL = "The robot may only be watched. To control it, start it with --control or VICODE_WATCH_CONTROL=1."
 NOT_ATTACHED = "Attach to a robot first: Simulate, source Robot"
 
 
@@ -35,6 +37,12 @@ class RobotView:
         self.is_shown = False
         self.other_versions: tuple[str, ...] | None = ()
         """Components of which the robot runs another version; None if that is not known."""
+        self.console = RobotConsole(
+            self.link,
+            lambda: self.project,
+            component=self._find_commanded,
+            set_breakpoints=self._set_breakpoints,
+        )
         self._compared: tuple[Project, RobotDescription] | None = None
         self._is_comparing = False
         self._seen: object = None
@@ -106,40 +114,22 @@ class RobotView:
             places = self._controller.breakpoints.places(self.design)
             self._run(partial(self.link.set_breakpoints, self._component, places))
 
-    def ask(self, do: str, then: Callable[[], object] = lambda: None, **fields: Any) -> None:
+    def ask(self, do: str, **fields: Any) -> None:
         """Ask the robot for something, and show a message if it was not done."""
         if problem := self.problem_of_control:
             self.context.show_toast(problem, "info")
-            return
+        else:
+            self._run(partial(self.link.request, do, **fields))
 
-        async def request() -> None:
-            await self.link.request(do, **fields)
-            then()
+    def _find_commanded(self) -> str:
+        """The shown component, "" if the robot does not have it."""
+        return self._component if self.robot and self._component in self.robot.description.components else ""
 
-        self._run(request)
-
-    def set_value(self, component: str, name: str, value: Any, *, hold: bool) -> None:
-        """Set a value, once or in each iteration."""
-
-        def remember() -> None:
-            if hold and self.robot is not None:
-                self.robot.held[component, name] = value
-
-        self.ask("set", remember, component=component, name=name, value=value, hold=hold)
-
-    def release_value(self, component: str, name: str) -> None:
-        if self.robot is not None:
-            self.robot.held.pop((component, name), None)
-        self.ask("unset", component=component, name=name)
-
-    def tune(self, name: str, value: Any) -> None:
-        """Set a constant."""
-
-        def remember() -> None:
-            if self.robot is not None:
-                self.robot.tuned[name] = value
-
-        self.ask("tune", remember, name=name, value=value)
+    async def _set_breakpoints(self, component: str, places: tuple[Place, ...]) -> None:
+        """Set breakpoints as the console asks; those of the shown component are also those of the window."""
+        await self.link.set_breakpoints(component, places)
+        if component == self._component:
+            self._controller.set_breakpoints(Breakpoints.at_places(places, self.design))
 
     @property
     def _component(self) -> str:

@@ -182,9 +182,13 @@ class SimulationController:
         self._notify()
 
     def toggle_breakpoints(self, *items: ItemRef) -> None:
-        self.breakpoints = self.breakpoints.toggled(self.context.design, *items)
-        self._show_breakpoints()
+        self.set_breakpoints(self.breakpoints.toggled(self.context.design, *items))
         self.robot.tell_breakpoints()
+
+    def set_breakpoints(self, breakpoints: Breakpoints) -> None:
+        """Replace the breakpoints of the window, without telling the robot."""
+        self.breakpoints = breakpoints
+        self._show_breakpoints()
         self._notify()
 
     def check_project(self) -> None:

@@ -6,6 +6,7 @@ from contextlib import suppress
 
 from nicegui import ui
 
+from vicode.editor.panels.robots.console_panel import ConsolePanel
 from vicode.editor.panels.simulation.activation_and_output import ActivationTree, ConsoleOutput
 from vicode.editor.panels.simulation.controller import SimulationController
 from vicode.editor.panels.simulation.controls import SimulationControls
@@ -21,7 +22,7 @@ _AGE_INTERVAL_S = 1.0
 _FIT_DELAY_S = 0.3
 _DRAW_TIMEOUT_S = 2.0
 _IS_DRAWN = "new Promise((resolve) => setTimeout(resolve))"
-_RESULT_TABS = ("Plot", "Active components", "Output")
+_RESULT_TABS = ("Plot", "Active components", "Output", "Console")
 
 
 class SimulationPanel:
@@ -41,7 +42,12 @@ class SimulationPanel:
                     self.why_not = WhyNotView(controller)
                 with ui.element("section").classes("simulation-part simulation-results").props('aria-label="Results"'):
                     self.tabs = Tabs(_RESULT_TABS, "simulation-results", "Results")
-        builders = lambda: Timeline(controller), lambda: ActivationTree(controller), lambda: ConsoleOutput(controller)
+        builders = (
+            lambda: Timeline(controller),
+            lambda: ActivationTree(controller),
+            lambda: ConsoleOutput(controller),
+            lambda: ConsolePanel(controller.robot),
+        )
         self.tabs.build(dict(zip(_RESULT_TABS, builders, strict=True)))
         controller.refresh_panel = self._poll
         ui.timer(_POLL_INTERVAL_S, self._poll_unhurried)

@@ -3,9 +3,9 @@
 from vicode.editor.panels import texts
 from vicode.editor.panels.robots.robot_view import RobotView
 from vicode.editor.panels.simulation.controller import SimulationController
-from vicode.editor.session.robots import LinkStatus
 from vicode.editor.view.activation import code_error_view
 from vicode.runs import RunStatus, Simulation
+from vicode.services.running_robots.robot_link import LinkStatus
 
 _HINT = "F10 steps, F6 plays and pauses, Shift+F6 runs to the next state, F9 sets a breakpoint on the selection."
 
