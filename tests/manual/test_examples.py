@@ -12,7 +12,7 @@ import pytest
 import yaml
 
 from tests.cli.command_runner import vicode
-from tests.manual.code_blocks import PAGES, ROOT, CodeBlock, all_blocks, vicode_commands
+from tests.manual.code_blocks import PAGES, ROOT, CodeBlock, all_blocks, code_blocks, vicode_commands
 from vicode.cli.entry_point import COMMANDS, make_command_parser
 from vicode.simulated_robot.map_file import read_world_map
 from vicode.store import read_design, read_project_file
@@ -74,6 +74,17 @@ def test_files_are_valid(block: CodeBlock) -> None:
         assert read_world_map(block.text).findings == ()
     else:
         _check_workflow(yaml.safe_load(block.text))
+
+
+def test_the_examples_of_the_architectures_are_one_project(tmp_path: Path) -> None:
+    """All checks find nothing in it, and its designs behave alike in the interpreter and in generated Python."""
+    page = ROOT / "docs" / "architectures.md"
+    for block in code_blocks(page, "yaml"):
+        name = "project.yaml" if "\nproject:" in block.text else block.name
+        (tmp_path / name).write_text(block.text, encoding="utf-8")
+    assert vicode("check", "--strict", "--deep", str(tmp_path)) == 0
+    for name in ("life", "deliver", "watchman", "rover"):
+        assert vicode("conform", str(tmp_path / f"{name}.yaml"), "--iterations", "200") == 0, name
 
 
 @pytest.mark.parametrize("block", all_blocks("python", "py"), ids=str)
