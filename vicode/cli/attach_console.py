@@ -110,13 +110,14 @@ class _Terminal:
     def _read_lines(self, complete: Callable[[str], tuple[str, ...]]) -> Iterator[str]:
         """Lines of a terminal, with history and completion where Python has readline."""
         typed: Callable[[], str] = str
-        with contextlib.suppress(ImportError):
-            import readline
+        if sys.platform != "win32":
+            with contextlib.suppress(ImportError):
+                import readline
 
-            typed = readline.get_line_buffer
-            readline.set_completer_delims(" \t()")
-            readline.set_completer(lambda _word, index: (*complete(typed()[: readline.get_endidx()]), None)[index])
-            readline.parse_and_bind("bind ^I rl_complete" if "libedit" in (readline.__doc__ or "") else "tab: complete")
+                typed, bind = readline.get_line_buffer, "tab: complete"
+                readline.set_completer_delims(" \t()")
+                readline.set_completer(lambda _word, index: (*complete(typed()[: readline.get_endidx()]), None)[index])
+                readline.parse_and_bind("bind ^I rl_complete" if "libedit" in (readline.__doc__ or "") else bind)
         with contextlib.suppress(EOFError):
             while True:
                 self._shown_prompt = lambda: f"{_PROMPT}{typed()}"

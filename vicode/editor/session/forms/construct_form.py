@@ -138,7 +138,7 @@ def _origin_nodes(design: Design, ids: ListIds, origin: Origin) -> tuple[Node, .
     places = {_origin(place, each): place for place, each in _places(design, ids)} if origin else {}
     place = places.get(origin)
     title = noun_of(place.section).capitalize() if place else ""
-    return (Heading(text=title, hint="this is derived from it"), FormPart(form=place.key)) if place else ()
+    return (Heading(text=title, hint="what this is derived from"), FormPart(form=place.key)) if place else ()
 
 
 def _places(design: Design, ids: ListIds) -> Iterator[tuple[ItemPlace, Construct]]:
