@@ -14,7 +14,7 @@ from vicode.editor.session.forms.form_data import FormWriter, form_lists, item_f
 from vicode.editor.session.forms.form_paths import at_design
 from vicode.editor.session.forms.list_ids import ListIds
 from vicode.editor.session.forms.marks import ItemFields, marks_of
-from vicode.editor.session.forms.nodes import Cards, Check, FormPart, Heading, Node, Row, Section
+from vicode.editor.session.forms.nodes import Cards, Check, FormPart, Heading, Node, Row, Section, Title
 from vicode.editor.view import ItemRef, item_at_path, item_label
 from vicode.findings import Finding, FindingSubject, get_rule
 from vicode.model.design import Design, State
@@ -128,6 +128,8 @@ def test_forms_of_derived_items_are_those_of_their_constructs() -> None:
         parts = [node.form for node in item_form(PROJECT, design, item, ids) if isinstance(node, FormPart)]
         assert parts == [key]
         assert key in construct_parts(PROJECT, design, ids)
+    edge = item_form(PROJECT, opened(STATES).design, ItemRef(kind="transitions", id="Walk/0"), ids)
+    assert [(each.text, each.name) for each in edge if isinstance(each, Title)] == [("Interrupt by", "Cool")]
 
 
 def test_fields_are_written_to_the_file() -> None:

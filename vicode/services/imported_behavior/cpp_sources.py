@@ -33,6 +33,12 @@ def find_cpp_files(path: Path) -> tuple[Path, ...]:
     return files if any(contains_machines(_read(each)) for each in files) else ()
 
 
+_READ = (
+    "C++ files may have options of CABSL and tables of boost::sml; vicode import also reads XABSL, SCXML, "
+    "VICODE (X.xml), rqt BICA (X.bica), FlexBE (x_sm.py) and YASMIN (x.xml)"
+)
+
+
 def load_cpp(paths: Iterable[Path], name: str) -> CppImport:
     """Import the machines of files; `paths` are files and folders.
 
@@ -43,7 +49,7 @@ def load_cpp(paths: Iterable[Path], name: str) -> CppImport:
     imported = import_cpp({file: _read(file) for file in dict.fromkeys(files)}, name)
     if not imported.machines and not imported.errors:
         shown = ", ".join(map(str, paths))
-        raise OSError(f"no state machines in {shown}; options of CABSL and tables of boost::sml are read")
+        raise OSError(f"no state machines in {shown}; {_READ}")
     return imported
 
 

@@ -128,6 +128,11 @@ def derived_decision_form(design: Design, ids: ListIds, source: str, decision: D
         case ("competence", "steps", str(name)) | ("layers", str(name)):
             link = ItemLink(label="Derived from", caption=name, opens=("states", name))
             origin: tuple[Node, ...] = (link,)
+        case ("interrupts", int(number)) as part:
+            # Its transitions are drawn as one.
+            do = design.interrupts[number].do
+            (_heading, *form) = _origin_nodes(design, ids, part)
+            return (Title(text="Interrupt by", name=do, opens=("states", do)), *form)
         case part:
             origin = _origin_nodes(design, ids, part)
     text = f"{decision_target(decision)} – {guard_label(decision.guard, design.time_unit) or 'always'}"
