@@ -11,6 +11,7 @@ from vicode.diagram.primitives import PathShape, ShapeGroup, TextShape
 from vicode.diagram.svg import write_svg
 from vicode.model.design import DecisionGroup, Design, Guard, State, Transition, Use
 from vicode.model.edits import add_state, remove_states, rename_state, update_state
+from vicode.store import read_design
 
 BASE = Design(
     component="Player",
@@ -109,3 +110,24 @@ def test_the_legend_explains_the_signs(colors: object) -> None:
 @settings(max_examples=max(10, settings().max_examples // 8))
 def test_any_two_designs_can_be_drawn(old: Design, new: Design) -> None:
     assert render_diff(old, new).groups or not (old.states or new.states)
+
+
+def lowered(text: str) -> Design:
+    design = read_design("vicode: 1\ncomponent: Player\n" + text).design
+    assert design is not None
+    return design
+
+
+def test_changed_constructs_are_marked_where_they_are_drawn() -> None:
+    states = "initial: A\nstates: {A: {}, B: {}, C: {}, D: {}}\n"
+    old = lowered(states + "interrupts: [{do: B, when: x}, {do: C, when: y}]\n")
+    new = lowered(states + "interrupts: [{do: B, when: z}, {do: C, when: y}, {do: D, when: u}]\n")
+    assert signs(old, new) == [("+", "+ interrupt by D: when u"), ("~", "~ when of interrupt by B: x → z")]
+    assert signs(new, old) == [("~", "~ when of interrupt by B: z → x")]
+    old = lowered("layers: {A: {}, B: {when: x}}\n")
+    new = lowered("layers: {A: {}, B: {when: y}}\npositions: {A: [5, 5]}\n")
+    assert signs(old, new) == [
+        (">", "> moved state A: (automatic) → 5, 5"),
+        ("~", "~ when of layer B: x → y"),
+        ("~", "~ when of layer B: x → y"),
+    ]

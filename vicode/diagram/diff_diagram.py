@@ -1,16 +1,18 @@
 """The differences of two versions of a design, as one diagram with marked elements."""
 
+from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from vicode.diagram.diagram_model import build_diagram
+from vicode.diagram.drawn_transitions import draw_transitions
 from vicode.diagram.marks import SIGN_RADIUS, Mark
 from vicode.diagram.palettes import DARK, LIGHT, ColorPalette, css_variable_palette, palette_variables
 from vicode.diagram.primitives import ShapeGroup, TextShape, VectorImage
 from vicode.diagram.render import render_diagram
 from vicode.diagram.text_metrics import LABEL_FONT, text_width
 from vicode.findings import DesignPath
-from vicode.model.design import Decision, Design, Point, State
+from vicode.model.design import Decision, Design, Point, State, Transition
 from vicode.model.diff import Change, ChangeKind, describe_changes, diff_designs, rename_like
 from vicode.model.traversal import find_decision, iter_transitions
 
@@ -72,7 +74,7 @@ def render_diff(old: Design, new: Design, colors: DiffColors = LIGHT_DIFF) -> Ve
     changes = diff_designs(old, new)
     old = rename_like(old, new)
     united, removed = _unite(old, new, changes)
-    marks = _marks(changes, removed, old, colors)
+    marks = _marks(changes, removed, old, colors, _keys_of_constructs(united))
     marks |= _inherited_marks(united, changes, marks)
     image = render_diagram(
         build_diagram(united), title=f"{new.component}: differences", palette=colors.palette, marks=marks
@@ -122,8 +124,24 @@ def _decision_key(path: DesignPath) -> str:
     return "t:" + "/".join(map(str, path))
 
 
+def _keys_of_constructs(design: Design) -> dict[DesignPath, list[str]]:
+    """The elements that show a construct: the state of a step or layer, and the edge of a rule."""
+    found: dict[DesignPath, list[str]] = defaultdict(list)
+    for state in design.states:
+        if len(state.origin) > 1:
+            found[state.origin].append(f"s:{state.name}")
+    for drawn in draw_transitions(design):
+        if isinstance(drawn.located.decision, Transition) and drawn.derived:
+            found[drawn.located.decision.origin].append(_decision_key(drawn.paths[0]))
+    return found | {("positions", name): [f"s:{name}"] for name in (each.name for each in design.states if each.origin)}
+
+
 def _marks(
-    changes: Iterable[Change], removed: Mapping[str, DesignPath], old: Design, colors: DiffColors
+    changes: Iterable[Change],
+    removed: Mapping[str, DesignPath],
+    old: Design,
+    colors: DiffColors,
+    constructs: Mapping[DesignPath, list[str]],
 ) -> dict[str, Mark]:
     """The mark of each element, with all its changes."""
     by_key: dict[str, list[Change]] = {key: [] for key in removed}
@@ -132,9 +150,13 @@ def _marks(
         if change.kind is ChangeKind.REMOVED and change.path in by_path:
             by_key[by_path[change.path]].append(change)
         else:
-            for key in _keys_of(change):
+            for key in _keys_of(change, constructs):
                 by_key.setdefault(key, []).append(change)
-    return {key: _mark(key, group, old, colors, is_removed=key in removed) for key, group in by_key.items()}
+    own = {key: path for path, keys in constructs.items() for key in keys}
+    return {
+        key: _mark(key, group, old, colors, is_removed=key in removed, construct=own.get(key))
+        for key, group in by_key.items()
+    }
 
 
 def _inherited_marks(united: Design, changes: Iterable[Change], marks: Mapping[str, Mark]) -> dict[str, Mark]:
@@ -155,8 +177,10 @@ def _is_state(change: Change) -> bool:
     return len(change.path) == 2 and change.path[0] == "states"
 
 
-def _mark(key: str, changes: list[Change], old: Design, colors: DiffColors, *, is_removed: bool) -> Mark:
-    kinds = {_kind_at(key, change) for change in changes}
+def _mark(
+    key: str, changes: list[Change], old: Design, colors: DiffColors, *, is_removed: bool, construct: DesignPath | None
+) -> Mark:
+    kinds = {change.kind if change.path == construct else _kind_at(key, change) for change in changes}
     kind = ChangeKind.REMOVED if is_removed else next(each for each in _RANKS if each in kinds)
     is_moved = not is_removed and any(change.kind is ChangeKind.MOVED and not change.attribute for change in changes)
     return Mark(
@@ -204,10 +228,13 @@ def _own_key(path: DesignPath) -> str:
             return ""
 
 
-def _keys_of(change: Change) -> list[str]:
+def _keys_of(change: Change, constructs: Mapping[DesignPath, list[str]]) -> list[str]:
     """The keys of the element that a change marks: the innermost one that the diagram shows."""
     path = change.path
+    is_gone = change.kind is ChangeKind.REMOVED
     while path:
+        if path in constructs:
+            return [] if is_gone and path == change.path else constructs[path]
         key = _own_key(path)
         if key:
             return [key]
