@@ -122,7 +122,7 @@ def test_changed_constructs_are_marked_where_they_are_drawn() -> None:
     states = "initial: A\nstates: {A: {}, B: {}, C: {}, D: {}}\n"
     old = lowered(states + "interrupts: [{do: B, when: x}, {do: C, when: y}]\n")
     new = lowered(states + "interrupts: [{do: B, when: z}, {do: C, when: y}, {do: D, when: u}]\n")
-    assert signs(old, new) == [("+", "+ interrupt by D: when u"), ("~", "~ when of interrupt by B: x → z")]
+    assert signs(old, new) == [("+", "+ interrupt by D: do D; when u"), ("~", "~ when of interrupt by B: x → z")]
     assert signs(new, old) == [("~", "~ when of interrupt by B: z → x")]
     old = lowered("layers: {A: {}, B: {when: x}}\n")
     new = lowered("layers: {A: {}, B: {when: y}}\npositions: {A: [5, 5]}\n")
