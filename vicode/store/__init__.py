@@ -67,7 +67,9 @@ __all__ = [
     "replace_text",
     "resolve_conflicts",
     "save_design",
+    "save_extracted",
     "save_project_file",
+    "take_comments",
     "write_text",
 ]
 
@@ -75,11 +77,13 @@ _LAZY_MODULES = {
     "CommentedFile": "comments",
     "add_comments": "comments",
     "merge_comments": "comments",
+    "take_comments": "kept_comments",
     "TextMerge": "merge_texts",
     "design_schema": "json_schema",
     "merge_file_texts": "merge_texts",
     "project_schema": "json_schema",
     "save_design": "save",
+    "save_extracted": "save",
     "save_project_file": "save",
 }
 
