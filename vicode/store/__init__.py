@@ -25,8 +25,9 @@ from vicode.store.unread import UnreadContentError
 if TYPE_CHECKING:
     from vicode.store.comments import CommentedFile, add_comments, merge_comments
     from vicode.store.json_schema import design_schema, project_schema
+    from vicode.store.kept_comments import take_comments
     from vicode.store.merge_texts import TextMerge, merge_file_texts
-    from vicode.store.save import save_design, save_project_file
+    from vicode.store.save import save_design, save_extracted, save_project_file
 from vicode.store.unread import UnreadMember, list_unread
 
 __all__ = [
