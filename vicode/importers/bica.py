@@ -59,7 +59,8 @@ class BicaReader:
             found = self.sources.find(f"{each.get('id')}{path.suffix}", path, each.line)
             if found is not None:
                 self.sources.load(found, self.read)
-        self.sources.note_unread(path, root, _KNOWN)
+        for line, text in root.unread(_KNOWN):
+            self.sources.note(path, line, text)
 
     def project(self, name: str) -> Project:
         designs = {design.component: design for design, _path in self.designs}

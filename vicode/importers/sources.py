@@ -1,16 +1,12 @@
 """The files of an import, with what is left out and what cannot be read."""
 
 import glob
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from vicode.findings import Finding, SourceLocation, get_rule
 from vicode.importers.notes import ImportNote
-
-if TYPE_CHECKING:
-    from vicode.importers.xml_reader import Element
 
 
 class SourceError(Exception):
@@ -36,11 +32,6 @@ class Sources:
 
     def note(self, path: Path, line: int, text: str) -> None:
         self.notes.append(ImportNote(file=path, line=line, text=text))
-
-    def note_unread(self, path: Path, root: "Element", known: Collection[str] = ()) -> None:
-        """Note what of a document was not read, without attributes that are `known` to mean nothing."""
-        for line, text in root.unread(known):
-            self.note(path, line, text)
 
     def contains(self, path: Path) -> bool:
         """Whether a file is in the folder, also by its real path."""
@@ -69,10 +60,8 @@ class Sources:
             self._read[path] = True
             try:
                 read(path, path.read_bytes())
-            except RecursionError:
+            except (SourceError, RecursionError, MemoryError) as error:
                 self._read[path] = False
-                self.errors.append(SourceError("S805", "nested too deeply", 1).finding(path))
-            except SourceError as error:
-                self._read[path] = False
-                self.errors.append(error.finding(path))
+                found = error if isinstance(error, SourceError) else SourceError("S805", "nested too deeply", 1)
+                self.errors.append(found.finding(path))
         return str(path) if self._read[path] else ""

@@ -23,9 +23,10 @@ class Element:
     children: list["Element"] = field(default_factory=list)
     text_line: int = 0
     """The line of its text, 0 if it has none."""
+    is_reported: bool = False
+    """Whether it is left out of `unread`, with all that it contains."""
     _read: set[str] = field(default_factory=set, compare=False)
     _is_read: bool = field(default=False, compare=False)
-    _is_reported: bool = field(default=False, compare=False)
 
     def get(self, name: str, default: str = "") -> str:
         """Read an attribute."""
@@ -39,13 +40,9 @@ class Element:
                 child._is_read = True
                 yield child
 
-    def set_reported(self) -> None:
-        """Leave the element out of `unread`, with all that it contains."""
-        self._is_reported = True
-
     def unread(self, known: Collection[str] = ()) -> Iterator[tuple[int, str]]:
         """What was not read, as pairs of line and text, without attributes that are `known` to mean nothing."""
-        if self._is_reported:
+        if self.is_reported:
             return
         names = [each for each in self.attributes if each not in (*known, *self._read)]
         if names:
@@ -56,7 +53,7 @@ class Element:
         for child in self.children:
             if child._is_read:
                 yield from child.unread(known)
-            elif not child._is_reported:
+            elif not child.is_reported:
                 yield child.line, f"not in the design: <{child.tag}>"
 
 

@@ -189,8 +189,6 @@ def _parse(text: str) -> ast.Module:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return ast.parse(text)
-    except (RecursionError, MemoryError) as error:
-        raise RecursionError from error
     except (SyntaxError, ValueError) as error:
         line = error.lineno if isinstance(error, SyntaxError) and error.lineno else 1
         raise SourceError("S805", f"no Python 3: {getattr(error, 'msg', error)}", line) from error

@@ -28,7 +28,8 @@ class YasminReader:
         """
         root = read_xml(data, ("StateMachine",))
         self._read_machine(root, path, str(path), root.get("name") or path.stem)
-        self._sources.note_unread(path, root, _KNOWN)
+        for line, text in root.unread(_KNOWN):
+            self._sources.note(path, line, text)
 
     def _read_machine(self, element: Element, path: Path, key: str, name: str) -> None:
         self._note_data(element, path, name)
@@ -53,7 +54,7 @@ class YasminReader:
         for each in data[:1]:
             self._sources.note(path, each.line, f"keys, parameters and remappings of '{name}' are left out")
         for each in data:
-            each.set_reported()
+            each.is_reported = True
 
     def _read_state(self, element: Element, path: Path, names: set[str]) -> OutcomeState:
         name, transitions = element.get("name"), dict[str, OutcomeTransition]()
@@ -72,7 +73,7 @@ class YasminReader:
         if element.tag in _PARALLEL:
             text = f"what '{name}' runs in parallel is left out: it is one component to be written"
             self._sources.note(path, element.line, text)
-            element.set_reported()
+            element.is_reported = True
         if element.tag != "StateMachine":
             self._note_data(element, path, name)
         # YASMIN follows an outcome without transition to the state or outcome of the same name.
