@@ -127,3 +127,22 @@ def test_a_simulation_without_changes_is_repeated_with_one_input(tmp_path: Path)
             terminal_command("lamp.yaml", simulation, RunConfig(stubbed=frozenset({"Eye"})))
 
     simulate(prepare_lamp(lamps), lamps, act)
+
+
+def test_a_run_of_a_component_that_nothing_steps_is_replayed_and_becomes_a_test(
+    coffee_bot: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    coffee_bot.write_text(COFFEE_BOT.replace("requires: [button], ", ""))
+    given = ("--set", "0.1 s: Button.order=true", "--seconds", "0.3", "--values", "--trace", "t.jsonl")
+    assert vicode("run", str(coffee_bot), *given) == 0
+    assert read_states(Path("t.jsonl"))[-1] == "Drive"
+    capsys.readouterr()
+    assert vicode("replay", "t.jsonl") == 0
+    assert "same states in 15 iterations" in capsys.readouterr().out
+    assert vicode("test", "record", "t.jsonl") == 0
+    records = [json.loads(line) for line in Path("t.jsonl").read_text().splitlines()]
+    for record in records:
+        record.pop("inputs", None)
+    Path("t.jsonl").write_text("".join(json.dumps(record) + "\n" for record in records))
+    assert vicode("replay", "t.jsonl") == 1
+    assert "    button.order = not in the trace, now False" in capsys.readouterr().out

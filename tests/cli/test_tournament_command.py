@@ -224,6 +224,29 @@ def test_an_error_of_a_robot_fails_the_match(versions: tuple[Path, Path], capsys
     out = capsys.readouterr().out
     assert "2 matches, 2 failed" in out
     assert "A at home, seed 1: Foot, work" in out
+    assert "No seed was played in both matches without an error: nothing is compared." in out
+    assert "chance" not in out + Path("out", "tournament.md").read_text(encoding="utf-8")
+    assert tournament("--json", matches=2) == 1
+    result = json.loads(capsys.readouterr().out)
+    assert (result["failed"], result["difference"], result["p"]) == (2, None, None)
+    assert [(each["home"], each["seed"]) for each in result["errors"]] == [("A", 1), ("B", 1)]
+    assert all(each["error"].startswith("Foot, work") for each in result["errors"])
+
+
+def test_an_error_of_closing_a_robot_fails_the_match(
+    versions: tuple[Path, Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    change(versions[1] / "hall/foot.py", "    def work", "    def close(self):\n        1 / 0\n\n    def work")
+    assert tournament(matches=2) == 1
+    assert "2 matches, 2 failed" in capsys.readouterr().out
+
+
+def test_what_is_not_played_is_said(versions: tuple[Path, Path], capsys: pytest.CaptureFixture[str]) -> None:
+    change(versions[1] / "hall/foot.py", "*, power=0.0", "*, force=0.0")
+    assert tournament(matches=2) == 1
+    error = capsys.readouterr().err
+    assert "warning P212" in error
+    assert "vicode: cannot play bad: correct 1 warning first" in error
 
 
 @pytest.mark.parametrize(

@@ -76,13 +76,14 @@ def play(match: Any, teams: Sequence[type[Component]], seconds: float, *, exchan
             clock.advance(match.tick_ns)
             match.advance(clock.now_ns())
         goals_a, goals_b = match.goals[::order]
-        return {
+        summary = {
             "stopped": "finished" if match.finished else "limit",
             "state": "",
             "time_ns": clock.now_ns(),
-            "errors": sum(root.errors.total() for root in roots),
             "world": {**match.summary(), "goals_a": goals_a, "goals_b": goals_b},
         }
+    # Those of closing included.
+    return {**summary, "errors": sum(root.errors.total() for root in roots)}
 
 
 def _forget_modules(folders: Sequence[str]) -> None:

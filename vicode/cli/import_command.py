@@ -123,6 +123,7 @@ def _import_scxml(args: argparse.Namespace) -> int:
     """Write one design; return 1 if the document cannot be expressed, or files would be overwritten."""
     from vicode.cli.console import print_findings
     from vicode.importers import ImportedDesign, ImportResult
+    from vicode.importers.design_names import design_files
     from vicode.importers.scxml import ScxmlError, import_scxml
     from vicode.model.names import name_from_text, snake_case
     from vicode.services.imported_behavior.design_files import format_files, with_layout, write_files
@@ -137,7 +138,11 @@ def _import_scxml(args: argparse.Namespace) -> int:
         print_findings([error.finding(args.agents)], to_stderr=True)
         return 1
     about = ImportedDesign(
-        component=component, path=f"{snake_case(component)}.yaml", comments=(), file=args.agents, anchors=()
+        component=component,
+        path=next(design_files((snake_case(component),))),
+        comments=(),
+        file=args.agents,
+        anchors=(),
     )
     imported = ImportResult(project=with_layout(converted.project), designs=(about,), comments=())
     texts = {**format_files(imported), **render_event_queue(converted)}

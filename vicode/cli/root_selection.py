@@ -3,6 +3,7 @@
 import sys
 
 from vicode.cli.console import print_findings
+from vicode.findings import count_findings
 from vicode.services.project_loader import LoadedProject, load_projects
 
 _UNPROVIDED = ("P209", "P210")
@@ -37,6 +38,7 @@ def select_root(
         errors += tuple(each for each in opened.findings if each.rule.code == "P212")
     if errors:
         print_findings(errors, to_stderr=True)
+        print(f"vicode: cannot {verb} {path}: correct {count_findings(errors)} first", file=sys.stderr)
         return 1
     component = find_root_component(opened)
     if component is None:

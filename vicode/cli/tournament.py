@@ -67,7 +67,7 @@ def _prepare(text: str, folder: Path, profile: str) -> _Version | int:
     from vicode.services.run_preparation import generate_for_run
 
     copy = folder / "project"
-    selected = select_simulated(str(find_version(text, copy)), profile, "tournament")
+    selected = select_simulated(str(find_version(text, copy)), profile, "play")
     if isinstance(selected, int):
         return selected
     opened, component = selected
@@ -119,7 +119,9 @@ def _report(rows: "list[Row]", args: argparse.Namespace) -> int:
     write_atomically(out / _TABLE, format_table(rows))
     write_atomically(out / _PAGE, format_page(versions, rows, result))
     if args.json:
-        print(json.dumps({**versions, **asdict(result), "failed": len(failed)}))
+        unknown = {} if result.matches else {"difference": None, "p": None}
+        errors = [{"home": row["values"]["home"], "seed": row["seed"], "error": row["error"]} for row in failed]
+        print(json.dumps({**versions, **asdict(result), **unknown, "failed": len(failed), "errors": errors}))
     else:
         print(f"{len(rows)} matches, {len(failed)} failed")
         for row in failed[:10]:

@@ -1,13 +1,13 @@
 """Import XABSL behaviors as vicode projects."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from vicode.findings import DesignPath
 from vicode.importers.comments import Anchor, CommentPlaces, PlacedComment, place_comments, place_header
 from vicode.importers.declarations import ImportedDeclarations, import_declarations
-from vicode.importers.design_names import DesignNames, xabsl_name_or_empty
+from vicode.importers.design_names import DesignNames, design_files, xabsl_name_or_empty
 from vicode.importers.notes import ImportNote, TokenNote, list_notes
 from vicode.importers.options import OptionImporter
 from vicode.importers.robot_class import render_robot_class
@@ -100,6 +100,8 @@ def import_behavior(source: ProgramSource, compiled: CompileResult, name: str) -
             option_notes[path] = importer.notes
             designs.append(design)
             imported.append(about)
+    stems = (each.path.removesuffix(".yaml") for each in imported)
+    imported = [replace(each, path=path) for each, path in zip(imported, design_files(stems), strict=True)]
     agents = tuple(_agents(source, compiled, declarations))
     files = tuple(
         _declaration_file(path, parsed, declarations, is_main=path == source.main)

@@ -28,6 +28,8 @@ _RATE = re.compile(r"\bsetFreqTime\s*\(\s*(\w+)\s*\)")
 _RATES_MS = {"SHORT_RATE": 50, "MEDIUM_RATE": 100, "LONG_RATE": 500}
 _STOPWATCH = re.compile(r"\bgetStopWatch\s*\(\s*\)")
 _INITIAL = "Initial"
+# Names of regions of code, which follow from those of states, and positions of labels.
+_KNOWN = ("code", "x", "y", "autorestart")
 _KEYWORDS = LANGUAGES["cpp"].keywords
 
 
@@ -54,9 +56,11 @@ class BicaReader:
             raise SourceError("S805", f"another file declares '{design.component}'", root.line)
         self.designs.append((design, path))
         for each in root.find("dependenceComponent", "component"):
-            found = self.sources.find(f"{each.attributes['id']}{path.suffix}", path)
+            found = self.sources.find(f"{each.get('id')}{path.suffix}", path, each.line)
             if found is not None:
                 self.sources.load(found, self.read)
+        for line, text in root.unread(_KNOWN):
+            self.sources.note(path, line, text)
 
     def project(self, name: str) -> Project:
         designs = {design.component: design for design, _path in self.designs}
@@ -89,13 +93,14 @@ class _MachineReader:
         self._is_rqt = file.suffix == ".bica"
         # By name: the file, the line and the text.
         self._regions: dict[str, tuple[Path, int, str]] = {}
-        self._component = reader.component(root.attributes.get("id") or file.stem)
+        self._component = reader.component(root.get("id") or file.stem)
         self._conditions = reader.conditions(self._component)
         names, aliases = DesignNames(keywords=_KEYWORDS), DesignNames(frozenset({ALIAS}), _KEYWORDS)
         self._elements: dict[str, Element] = {}
         for each in root.find("state"):
             name = _INITIAL if _id(each) == "initial" and not self._is_rqt else _id(each)
-            self._elements.setdefault(name, each)
+            if self._elements.setdefault(name, each) is not each:
+                self._note(each.line, f"another state has the id '{name}': it is left out")
         if not self._elements:
             raise SourceError("S805", f"'{self._component}' has no states", root.line)
         self._states = {each: names.allocate(each) for each in self._elements}
@@ -112,7 +117,9 @@ class _MachineReader:
             self._read_regions(self._file.with_suffix(suffix))
         transitions = self._transitions()
         states = tuple(self._state(name, each, transitions.get(name, ())) for name, each in self._elements.items())
-        marked = [name for name, each in self._elements.items() if each.attributes.get("initial") == "true"]
+        marked = [name for name, each in self._elements.items() if each.get("initial") == "true"]
+        for each in marked[1:]:
+            self._note(self._elements[each].line, f"'{each}' is another initial state: '{marked[0]}' is the first one")
         initial = next((each for each in (*marked, _INITIAL) if each in self._states), next(iter(self._states)))
         uses, interface = tuple(self._uses.values()), self._conditions.interface()
         if interface:
@@ -122,7 +129,7 @@ class _MachineReader:
         return design if self._is_rqt else self._with_code(design)
 
     def _with_code(self, design: Design) -> Design:
-        conf = next((each for each in self._root.find("conf") if each.attributes.get("autorestart") == "1"), None)
+        conf = next((each for each in self._root.find("conf") if each.get("autorestart") == "1"), None)
         if conf is not None:
             self._note(
                 conf.line,
@@ -146,7 +153,7 @@ class _MachineReader:
 
     def _read_regions(self, path: Path) -> None:
         """Read the marked regions of a file by name; those that both files have get its suffix."""
-        if not path.is_file():
+        if not path.is_file() or not self._reader.sources.contains(path):
             self._note(1, f"{path.name} is not found: its code is left out")
             return
         text = path.read_bytes().decode("utf-8", errors="replace").replace("\r\n", "\n")
@@ -192,10 +199,10 @@ class _MachineReader:
         result, timed = dict[str, list[Transition]](), set[str]()
         elements = sorted(self._root.find("transition"), key=_priority)
         for each in elements:
-            timed |= {each.attributes.get(ends[0], "")} if each.attributes.get("timer") == "true" else set()
+            timed |= {each.get(ends[0], "")} if each.get("timer") == "true" else set()
         for each in elements:
-            source, target = (each.attributes.get(end, "") for end in ends)
-            name = f"{source}_2_{target}" if self._is_rqt else each.attributes.get("id", "")
+            source, target = (each.get(end, "") for end in ends)
+            name = f"{source}_2_{target}" if self._is_rqt else each.get("id", "")
             for unknown in {source, target} - self._states.keys():
                 self._note(each.line, f"'{unknown}' is no state: the transition '{name}' is left out")
             if {source, target} <= self._states.keys():
@@ -237,14 +244,14 @@ def _tested(nodes: Sequence[CppTree]) -> Sequence[CppTree]:
 
 
 def _id(element: Element) -> str:
-    name = element.attributes.get("id", "")
+    name = element.get("id", "")
     if not name:
         raise SourceError("S805", f"<{element.tag}> has no id", element.line)
     return name
 
 
 def _priority(element: Element) -> int:
-    text = element.attributes.get("priority", "")
+    text = element.get("priority", "")
     return int(text) if text.isdecimal() and len(text) < 10 else 0
 
 

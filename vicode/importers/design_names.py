@@ -2,6 +2,8 @@
 
 import keyword
 import re
+from collections.abc import Iterable, Iterator
+from pathlib import PurePosixPath
 
 from vicode.bica import RESERVED_NAMES
 from vicode.model.expressions import FUNCTIONS
@@ -44,6 +46,18 @@ class DesignNames:
             name = f"{stem}_{number}"
         self._taken.add(name.casefold())
         return name
+
+
+def design_files(stems: Iterable[str]) -> Iterator[str]:
+    """The paths of designs, which are unique ignoring case; none is that of a project file."""
+    taken = set[str]()
+    for stem in stems:
+        name, number = stem, 1
+        while name.casefold() in taken or PurePosixPath(name).name.casefold() == "project":
+            number += 1
+            name = f"{stem}_{number}"
+        taken.add(name.casefold())
+        yield f"{name}.yaml"
 
 
 def to_design_name(text: str) -> str:

@@ -33,14 +33,26 @@ class Sources:
     def note(self, path: Path, line: int, text: str) -> None:
         self.notes.append(ImportNote(file=path, line=line, text=text))
 
-    def find(self, named: str, user: Path) -> Path | None:
-        """A file that another file names: beside that file, or anywhere in the folder."""
+    def contains(self, path: Path) -> bool:
+        """Whether a file is in the folder, also by its real path."""
+        return path.resolve().is_relative_to(self.folder.resolve())
+
+    def find(self, named: str, user: Path, line: int) -> Path | None:
+        """A file that another file names in a line: relative to that file, or anywhere in the folder.
+
+        A file outside of the folder is an error, and not opened.
+        """
         try:
             beside, last = user.parent / named, Path(named).name
-            found = [beside] if beside.is_file() else sorted(self.folder.rglob(glob.escape(last))) if last else []
-            return next((each for each in found if each.is_file()), None)
+            found = [beside, *sorted(self.folder.rglob(glob.escape(last)) if last else [])]
+            inside = next((each for each in found if self.contains(each) and each.is_file()), None)
+            outside = next((each for each in found if not self.contains(each)), None)
         except (OSError, ValueError):
             return None
+        if inside is None and outside is not None and last not in ("", ".."):
+            text = f"'{named}' is outside of the imported folder: it is not read"
+            self.errors.append(SourceError("S805", text, line, "import a folder that contains it").finding(user))
+        return inside
 
     def load(self, path: Path, read: Callable[[Path, bytes], None]) -> str:
         """Read a file; return its key, "" if it cannot be read, which becomes an error."""
@@ -48,7 +60,8 @@ class Sources:
             self._read[path] = True
             try:
                 read(path, path.read_bytes())
-            except SourceError as error:
+            except (SourceError, RecursionError, MemoryError) as error:
                 self._read[path] = False
-                self.errors.append(error.finding(path))
+                found = error if isinstance(error, SourceError) else SourceError("S805", "nested too deeply", 1)
+                self.errors.append(found.finding(path))
         return str(path) if self._read[path] else ""

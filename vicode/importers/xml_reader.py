@@ -9,19 +9,52 @@ from vicode.importers.sources import SourceError
 
 _MAX_BYTES = 2_000_000
 _MAX_DEPTH = 60
+# Where an editor finds the schema of the document.
+_XSI = "http://www.w3.org/2001/XMLSchema-instance "
 
 
 @dataclass(slots=True, kw_only=True)
 class Element:
-    """An element; `tag` has no namespace."""
+    """An element; `tag` has no namespace. It records which attributes and children are read."""
 
     tag: str
     attributes: dict[str, str]
     line: int
     children: list["Element"] = field(default_factory=list)
+    text_line: int = 0
+    """The line of its text, 0 if it has none."""
+    is_reported: bool = False
+    """Whether it is left out of `unread`, with all that it contains."""
+    _read: set[str] = field(default_factory=set, compare=False)
+    _is_read: bool = field(default=False, compare=False)
+
+    def get(self, name: str, default: str = "") -> str:
+        """Read an attribute."""
+        self._read.add(name)
+        return self.attributes.get(name, default)
 
     def find(self, *tags: str) -> Iterator["Element"]:
-        return (child for child in self.children if child.tag in tags)
+        """Read the children with these tags, all without tags."""
+        for child in self.children:
+            if child.tag in tags or not tags:
+                child._is_read = True
+                yield child
+
+    def unread(self, known: Collection[str] = ()) -> Iterator[tuple[int, str]]:
+        """What was not read, as pairs of line and text, without attributes that are `known` to mean nothing."""
+        if self.is_reported:
+            return
+        names = [each for each in self.attributes if each not in (*known, *self._read)]
+        if names:
+            shown = ", ".join(f"'{each}'" for each in names)
+            yield self.line, f"not in the design: {shown} of <{self.tag}>"
+        if self.text_line:
+            yield self.text_line, f"not in the design: the text of <{self.tag}>"
+        for child in self.children:
+            if child._is_read:
+                yield from child.unread(known)
+            elif not child.is_reported:
+                yield child.line, f"not in the design: <{child.tag}>"
 
 
 def read_xml(
@@ -54,8 +87,8 @@ def read_xml(
 def read_position(element: Element) -> tuple[float, float] | None:
     """The attributes `x` and `y` of an element, None if they are no numbers."""
     try:
-        return (round(float(element.attributes["x"])), round(float(element.attributes["y"])))
-    except (KeyError, ValueError, OverflowError):
+        return (round(float(element.get("x"))), round(float(element.get("y"))))
+    except (ValueError, OverflowError):
         return None
 
 
@@ -67,6 +100,7 @@ class _Reader:
         self.parser = expat.ParserCreate(namespace_separator=" ")
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
+        self.parser.CharacterDataHandler = self._text
         self.parser.StartDoctypeDeclHandler = self._refuse
         self.parser.EntityDeclHandler = self._refuse
 
@@ -78,7 +112,7 @@ class _Reader:
             raise SourceError(self._codes[1], message, line, "remove it")
         if len(self._open) >= _MAX_DEPTH:
             raise SourceError(self._codes[0], "elements are nested too deeply", line)
-        plain = {key: value for key, value in attributes.items() if " " not in key}
+        plain = {key.replace(" ", ":"): value for key, value in attributes.items() if not key.startswith(_XSI)}
         element = Element(tag=tag, attributes=plain, line=line)
         if self._open:
             self._open[-1].children.append(element)
@@ -88,6 +122,10 @@ class _Reader:
 
     def _end(self, _name: str) -> None:
         self._open.pop()
+
+    def _text(self, text: str) -> None:
+        if text.strip() and self._open and not self._open[-1].text_line:
+            self._open[-1].text_line = self.parser.CurrentLineNumber
 
     def _refuse(self, *_arguments: Any) -> None:
         raise SourceError(

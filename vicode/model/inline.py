@@ -5,7 +5,7 @@ the same by the law of extraction, whatever was edited in the component, and no 
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from vicode.model.decisions import retarget_all
 from vicode.model.design import Assign, Call, Design, State, Transition, Use
@@ -17,11 +17,15 @@ from vicode.model.traversal import iter_actions, iter_transitions
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Inlining:
-    """The design with the states of a component, or why there is none; `states` are the names of the new states."""
+    """The design with the states of a component, or why there is none; `names` are their names by the old ones."""
 
     caller: Design
-    states: tuple[str, ...] = ()
+    names: Mapping[str, str] = field(default_factory=dict)
     problem: str = ""
+
+    @property
+    def states(self) -> tuple[str, ...]:
+        return tuple(self.names.values())
 
 
 def inlined_use(design: Design, state: str) -> Use | None:
@@ -64,7 +68,7 @@ def inline_component(design: Design, state: str, component: Design) -> Inlining:
     if again.problems or _canonical(again.caller, again.component, {}) != _canonical(design, component, names):
         more = f"{state} or {component.component} does more than Extract makes"
         return Inlining(caller=design, problem=f"the behavior would change: {(*again.problems, more)[0]}")
-    return Inlining(caller=inlined, states=tuple(each.name for each in states))
+    return Inlining(caller=inlined, names=names)
 
 
 def _find_problem(design: Design, alias: str, component: Design) -> str:

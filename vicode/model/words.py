@@ -133,10 +133,11 @@ def _iter_constructs(design: Design) -> Iterator[tuple[Origin, str]]:
 
 
 def _describe_construct(title: str, construct: object, *apart: str) -> str:
-    return f"{title}: {_describe_parts(construct, *apart)}"
+    return f"{title}: {describe_parts(construct, *apart)}"
 
 
-def _describe_parts(construct: object, *apart: str) -> str:
+def describe_parts(construct: object, *apart: str) -> str:
+    """The fields and modulations of a latch, interrupt, step or layer."""
     modulates = describe_value(getattr(construct, "modulates", ()))
     return "; ".join((*describe_fields(construct, apart), *((f"modulates {modulates}",) if modulates else ())))
 
@@ -185,7 +186,7 @@ def _describe_record(value: object) -> str:
         case Call():
             return f"{value.alias}({_describe_pairs(value.arguments)})"
         case Competence():
-            steps = (f"{each.name} ({_describe_parts(each)})" for each in value.steps)
+            steps = (f"{each.name} ({describe_parts(each)})" for each in value.steps)
             return f"{'; '.join(describe_fields(value))}; steps {', '.join(steps)}"
         case _:
             return str(value)

@@ -119,7 +119,8 @@ def _describe_guards(
         if recorded is None and replayed is None:
             recorded, replayed = constants.get(name), changed.get(name)
         if recorded is not None or replayed is not None:
-            yield f"    {name} = {_value(recorded)}" + (f", now {_value(replayed)}" if recorded != replayed else "")
+            then = "not in the trace" if recorded is None else _value(recorded)
+            yield f"    {name} = {then}" + (f", now {_value(replayed)}" if recorded != replayed else "")
 
 
 def _words(guard: Guard) -> str:

@@ -39,6 +39,8 @@ class TournamentResult:
     p: float
 
     def __str__(self) -> str:
+        if not self.matches:
+            return "No seed was played in both matches without an error: nothing is compared."
         better = f"{'A' if self.difference > 0 else 'B'} is better"
         verdict = better if self.p < SIGNIFICANT else "the difference may be chance"
         spread = "" if self.interval is None else " (95 % interval {:+.2f} to {:+.2f})".format(*self.interval)

@@ -152,7 +152,10 @@ def install_stub_module(stubs: tuple[Stub, ...]) -> None:
     """Create a module with a class for each stub, from which generated code imports them."""
     module = ModuleType(STUB_MODULE)
     for stub in stubs:
-        attributes = {"stub": stub, "__module__": STUB_MODULE}
+        attributes: dict[str, object] = {"stub": stub, "__module__": STUB_MODULE}
+        if stub.is_live:
+            # It only provides values, which a trace then has in each iteration.
+            attributes["work"] = Component.work
         setattr(module, stub.component, type(stub.component, (StubComponent,), attributes))
     sys.modules[STUB_MODULE] = module
 

@@ -25,8 +25,9 @@ from vicode.store.unread import UnreadContentError
 if TYPE_CHECKING:
     from vicode.store.comments import CommentedFile, add_comments, merge_comments
     from vicode.store.json_schema import design_schema, project_schema
+    from vicode.store.kept_comments import take_comments
     from vicode.store.merge_texts import TextMerge, merge_file_texts
-    from vicode.store.save import save_design, save_project_file
+    from vicode.store.save import save_design, save_extracted, save_project_file
 from vicode.store.unread import UnreadMember, list_unread
 
 __all__ = [
@@ -67,7 +68,9 @@ __all__ = [
     "replace_text",
     "resolve_conflicts",
     "save_design",
+    "save_extracted",
     "save_project_file",
+    "take_comments",
     "write_text",
 ]
 
@@ -75,11 +78,13 @@ _LAZY_MODULES = {
     "CommentedFile": "comments",
     "add_comments": "comments",
     "merge_comments": "comments",
+    "take_comments": "kept_comments",
     "TextMerge": "merge_texts",
     "design_schema": "json_schema",
     "merge_file_texts": "merge_texts",
     "project_schema": "json_schema",
     "save_design": "save",
+    "save_extracted": "save",
     "save_project_file": "save",
 }
 

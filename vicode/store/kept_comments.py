@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from vicode.findings import DesignPath
 from vicode.store.comments import CommentedFile, add_comments
@@ -34,6 +34,31 @@ def keep_comments(old: str, new: str, *, is_project_file: bool) -> str:
             missing[comment.text] -= 1
             added.append((path, comment.text))
     return add_comments(new, added, is_project_file=is_project_file) if added else new
+
+
+def take_comments(source: str, old: str, new: str, names: Mapping[str, str]) -> str:
+    """Add the comments of states, declarations and uses that a design has taken over from another file.
+
+    Args:
+        source: The text of the other file.
+        old: The text of the design before.
+        new: Its text with the items that it has taken over.
+        names: The new names of states, by their names in `source`.
+    """
+    other, before, after = (CommentedFile(text) for text in (source, old, new))
+    added = []
+    for comment in other.comments:
+        path = other.owner_of(comment)
+        if path[:1] == ("states",):
+            path = tuple(names.get(str(step), step) if at == 1 else step for at, step in enumerate(path))
+        if len(path) > 1 and _has_item(after.root, path) and not _has_item(before.root, path):
+            added.append((path, comment.text))
+    return add_comments(new, added) if added else new
+
+
+def _has_item(root: TypedNode | None, path: DesignPath) -> bool:
+    section = root.children.get(path[0]) if root is not None else None
+    return section is not None and path[1] in section.children
 
 
 class _ItemSearch:

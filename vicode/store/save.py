@@ -44,6 +44,15 @@ def save_design(design: Design, old_text: str = "") -> str:
     return _require_text(text)
 
 
+def save_extracted(design: Design, whole_text: str) -> str:
+    """The text of a new file for a part of a design, with the comments and the layout of this part of its text."""
+    lines = itertools.dropwhile(lambda line: line.startswith("#"), whole_text.splitlines(keepends=True))
+    try:
+        return save_design(design, "".join(lines))
+    except UnreadContentError:
+        return save_design(design)
+
+
 def save_project_file(project: Project, old_text: str = "") -> str:
     """Return the new text of a project.yaml, without the designs of the project; see `save_design`."""
     return _require_text(_save(PROJECT, encode_project(project), old_text))

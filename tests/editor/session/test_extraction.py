@@ -10,7 +10,7 @@ from vicode.editor.session import DocumentSession, Library, Workspace
 from vicode.editor.session.project.extraction import extract_states, inline_state
 from vicode.editor.view import ItemRef
 from vicode.model.design import State
-from vicode.store import open_project
+from vicode.store import CommentedFile, open_project
 
 LAMP = """\
 vicode: 1
@@ -93,3 +93,61 @@ def test_what_cannot_be_done_changes_nothing(lamps: Workspace) -> None:
     lamps.project = replace(lamps.project, languages=("xabsl",))
     assert extract_states(lamps, document, ["Dim", "Bright"], "Glow").error.startswith("XABSL cannot")
     assert document.design == design
+
+
+COMMENTED = """\
+# The whole lamp
+vicode: 1
+component: Lamp
+initial: Off
+uses: {eyes: Eyes}
+variables:
+  m: 0  # stays
+  n: 0  # counts
+states:
+  # of Off
+  Off: {at: [0, 0], transitions: [{to: Dim, when: eyes.seen}], enter: [set: {m: m + 1}]}
+  # before Dim
+  Dim: {at: [200, 0], transitions: [{to: Bright, after: 1}]}  # behind Dim
+  Bright:  # of Bright
+    at: [400, 0]
+    # inside
+    actions: [set: {n: n + 1}]
+    transitions:
+      - {to: Dim, when: n > 9}  # of the first
+      # above the second
+      - {to: Off, when: not eyes.seen}
+"""
+MOVED = ["counts", "before Dim", "behind Dim", "of Bright", "inside", "of the first", "above the second"]
+
+
+def comments(path: Path) -> list[str]:
+    return [comment.text for comment in CommentedFile(path.read_text()).comments]
+
+
+def test_comments_move_with_their_states_and_come_back(lamps: Workspace) -> None:
+    lamp, glow = lamps.folder / "lamp.yaml", lamps.folder / "glow.yaml"
+    lamp.write_text(COMMENTED)
+    lamps.sync_from_disk()
+    assert extract_states(lamps, opened(lamps), ["Dim", "Bright"], "Glow").error == ""
+    assert comments(glow) == MOVED
+    assert "Dim: {at: [200, 0], transitions: [{to: Bright, after: 1}]}  # behind Dim" in glow.read_text()
+    assert comments(lamp) == ["The whole lamp", "stays", "of Off"]
+    glow.write_text(glow.read_text().replace("# inside", "# changed"))
+    lamps.sync_from_disk()
+    assert inline_state(lamps, opened(lamps), "Glow").error == ""
+    back = ["changed" if each == "inside" else each for each in MOVED]
+    assert sorted(comments(lamp)) == sorted(["The whole lamp", "stays", "of Off", *back])
+    owners = {
+        each.text: CommentedFile(lamp.read_text()).owner_of(each) for each in CommentedFile(lamp.read_text()).comments
+    }
+    assert [owners[each][:2] for each in ("counts", "before Dim", "changed")] == [
+        ("variables", "n"),
+        ("states", "Dim"),
+        ("states", "Bright"),
+    ]
+    assert opened(lamps).undo() == ""
+    assert (comments(glow), comments(lamp)) == (back, ["The whole lamp", "stays", "of Off"])
+    assert opened(lamps).undo() == ""
+    assert sorted(comments(lamp)) == sorted(["The whole lamp", "stays", "of Off", *back])
+    assert opened(lamps).is_saved

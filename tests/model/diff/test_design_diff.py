@@ -8,11 +8,14 @@ from vicode.model.design import (
     Assign,
     Call,
     Code,
+    Competence,
+    CompetenceStep,
     DecisionGroup,
     Declaration,
     Design,
     DiagramFrame,
     Guard,
+    Layer,
     RunCode,
     State,
     Stay,
@@ -256,3 +259,23 @@ def test_the_lines_of_code_that_changed_are_shown() -> None:
 def test_texts_that_look_the_same_show_how_they_differ(old: Design, new: Design, expected: str) -> None:
     (line,) = words(new, old)
     assert line.endswith(f": {expected}")
+
+
+AVOID = Layer(name="Avoid", when="s.x < 4", hold="0.3", modulates=(Call(alias="legs", arguments=(("speed", "-1"),)),))
+
+
+def test_a_changed_layer_and_step_show_what_they_modulate() -> None:
+    layers = Design(component="Player", layers=(Layer(name="Go"), AVOID))
+    faster = replace(AVOID, modulates=(Call(alias="legs", arguments=(("speed", "-2"),)),))
+    assert words(replace(layers, layers=(Layer(name="Go"), faster)), layers) == [
+        "~ modulates of layer Avoid: legs(speed: -1) → legs(speed: -2)"
+    ]
+    assert words(layers, replace(layers, layers=(Layer(name="Go"),))) == [
+        "+ layer Avoid: when s.x < 4; for 0.3; modulates legs(speed: -1)"
+    ]
+    grab = CompetenceStep(name="Grab", modulates=AVOID.modulates)
+    empty = replace(layers, layers=(), competence=Competence(goal="s.b"))
+    steps = replace(empty, competence=Competence(goal="s.b", steps=(grab,)))
+    assert words(steps, empty) == ["+ step Grab: modulates legs(speed: -1)"]
+    more = replace(empty, competence=Competence(goal="s.b", steps=(replace(grab, retries=3),)))
+    assert words(more, steps) == ["~ retries of step Grab: (none) → 3"]

@@ -14,7 +14,7 @@ from vicode.importers.cpp.conditions import ALIAS, CppConditions
 from vicode.importers.cpp.machine import CppMachine
 from vicode.importers.cpp.sml import TABLE, Table, find_macros, iter_tables, read_table
 from vicode.importers.cpp.tree import CppError, CppSource, CppTree, read_source
-from vicode.importers.design_names import DesignNames
+from vicode.importers.design_names import DesignNames, design_files
 from vicode.model.project import Enumeration, Project
 
 __all__ = ["ALIAS", "CPP_SUFFIXES", "CppImport", "contains_machines", "import_cpp"]
@@ -124,8 +124,8 @@ def _result(machines: Mapping[str, CppMachine], types: _Types, name: str) -> Imp
         designs=tuple(machine.design for machine in machines.values()),
     )
     designs = (
-        ImportedDesign(component=each, path=f"{each}.yaml", comments=(), file=machine.source.path, anchors=())
-        for each, machine in machines.items()
+        ImportedDesign(component=each, path=path, comments=(), file=machine.source.path, anchors=())
+        for (each, machine), path in zip(machines.items(), design_files(machines), strict=True)
     )
     listed = tuple(ImportNote(file=file, line=line, text=text) for file, line, text in sorted(notes))
     return ImportResult(project=project, designs=tuple(designs), comments=(), notes=listed)

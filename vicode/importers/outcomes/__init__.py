@@ -5,8 +5,10 @@ outcomes are final states, which set its output `outcome`. A component starts ag
 So a transition between two states with the same component passes through a state that does not call it.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 from vicode.importers.design_names import DesignNames
@@ -78,6 +80,8 @@ class _Converter:
         self.designs = {key: self._class_name(each.name) for key, each in machines.items()}
         self.enumerations: dict[tuple[str, ...], Enumeration] = {}
         self.components: list[Interface] = []
+        self._inner = {key: {each.machine for each in one.states} & machines.keys() for key, one in machines.items()}
+        self._without_cycle = _find_without_cycle(self._inner)
 
     def _class_name(self, text: str) -> str:
         return self._names.allocate(name_from_text(text) or text)
@@ -97,7 +101,7 @@ class _Converter:
 
     def work(self, state: OutcomeState, key: str) -> tuple[str, tuple[str, ...], bool]:
         """The component of a state, its outcomes, and whether it is a design."""
-        if state.machine in self.machines and not self._reaches(state.machine, key, set()):
+        if state.machine in self.machines and not self._reaches(state.machine, key):
             machine = self.machines[state.machine]
             ends = {each.to for inner in machine.states for each in inner.transitions} & set(machine.outcomes)
             return self.designs[state.machine], machine.outcomes if ends else (), True
@@ -110,10 +114,24 @@ class _Converter:
         self.components.append(Interface(component=component, doc=state.doc, outputs=outputs))
         return component, outcomes, False
 
-    def _reaches(self, start: str, goal: str, passed: set[str]) -> bool:
-        passed.add(start)
-        inner = {each.machine for each in self.machines[start].states} & self.machines.keys() - passed
-        return start == goal or any(self._reaches(each, goal, passed) for each in inner)
+    def _reaches(self, start: str, goal: str) -> bool:
+        passed, pending = set[str](), {start} - self._without_cycle
+        while pending and goal not in pending:
+            passed |= pending
+            pending = set().union(*(self._inner[each] for each in pending)) - passed - self._without_cycle
+        return bool(pending)
+
+
+def _find_without_cycle(inner: Mapping[str, Collection[str]]) -> set[str]:
+    """The machines that contain no machine that contains itself."""
+    sorter, found = TopologicalSorter(inner), set[str]()
+    # After this error, it still sorts what comes before the cycles.
+    with suppress(CycleError):
+        sorter.prepare()
+    while ready := sorter.get_ready():
+        found.update(ready)
+        sorter.done(*ready)
+    return found
 
 
 class _DesignWriter:

@@ -49,7 +49,7 @@ class _Container:
 
 class _BehaviorReader:
     def __init__(self, reader: FlexbeReader, path: Path, text: str) -> None:
-        self._reader, self._path, self._text = reader, path, text
+        self._reader, self._path, self._text, self._lines = reader, path, text, text.split("\n")
         self._containers: dict[str, _Container] = {}
         self._modules: dict[str, str] = {}
 
@@ -142,7 +142,7 @@ class _BehaviorReader:
                 self._note(work, f"what '{name}' runs in parallel is left out: it is one component to be written")
             case ast.Call(ast.Attribute(ast.Name("self"), "use_behavior"), [ast.Name(behavior), *_]):
                 module = self._modules.get(behavior, "").rpartition(".")[2]
-                found = self._reader.sources.find(f"{module}.py", self._path)
+                found = self._reader.sources.find(f"{module}.py", self._path, work.lineno)
                 if found:
                     return self._reader.sources.load(found, self._reader.read)
                 self._note(work, f"the file of {behavior} is not found: '{name}' is one component to be written")
@@ -163,19 +163,24 @@ class _BehaviorReader:
                 self._note(target)
 
     def _items(self, call: ast.Call, index: int, name: str) -> Iterator[tuple[str, ast.expr]]:
-        node = _argument(call, index, name)
+        node, items = _argument(call, index, name), dict[str, ast.expr]()
         for key, value in zip(node.keys, node.values, strict=True) if isinstance(node, ast.Dict) else ():
             outcome = _literal(key)
-            if isinstance(outcome, str) and outcome:
-                yield outcome, value
-            else:
+            if not isinstance(outcome, str) or not outcome:
                 self._note(value)
+                continue
+            if outcome in items:
+                # Python keeps the last one.
+                text = f"'{outcome}' follows again in '{name}': {_shown(items[outcome])} is left out"
+                self._note(items[outcome], text)
+            items[outcome] = value
+        yield from items.items()
         if node is not None and not isinstance(node, ast.Dict):
             self._note(node)
 
     def _positions(self, line: int) -> list[Point]:
         """The positions in the comment above a line."""
-        above = self._text.split("\n")[line - 2].strip() if line > 1 else ""
+        above = self._lines[line - 2].strip() if line > 1 else ""
         return [(int(x), int(y)) for x, y in _POSITION.findall(above)] if above.startswith("#") else []
 
 
@@ -184,7 +189,7 @@ def _parse(text: str) -> ast.Module:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+    except (SyntaxError, ValueError) as error:
         line = error.lineno if isinstance(error, SyntaxError) and error.lineno else 1
         raise SourceError("S805", f"no Python 3: {getattr(error, 'msg', error)}", line) from error
 

@@ -8,6 +8,8 @@ from vicode.importers.xml_reader import Element, read_position, read_xml
 
 _PARALLEL = ("Concurrence", "OrthogonalState")
 _STATES = ("State", "StateMachine", *_PARALLEL)
+# The language of a class is that of the component to be written.
+_KNOWN = ("type",)
 _DATA = ("Key", "Param", "Remap", "ParamRemap")
 
 
@@ -25,38 +27,45 @@ class YasminReader:
             SourceError: It cannot be read.
         """
         root = read_xml(data, ("StateMachine",))
-        self._read_machine(root, path, str(path), root.attributes.get("name") or path.stem)
+        self._read_machine(root, path, str(path), root.get("name") or path.stem)
+        for line, text in root.unread(_KNOWN):
+            self._sources.note(path, line, text)
 
     def _read_machine(self, element: Element, path: Path, key: str, name: str) -> None:
-        for each in element.children:
-            if each.tag not in (*_STATES, *_DATA, "Transition", "FinalOutcome"):
-                self._sources.note(path, each.line, f"<{each.tag}> is left out")
-        for each in [each for each in element.children if each.tag in _DATA][:1]:
-            self._sources.note(path, each.line, f"keys, parameters and remappings of '{name}' are left out")
-        outcomes = tuple(dict.fromkeys(element.attributes.get("outcomes", "").split()))
-        names = {each.attributes.get("name", "") for each in element.find(*_STATES)}
+        self._note_data(element, path, name)
+        outcomes = tuple(dict.fromkeys(element.get("outcomes", "").split()))
+        names = {each.get("name", "") for each in element.find(*_STATES)}
         states = tuple(self._read_state(each, path, names | {*outcomes}) for each in element.find(*_STATES))
         if not states:
             raise SourceError("S805", f"the state machine '{name}' has no states", element.line)
-        ends = {each.attributes.get("name", ""): read_position(each) for each in element.find("FinalOutcome")}
+        ends = {each.get("name", ""): read_position(each) for each in element.find("FinalOutcome")}
         self.machines[key] = OutcomeMachine(
             name=name,
             place=(path, element.line),
             outcomes=outcomes,
-            start=element.attributes.get("start_state") or states[0].name,
+            start=element.get("start_state") or states[0].name,
             states=states,
-            doc=element.attributes.get("description", ""),
+            doc=element.get("description", ""),
             ends={outcome: at for outcome, at in ends.items() if at},
         )
 
+    def _note_data(self, element: Element, path: Path, name: str) -> None:
+        data = [each for each in element.children if each.tag in _DATA]
+        for each in data[:1]:
+            self._sources.note(path, each.line, f"keys, parameters and remappings of '{name}' are left out")
+        for each in data:
+            each.is_reported = True
+
     def _read_state(self, element: Element, path: Path, names: set[str]) -> OutcomeState:
-        about, transitions = element.attributes, dict[str, OutcomeTransition]()
-        name = about.get("name", "")
+        name, transitions = element.get("name"), dict[str, OutcomeTransition]()
         for each in element.find("Transition"):
-            outcome, to = each.attributes.get("from", ""), each.attributes.get("to", "")
+            outcome, to = each.get("from", ""), each.get("to", "")
             if not outcome or not to:
                 raise SourceError("S805", "a transition needs 'from' and 'to'", each.line)
-            doc = each.attributes.get("description", "")
+            doc = each.get("description", "")
+            if outcome in transitions:
+                text = f"another transition of '{name}' from '{outcome}' follows: this one is left out"
+                self._sources.note(*transitions[outcome].place, text)
             transitions[outcome] = OutcomeTransition(outcome=outcome, to=to, place=(path, each.line), doc=doc)
         if not name:
             raise SourceError("S805", f"<{element.tag}> has no name", element.line)
@@ -64,28 +73,31 @@ class YasminReader:
         if element.tag in _PARALLEL:
             text = f"what '{name}' runs in parallel is left out: it is one component to be written"
             self._sources.note(path, element.line, text)
+            element.is_reported = True
+        if element.tag != "StateMachine":
+            self._note_data(element, path, name)
         # YASMIN follows an outcome without transition to the state or outcome of the same name.
         for outcome in self.machines[machine].outcomes if machine in self.machines else ():
             if outcome in names:
                 plain = OutcomeTransition(outcome=outcome, to=outcome, place=(path, element.line))
                 transitions.setdefault(outcome, plain)
-        kind = ".".join(each for each in (about.get("module"), about.get("class")) if each)
+        kind = ".".join(each for each in (element.get("module"), element.get("class")) if each)
         return OutcomeState(
             name=name,
             place=(path, element.line),
             transitions=tuple(transitions.values()),
             machine=machine,
-            doc="\n".join(each for each in (about.get("description"), kind) if each),
+            doc="\n".join(each for each in (element.get("description"), kind) if each),
             at=read_position(element),
         )
 
     def _machine_of(self, element: Element, path: Path, name: str) -> str:
         """The key of the machine in an element, or in the file that it names; "" if that is not found."""
         file, key = (
-            element.attributes.get("file_path") or element.attributes.get("file_name"),
+            element.get("file_path") or element.get("file_name"),
             f"{path}:{element.line}:{name}",
         )
-        found = self._sources.find(file, path) if file else None
+        found = self._sources.find(file, path, element.line) if file else None
         if not file:
             self._read_machine(element, path, key, name)
         elif found is None:

@@ -23,6 +23,8 @@ __all__ = ["EventComponent", "Exactness", "ScxmlError", "ScxmlImport", "Transiti
 _EVENT = re.compile(r'[^\s"\\\x00-\x1f]+')
 _AFTER = "after "
 _TAKEN = frozenset({"is_done"})
+# Attributes of the document, and of <log>, which has no effect.
+_KNOWN = ("version", "name", "datamodel", "binding", "label", "expr")
 # Names in the classes of the queue.
 _TAKEN_BY_QUEUE = _TAKEN | {
     *("hold", "post", "restart", "work", "collect", "send", "delay", "cancel", "find", "output", "eventqueue"),
@@ -113,6 +115,7 @@ class _Importer:
             self.report.add_start(leaf, self.document.line)
         timers = tuple(self.actions.timers.values())
         transitions, notes = self.report.write(timers, has_queue=self.has_queue, has_events=bool(inputs.names))
+        notes = tuple(sorted({*notes, *self.document.element.unread(_KNOWN)}))
         return ScxmlImport(project=project, transitions=transitions, notes=notes, events=self.events)
 
     def _check(self, project: Project, design: Design) -> None:
@@ -129,7 +132,7 @@ class _Importer:
         )
         for state in (self.document, *self.by_name.values()):
             for transition in state.transitions():
-                for written in transition.attributes.get("event", "").split():
+                for written in transition.get("event", "").split():
                     if not _EVENT.fullmatch(written):
                         raise ScxmlError("S803", f"'{written}' is not the name of an event", transition.line)
                     if plain(written) not in own:
@@ -167,19 +170,19 @@ class _Importer:
             guard = self._guard(leaf, transition, used)
             if guard is None:
                 continue
-            is_eventless = not transition.attributes.get("event")
+            is_eventless = not transition.get("event")
             yield self._decision(leaf, owner, transition, guard), is_eventless
             if guard.is_empty:
                 return
 
     def _is_own(self, leaf: ScxmlState, transition: Element) -> bool:
         """Whether SCXML takes a transition before the next event from outside."""
-        descriptors = transition.attributes.get("event", "").split()
+        descriptors = transition.get("event", "").split()
         own = [*self.actions.sent_at_once, *filter(None, [_done_event(leaf)])]
         return not descriptors or any(matches(each, event) for each in descriptors for event in own)
 
     def _rank(self, leaf: ScxmlState, transition: Element) -> int:
-        descriptors = transition.attributes.get("event", "").split()
+        descriptors = transition.get("event", "").split()
         if not descriptors:
             return 0
         done = "" if self.has_queue else _done_event(leaf)
@@ -191,10 +194,10 @@ class _Importer:
         `used` are events of the document itself that a transition without target has taken.
         """
         inside = {state.name for state in leaf.ancestors()}
-        events, after, terms = transition.attributes.get("event", "").split(), "", list[str]()
+        events, after, terms = transition.get("event", "").split(), "", list[str]()
         if events:
             own = {} if self.has_queue else self._own_events(events, leaf, used)
-            if own and not transition.attributes.get("target"):
+            if own and not transition.get("target"):
                 used.update(_check_unconditional(transition, own))
                 own = {}
             parts = list(dict.fromkeys(name for event in events for name in self.events.inputs.matched_by(event)))
@@ -205,7 +208,7 @@ class _Importer:
                 after, parts = parts[0].removeprefix(_AFTER), []
             if "true" not in parts and parts:
                 terms.append(" or ".join(parts))
-        condition = transition.attributes.get("cond", "")
+        condition = transition.get("cond", "")
         if condition:
             text = translate(condition, self.actions.names, inside.__contains__, transition.line)
             if text == "false":
@@ -231,9 +234,9 @@ class _Importer:
         }
 
     def _decision(self, leaf: ScxmlState, owner: ScxmlState, transition: Element, guard: Guard) -> Decision:
-        target = transition.attributes.get("target", "").strip()
+        target = transition.get("target", "").strip()
         if not target:
-            if any(child.tag != "log" for child in transition.children):
+            if any(child.tag != "log" for child in transition.find()):
                 fix = "give it a target, or assign on entry of a state"
                 reason = "a transition without a target that assigns: actions belong to states"
                 raise ScxmlError("S802", reason, transition.line, fix)
@@ -243,11 +246,11 @@ class _Importer:
             known = "a design is in one state at a time" if " " in target else f"unknown state '{target}'"
             raise ScxmlError("S803", known, transition.line)
         to = self.by_name[target]
-        domain = _domain(owner, to, is_internal=transition.attributes.get("type") == "internal")
+        domain = _domain(owner, to, is_internal=transition.get("type") == "internal")
         left = [state for state in leaf.ancestors() if state is not leaf]
         passed = [state for state in left if domain in [*state.ancestors()][1:]]
         actions = [action for state in passed for action in self.actions.write(state.content("onexit"), state)]
-        actions += self.actions.write(transition.children, owner)
+        actions += self.actions.write(transition.find(), owner)
         end, entered = self._enter(to, below=domain)
         step = self._go_to((*actions, *entered), end, f"{self._states[leaf.name]}_to", is_forced=end is leaf)
         reached = Reached(
@@ -313,7 +316,7 @@ def _any_of(conditions: list[str]) -> str:
 
 
 def _check_unconditional(transition: Element, events: Iterable[str]) -> Iterable[str]:
-    if transition.attributes.get("cond"):
+    if transition.get("cond"):
         reason = "a transition without a target that takes a timer or done event on a condition"
         raise ScxmlError("S802", reason, transition.line, "use --event-queue")
     return events

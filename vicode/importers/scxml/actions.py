@@ -31,7 +31,7 @@ class Timer:
     @property
     def is_cancelled_on_exit(self) -> bool:
         cancels = (each for each in self.state.content("onexit") if each.tag == "cancel")
-        return any(each.attributes.get("sendid") == self.send_id != "" for each in cancels)
+        return any(each.get("sendid") == self.send_id != "" for each in cancels)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -63,8 +63,8 @@ class ActionWriter:
         names, declarations = dict[str, str](), list[Declaration]()
         for state in (document, *states):
             for item in (data for model in state.element.find("datamodel") for data in model.find("data")):
-                name = item.attributes.get("id", "")
-                text = translate(item.attributes.get("expr", "0"), {}, lambda _name: False, item.line)
+                name = item.get("id", "")
+                text = translate(item.get("expr", "0"), {}, lambda _name: False, item.line)
                 type_ = "bool" if text in ("true", "false") else "float"
                 names[name] = allocator.allocate(name)
                 initial = "" if text in ("0", "false") else text
@@ -117,21 +117,21 @@ class ActionWriter:
         if element.tag == "cancel":
             # A timer ends with its state.
             ids = [timer.send_id for timer in self.timers.values() if element in timer.state.content("onexit")]
-            if element.attributes.get("sendid") not in ids:
+            if element.get("sendid") not in (ids if "sendid" in element.attributes else []):
                 reason = "<cancel>: only a delayed event of a state is cancelled, on exit of this state"
                 raise ScxmlError("S802", reason, element.line, "use --event-queue")
             return
-        timer = self.timers.get(element.attributes.get("event", ""))
+        timer = self.timers.get(element.get("event", ""))
         if timer is None or element not in timer.state.content("onentry"):
             raise _refuse_send(element)
         if not timer.state.is_atomic:
             yield Assign(values=((timer.variable, "component_time"),))
 
     def _assignment(self, element: Element, owner: ScxmlState) -> tuple[str, str]:
-        location, value = element.attributes.get("location", ""), element.attributes.get("expr")
+        location, value = element.get("location"), element.get("expr")
         if location not in self.names:
             raise ScxmlError("S803", f"unknown name '{location}'", element.line, "declare it in <datamodel>")
-        if value is None:
+        if "expr" not in element.attributes:
             raise ScxmlError("S802", "<assign> without expr: designs have no structured data", element.line)
         return self.names[location], self._translate(value, owner, element.line)
 
@@ -141,13 +141,13 @@ class ActionWriter:
 
     def _choice(self, element: Element, owner: ScxmlState) -> Iterator[Action]:
         """An <if> as assignments of conditional expressions; no branch may change what the conditions read."""
-        condition = self._translate(element.attributes.get("cond", "false"), owner, element.line)
+        condition = self._translate(element.get("cond", "false"), owner, element.line)
         held, tests = condition, [condition]
         written: list[tuple[str, str, str]] = []
-        for child in element.children:
+        for child in element.find():
             if child.tag in ("elseif", "else"):
                 others = " and ".join(f"not ({test})" for test in tests)
-                own = self._translate(child.attributes["cond"], owner, child.line) if child.tag == "elseif" else ""
+                own = self._translate(child.get("cond"), owner, child.line) if child.tag == "elseif" else ""
                 held = f"{others} and ({own})" if own else others
                 tests += [own] if own else []
             elif child.tag == "assign":
@@ -172,7 +172,7 @@ def _read_timers(states: Sequence[ScxmlState], allocator: DesignNames) -> dict[s
                 if event in timers:
                     raise _refuse_send(item)
                 variable = allocator.allocate(f"sent_{event}")
-                send_id = item.attributes.get("id", "")
+                send_id = item.get("id", "")
                 timers[event] = Timer(state=state, event=event, seconds=seconds, variable=variable, send_id=send_id)
     return timers
 
@@ -186,8 +186,8 @@ def _read_delay(text: str) -> str | None:
 
 
 def _read_timer(element: Element) -> tuple[str, str]:
-    seconds = _read_delay(element.attributes.get("delay", "").strip())
-    event = element.attributes.get("event", "")
+    seconds = _read_delay(element.get("delay", "").strip())
+    event = element.get("event", "")
     if seconds in (None, "0") or not event or element.attributes.keys() - {"event", "delay", "id"}:
         raise _refuse_send(element)
     assert seconds is not None
@@ -195,8 +195,8 @@ def _read_timer(element: Element) -> tuple[str, str]:
 
 
 def _write_send(events: EventComponent, element: Element) -> Iterator[Action]:
-    delay = _read_delay(element.attributes.get("delay", "0s").strip())
-    target = element.attributes.get("target", "")
+    delay = _read_delay(element.get("delay", "0s").strip())
+    target = element.get("target", "")
     others = sorted(element.attributes.keys() - {"event", "delay", "id", "target", "type"})
     if delay is None or others or target not in ("", _INTERNAL) or not _is_own_type(element):
         reason = f"<send> with {others[0]}" if others else "<send>: only events to the document itself are sent"
@@ -207,21 +207,21 @@ def _write_send(events: EventComponent, element: Element) -> Iterator[Action]:
 
 
 def _event_name(element: Element) -> str:
-    event = element.attributes.get("event", "")
+    event = element.get("event", "")
     if not event:
         raise ScxmlError("S802", f"<{element.tag}> without event: names of events are fixed", element.line)
     return event
 
 
 def _is_own_type(element: Element) -> bool:
-    return element.attributes.get("type", "scxml") in ("scxml", _PROCESSOR, f"{_PROCESSOR}/")
+    return element.get("type", "scxml") in ("scxml", _PROCESSOR, f"{_PROCESSOR}/")
 
 
 def _read_send_ids(sends: Iterable[Element]) -> dict[str, str]:
     """The event of each id of <send>; "" if an event has several ids or none, or an id several events."""
     ids, events = dict[str, set[str]](), dict[str, set[str]]()
     for send in sends:
-        event, send_id = _event_name(send), send.attributes.get("id", "")
+        event, send_id = _event_name(send), send.get("id", "")
         ids.setdefault(send_id, set()).add(event)
         events.setdefault(event, set()).add(send_id)
     pairs = {send_id: next(iter(found)) if len(found) == 1 else "" for send_id, found in ids.items() if send_id}
@@ -238,7 +238,7 @@ def _iter_sends(element: Element) -> Iterator[Element]:
 
 
 def _cancelled(element: Element, sent: Mapping[str, str]) -> str:
-    event = sent.get(element.attributes.get("sendid", ""), "")
+    event = sent.get(element.get("sendid", ""), "")
     if not event:
         reason = "<cancel>: its sendid is not that of all <send> of one event"
         raise ScxmlError("S802", reason, element.line, "give all of them this id, and no other event")
@@ -253,7 +253,7 @@ def _refuse_send(element: Element) -> ScxmlError:
 def _check_scope(event: str, state: ScxmlState, states: Sequence[ScxmlState], element: Element) -> None:
     for other in states:
         for transition in other.transitions():
-            descriptors = transition.attributes.get("event", "").split()
+            descriptors = transition.get("event", "").split()
             if any(matches(each, event) for each in descriptors) and state not in other.ancestors():
                 reason = f"<send>: '{event}' is used outside of '{state.name}', and timers end with their state"
                 raise ScxmlError("S802", reason, element.line, "use another name there, or --event-queue")

@@ -1,6 +1,7 @@
 """Translates conditions and values of SCXML: the part of ECMAScript that designs have, too."""
 
 import re
+from collections import Counter
 from collections.abc import Callable, Mapping
 
 from vicode.importers.scxml.reader import ScxmlError
@@ -43,26 +44,29 @@ def translate(text: str, names: Mapping[str, str], is_in: Callable[[str], bool],
 
 def _bracket_negations(parts: list[str]) -> list[str]:
     """Put negations into brackets: in ECMAScript, they bind more strongly than comparisons."""
+    # By place: the last token of the operand that begins there, and how many negations end there.
+    ends, closed = _operand_ends(parts), Counter[int]()
+    for index, part in enumerate(parts):
+        if part == "not":
+            closed[ends.get(index, len(parts) - 1)] += 1
+    found = list[str]()
+    for index, part in enumerate(parts):
+        found += [*(["("] if part == "not" else []), part, *[")"] * closed[index]]
+    return found
+
+
+def _operand_ends(parts: list[str]) -> dict[int, int]:
+    """The last place of each negation, name, call or bracket, by its first place; of those that end."""
+    ends, closing = dict[int, int](), list[int]()
     for index in range(len(parts) - 1, -1, -1):
-        if parts[index] == "not":
-            end = _operand_end(parts, index + 1)
-            parts[index : end + 1] = ["(", "not", *parts[index + 1 : end + 1], ")"]
-    return parts
-
-
-def _operand_end(parts: list[str], start: int) -> int:
-    """The place of the last token of a name, call or bracket."""
-    end = start
-    if start < len(parts) and parts[start] != "(" and start + 1 < len(parts) and parts[start + 1] == "(":
-        end = start + 1
-    if end < len(parts) and parts[end] == "(":
-        depth = 0
-        while end < len(parts):
-            depth += {"(": 1, ")": -1}.get(parts[end], 0)
-            if depth == 0:
-                break
-            end += 1
-    return end
+        if parts[index] == ")":
+            closing.append(index)
+        elif parts[index] == "(":
+            ends[index] = closing.pop() if closing else len(parts) - 1
+        else:
+            follows = index + 1 < len(parts) and (parts[index] == "not" or parts[index + 1] == "(")
+            ends[index] = ends.get(index + 1, len(parts) - 1) if follows else index
+    return ends
 
 
 def _join(parts: list[str]) -> str:

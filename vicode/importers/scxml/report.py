@@ -66,7 +66,7 @@ class _Fact:
 
     @property
     def events(self) -> list[str]:
-        return self.element.attributes.get("event", "").split()
+        return self.element.get("event", "").split()
 
 
 @dataclass(slots=True)
@@ -108,7 +108,7 @@ class ReportWriter:
             key=lambda judged: (list(Exactness).index(judged[0]), len(judged[1])),
         )
         first = facts[0]
-        target = first.element.attributes.get("target", "").strip()
+        target = first.element.get("target", "").strip()
         on = f" on {' '.join(first.events)}" if first.events else ""
         return TransitionReport(
             line=first.element.line,
@@ -158,7 +158,7 @@ class ReportWriter:
         ]
         leaves = fact.reached is not None and timer.state not in [*fact.reached.domain.ancestors()]
         is_only = len({id(element) for _owner, element in takers}) == 1 and fact.owner is timer.state
-        if not timer.state.is_atomic and not (is_only and leaves and not fact.element.attributes.get("cond")):
+        if not timer.state.is_atomic and not (is_only and leaves and not fact.element.get("cond")):
             return f"it is taken whenever the time has passed; SCXML takes '{timer.event}' once, when it arrives"
         if not timer.is_cancelled_on_exit and self._is_left_before(timer):
             return f"'{timer.event}' ends with '{timer.state.name}'; SCXML delivers it unless <cancel> is on exit"

@@ -58,7 +58,7 @@ class ScxmlState:
 
     def content(self, tag: str) -> list[Element]:
         """The executable content of all blocks of a kind, `onentry` or `onexit`."""
-        return [child for block in self.element.find(tag) for child in block.children]
+        return [child for block in self.element.find(tag) for child in block.find()]
 
     def transitions(self) -> list[Element]:
         return list(self.element.find("transition"))
@@ -94,17 +94,17 @@ def _refuse_elements(element: Element, reasons: Mapping[str, tuple[str, str]]) -
 
 
 def _read(element: Element, parent: ScxmlState | None, by_name: dict[str, ScxmlState]) -> ScxmlState:
-    name = element.attributes.get("id", "") or (f"state_{len(by_name) + 1}" if parent else "")
+    name = element.get("id", "") or (f"state_{len(by_name) + 1}" if parent else "")
     if name in by_name:
         raise ScxmlError("S803", f"two states have the id '{name}'", element.line)
     state = ScxmlState(name=name, element=element, parent=parent)
     if parent is not None:
         by_name[name] = state
     state.children = [_read(child, state, by_name) for child in element.find(*_STATES)]
-    state.initial = element.attributes.get("initial", "")
+    state.initial = element.get("initial", "")
     for block in element.find("initial"):
         for transition in block.find("transition"):
-            state.initial, state.initial_content = transition.attributes.get("target", ""), transition.children
+            state.initial, state.initial_content = transition.get("target", ""), list(transition.find())
     if " " in state.initial.strip():
         raise ScxmlError("S802", "several initial states: a design is in one state at a time", element.line)
     return state

@@ -1,15 +1,16 @@
 """Compares two versions of a design by state and transition."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from vicode.findings import DesignPath
 from vicode.model.design import (
     Action,
     Call,
     CommonSection,
+    Competence,
+    CompetenceStep,
     Design,
     DiagramFrame,
-    Interrupt,
     Latch,
     Layer,
     RunCode,
@@ -26,10 +27,11 @@ from vicode.model.diff.item_diff import (
     diff_values,
 )
 from vicode.model.edits import rename_state, rename_use
-from vicode.model.lowering import lift_design
+from vicode.model.lowering import lift_design, lower_design
 from vicode.model.merge.matching import find_renamed_states, find_renamed_uses
-from vicode.model.words import describe_action, describe_fields, describe_property, describe_value
+from vicode.model.words import describe_action, describe_parts, describe_property, describe_value
 
+_Construct = Latch | CompetenceStep | Layer
 _SECTIONS = ("parameters", "outputs", "variables")
 _PHASES = {"enter": "enter action", "actions": "action", "leave": "leave action"}
 _APART = {
@@ -41,6 +43,7 @@ _APART = {
         "states",
         "latches",
         "interrupts",
+        "competence",
         "layers",
         "positions",
         "properties",
@@ -84,7 +87,7 @@ def _apply_renames(old: Design, new: Design) -> tuple[Design, list[Change]]:
         ("uses", "use", find_renamed_uses, rename_use),
     ):
         for before, after in find(old, new).items():
-            old = rename(old, before, after)
+            old = lift_design(rename(lower_design(old), before, after))
             subject = f"{kind} {after}"
             renames.append(
                 Change(kind=ChangeKind.RENAMED, subject=subject, path=(section, after), old=before, new=after)
@@ -141,39 +144,41 @@ def _diff_content(old: Design, new: Design) -> Iterator[Change]:
     )
 
 
-def _describe_construct(construct: Latch | Interrupt | Layer) -> str:
-    return "; ".join(describe_fields(construct, ("name",)))
-
-
 def _diff_constructs(old: Design, new: Design) -> Iterator[Change]:
-    yield from diff_keyed(
-        ("latches",),
-        old.latches,
-        new.latches,
-        subject=lambda latch: f"latch {latch.name}",
-        content=_describe_construct,
-        compare=lambda here, before, after: diff_fields(here, f"latch {after.name}", before, after),
-    )
+    yield from _diff_named(("latches",), "latch", old.latches, new.latches)
     yield from diff_ordered(
         ("interrupts",),
         old.interrupts,
         new.interrupts,
         subject=lambda interrupt: f"interrupt by {interrupt.do}",
-        content=_describe_construct,
+        content=describe_parts,
         compare=lambda _there, here, before, after: diff_fields(here, f"interrupt by {after.do}", before, after, ()),
     )
-    yield from diff_keyed(
-        ("layers",),
-        old.layers,
-        new.layers,
-        subject=lambda layer: f"layer {layer.name}",
-        content=_describe_construct,
-        compare=lambda here, before, after: diff_fields(here, f"layer {after.name}", before, after),
-    )
-
+    yield from _diff_competence(old.competence, new.competence)
+    yield from _diff_named(("layers",), "layer", old.layers, new.layers)
     before, after = ({each.name: each.at for each in design.positions} for design in (old, new))
     for name in {**before, **after}:
         yield from diff_positions(("positions", name), f"state {name}", before.get(name), after.get(name))
+
+
+def _diff_named(path: DesignPath, kind: str, old: Sequence[_Construct], new: Sequence[_Construct]) -> Iterator[Change]:
+    return diff_keyed(
+        path,
+        old,
+        new,
+        subject=lambda each: f"{kind} {each.name}",
+        content=describe_parts,
+        compare=lambda here, before, after: diff_fields(here, f"{kind} {after.name}", before, after),
+    )
+
+
+def _diff_competence(old: Competence | None, new: Competence | None) -> Iterator[Change]:
+    path = ("competence",)
+    if old is None or new is None:
+        yield from diff_values(path, "", old, new, describe_value, attribute="competence")
+    else:
+        yield from diff_fields(path, "competence", old, new, ("steps",))
+        yield from _diff_named((*path, "steps"), "step", old.steps, new.steps)
 
 
 def _diff_frame(path: DesignPath, old: DiagramFrame, new: DiagramFrame) -> Iterator[Change]:

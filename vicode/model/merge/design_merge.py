@@ -23,6 +23,8 @@ from vicode.model.traversal import iter_actions, iter_transitions
 
 _POSITIONS = (("at",), ("label_at",))
 _ORDERED = {"transitions", "then", "otherwise", "enter", "actions", "leave", "properties", "interrupts"}
+# Named items whose order is their priority.
+_RANKED = {"layers", "steps"}
 # File keys that differ from field names. Empty: the field has no key in the file.
 _FILE_KEYS: dict[str, DesignPath] = {
     "guard": (),
@@ -106,7 +108,9 @@ def _unify_names(merger: "_Merger", base: Design, ours: Design, theirs: Design) 
         for old in (*by_us, *(name for name in by_them if name not in by_us)):
             mine, yours = by_us.get(old, old), by_them.get(old, old)
             new = merger.merge_value((section, old, "name"), old, mine, yours)
-            base, ours, theirs = rename(base, old, new), rename(ours, mine, new), rename(theirs, yours, new)
+            pairs = ((base, old), (ours, mine), (theirs, yours))
+            # A step or a layer is renamed as the state that it becomes.
+            base, ours, theirs = (lift_design(rename(lower_design(side), name, new)) for side, name in pairs)
     return base, ours, theirs
 
 
@@ -195,7 +199,8 @@ class _Merger:
                 return theirs
 
         def chooses_theirs() -> bool:
-            return not is_keyed and self.add_conflict(path, base, ours, theirs) is theirs
+            is_ordered = not is_keyed or path[-1] in _RANKED
+            return is_ordered and self.add_conflict(path, base, ours, theirs) is theirs
 
         lists = ListVersions(base=base, ours=ours, theirs=theirs, is_keyed=is_keyed)
         merged = merge_lists(lists, lambda step, *sides: self._merge_item((*path, step), *sides), chooses_theirs)

@@ -1,14 +1,13 @@
 """Matching of list items between versions: by name, id, content, and finally position."""
 
 from collections import Counter
-from collections.abc import Callable, Hashable, Sequence
-from dataclasses import fields, replace
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 from vicode.matching import Match, match_equal
 from vicode.model.decisions import retarget
-from vicode.model.design import Call, Declaration, Design, DiagramFrame, DiagramNote, State, Transition, Use
-from vicode.model.project import Agent, Enumeration, Interface, Profile, ProfileClass, RemoteReference, TopicReference
+from vicode.model.design import Call, Design, State, Transition
 
 Matches = dict[int, int]
 """Maps indices of the old list to indices of the new list."""
@@ -26,32 +25,29 @@ def match_items(old: Sequence[Any], new: Sequence[Any], *, is_keyed: bool) -> Ma
 
 def item_key(item: Any) -> Hashable:
     """Return the name that identifies an item in a keyed list."""
-    match item:
-        case State(name=name) | Declaration(name=name) | DiagramFrame(name=name) | DiagramNote(name=name):
-            return name
-        case Use(alias=alias) | Call(alias=alias):
-            return alias
-        case Enumeration(name=name) | Agent(name=name) | Profile(name=name):
-            return name
-        case Interface() | ProfileClass() | RemoteReference() | TopicReference():
-            return item.component
-        case (name, _text):
-            return str(name)
-        case _:
-            # Latches, steps and layers; interrupts.
-            return str(getattr(item, "name", "") or getattr(item, "do", "") or item)
+    if is_dataclass(item):
+        names = (getattr(item, key, None) for key in ("name", "alias", "component", "do"))
+        return next((name for name in names if name is not None), str(item))
+    return str(item[0]) if isinstance(item, tuple) and len(item) == 2 else str(item)
 
 
 def find_renamed_states(old: Design, new: Design) -> dict[str, str]:
-    removed = [state for state in old.states if new.state(state.name) is None]
-    added = [state for state in new.states if old.state(state.name) is None]
+    """Map the old names of renamed states, steps and layers to the new ones."""
     renamed: dict[str, str] = {}
-    for state in removed:
-        same = next((candidate for candidate in added if _is_same_state(state, candidate)), None)
-        if same is not None:
-            renamed[state.name] = same.name
-            added.remove(same)
+    for before, after in zip(_iter_stateful(old), _iter_stateful(new), strict=True):
+        olds, news = ({each.name for each in side} for side in (before, after))
+        added = [each for each in after if each.name not in olds]
+        for item in (each for each in before if each.name not in news):
+            same = next((candidate for candidate in added if _is_same_state(item, candidate)), None)
+            if same is not None:
+                renamed[item.name] = same.name
+                added.remove(same)
     return renamed
+
+
+def _iter_stateful(design: Design) -> Iterator[tuple[Any, ...]]:
+    """The lists whose items are states, or become states."""
+    yield from (design.states, design.layers, design.competence.steps if design.competence else ())
 
 
 def find_renamed_uses(old: Design, new: Design) -> dict[str, str]:
@@ -65,19 +61,20 @@ def find_renamed_uses(old: Design, new: Design) -> dict[str, str]:
     return {use.alias: after[use.component] for use in removed if use.component in after}
 
 
-def _is_same_state(old: State, new: State) -> bool:
-    if new.id and new.id in (old.id, old.name):
+def _is_same_state(old: Any, new: Any) -> bool:
+    """Whether a state, step or layer has the id of another, or mostly its content."""
+    if isinstance(new, State):
+        if new.id and new.id in (old.id, old.name):
+            return True
+        if old.origin and new.origin:
+            # All transitions of a derived state name its construct.
+            kept = ("doc", "requires", "modulates")
+            return old.origin[:-1] == new.origin[:-1] and all(getattr(old, key) == getattr(new, key) for key in kept)
+        new = replace(new, id=old.id, transitions=retarget(new.transitions, new.name, old.name))
+    if replace(new, name=old.name) == old:
         return True
-    if replace(new, name=old.name, id=old.id, transitions=retarget(new.transitions, new.name, old.name)) == old:
-        return True
-    if old.origin and new.origin:
-        # All transitions of a derived state name its construct.
-        kept = ("doc", "requires", "modulates")
-        return old.origin[:-1] == new.origin[:-1] and all(getattr(old, name) == getattr(new, name) for name in kept)
-    compared = {field.name for field in fields(State)} - {"color", "final", "transitions"}
+    compared = {field.name for field in fields(old)} - {"id", "color", "final"}
     shared: int = sum(bool(getattr(old, name)) and getattr(old, name) == getattr(new, name) for name in compared)
-    arrows = retarget(new.transitions, new.name, old.name)
-    shared += bool(arrows) and arrows == old.transitions
     return shared >= 2
 
 
@@ -129,8 +126,8 @@ def _match_neighbors(
 
 
 def _is_renamed(old: Any, new: Any) -> bool:
-    is_same_kind = isinstance(old, Declaration | DiagramFrame) and type(old) is type(new)
-    return is_same_kind and bool(replace(new, name=old.name) == old)
+    is_named = hasattr(old, "name") and type(old) is type(new) and not isinstance(old, State)
+    return is_named and bool(replace(new, name=old.name) == old)
 
 
 def _is_similar(old: Any, new: Any) -> bool:

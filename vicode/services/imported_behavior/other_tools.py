@@ -7,6 +7,7 @@ from pathlib import Path
 from vicode.findings import Finding
 from vicode.importers import ImportedDesign, ImportResult
 from vicode.importers.bica import BicaReader
+from vicode.importers.design_names import design_files
 from vicode.importers.outcomes import convert_machines
 from vicode.importers.outcomes.flexbe import FlexbeReader, contains_behavior
 from vicode.importers.outcomes.yasmin import YasminReader
@@ -17,12 +18,13 @@ _BICA, _YASMIN, _FLEXBE = "component", "StateMachine", "Behavior"
 
 
 def find_other_files(path: Path) -> tuple[Path, ...]:
-    """The files at a path that are of one of the tools.
+    """The files at a path that are of one of the tools, without links that lead out of a folder.
 
     Raises:
         OSError: A file cannot be read.
     """
-    found = [path] if path.is_file() else sorted(each for each in path.rglob("*") if each.is_file())
+    inside = Sources(folder=path).contains
+    found = [path] if path.is_file() else sorted(each for each in path.rglob("*") if inside(each) and each.is_file())
     return tuple(each for each in found if _tool(each))
 
 
@@ -42,9 +44,10 @@ def load_other(files: Sequence[Path], folder: Path, name: str) -> tuple[ImportRe
         raise OSError(f"{folder} contains files of several tools; import one of them")
     project = bica.project(name) if bica.designs else convert_machines(machines, name, sources)
     paths = [path for _design, path in bica.designs] or [each.place[0] for each in machines.values()]
+    names = design_files(each.component for each in project.designs)
     designs = (
-        ImportedDesign(component=each.component, path=f"{each.component}.yaml", comments=(), file=file, anchors=())
-        for each, file in zip(project.designs, paths, strict=True)
+        ImportedDesign(component=each.component, path=path, comments=(), file=file, anchors=())
+        for each, file, path in zip(project.designs, paths, names, strict=True)
     )
     notes = sorted(dict.fromkeys(sources.notes), key=lambda note: (str(note.file), note.line, note.text))
     result = ImportResult(project=project, designs=tuple(designs), comments=(), notes=tuple(notes))

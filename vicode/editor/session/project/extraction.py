@@ -1,7 +1,7 @@
 """Extracts states as a component with a file of its own, and inlines it; each is one step of undo over both files."""
 
-from collections.abc import Collection
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
 
 from vicode.diagram.kept_positions import keep_positions
 from vicode.editor.session import texts
@@ -15,7 +15,7 @@ from vicode.model.design import Design
 from vicode.model.extract import extract_component
 from vicode.model.inline import inline_component, inlined_use
 from vicode.model.merge import merge_designs
-from vicode.store import save_design
+from vicode.store import replace_text, save_extracted, take_comments
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,6 +28,8 @@ class ExtractionEdit:
     component: Design
     text: str
     is_inlining: bool = False
+    names: Mapping[str, str] = field(default_factory=dict)
+    """The names of inlined states by those in the component."""
 
     @property
     def label(self) -> str:
@@ -61,8 +63,10 @@ class ExtractionEdit:
             if is_adding:
                 self.workspace.create(self.component.component, self.text)
             session.apply_transaction(transaction, keep_positions(session.design, merged.design))
+            old_text = session.shared.disk_text
             self.workspace.save(session)
             if not is_adding:
+                self._take_comments(session, old_text)
                 self.workspace.files[self.component.component].unlink()
                 self.workspace.drop_document(self.component.component)
                 self.workspace.sync_from_disk()
@@ -71,6 +75,13 @@ class ExtractionEdit:
         except (OSError, ValueError) as reason:
             return error_reason(reason)
         return ""
+
+    def _take_comments(self, session: DocumentSession, old_text: str) -> None:
+        """Write the comments of the component into the file of the caller."""
+        document = self.workspace.open_document(self.component.component)
+        text = session.shared.disk_text
+        if document is not None:
+            replace_text(session.file, text, take_comments(document.shared.disk_text, old_text, text, self.names))
 
     def _find_error(self, *, is_adding: bool) -> str:
         name = self.component.component
@@ -100,7 +111,7 @@ def extract_states(workspace: Workspace, document: DocumentSession, states: Coll
         whole=design,
         caller=found.caller,
         component=found.component,
-        text=save_design(found.component, ""),
+        text=save_extracted(found.component, document.shared.disk_text),
     )
     new = next(each for each in found.caller.states if not {*each.requires[-1:]} <= {use.alias for use in design.uses})
     return EditResult(new_selection=_selection((new.name,)), error=edit.apply(document.user_id), note=found.note)
@@ -125,6 +136,7 @@ def inline_state(workspace: Workspace, document: DocumentSession, state: str) ->
         component=used.design,
         text=used.shared.disk_text,
         is_inlining=True,
+        names=found.names,
     )
     return EditResult(new_selection=_selection(found.states), error=edit.apply(document.user_id))
 
