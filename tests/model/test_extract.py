@@ -307,7 +307,7 @@ def test_an_edited_component_is_inlined_with_its_edits() -> None:
     )
     inlining = inline_component(extracted().caller, "Part", grown)
     assert not inlining.problem
-    assert inlining.states == ("A", "B")
+    assert [*inlining.names.values()] == ["A", "B"]
     assert inlining.caller.variables == (NUMBER,)
     assert inlining.caller.state("B") == State(name="B", actions=(COUNT,), transitions=to("X", when="n > 3"))
 

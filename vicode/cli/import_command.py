@@ -137,13 +137,8 @@ def _import_scxml(args: argparse.Namespace) -> int:
     except ScxmlError as error:
         print_findings([error.finding(args.agents)], to_stderr=True)
         return 1
-    about = ImportedDesign(
-        component=component,
-        path=next(design_files((snake_case(component),))),
-        comments=(),
-        file=args.agents,
-        anchors=(),
-    )
+    (path,) = design_files([snake_case(component)])
+    about = ImportedDesign(component=component, path=path, comments=(), file=args.agents, anchors=())
     imported = ImportResult(project=with_layout(converted.project), designs=(about,), comments=())
     texts = {**format_files(imported), **render_event_queue(converted)}
     if _would_overwrite(args, texts):

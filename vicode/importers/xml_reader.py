@@ -44,10 +44,9 @@ class Element:
         """What was not read, as pairs of line and text, without attributes that are `known` to mean nothing."""
         if self.is_reported:
             return
-        names = [each for each in self.attributes if each not in (*known, *self._read)]
+        names = ", ".join(f"'{each}'" for each in self.attributes if each not in (*known, *self._read))
         if names:
-            shown = ", ".join(f"'{each}'" for each in names)
-            yield self.line, f"not in the design: {shown} of <{self.tag}>"
+            yield self.line, f"not in the design: {names} of <{self.tag}>"
         if self.text_line:
             yield self.text_line, f"not in the design: the text of <{self.tag}>"
         for child in self.children:

@@ -23,10 +23,6 @@ class Inlining:
     names: Mapping[str, str] = field(default_factory=dict)
     problem: str = ""
 
-    @property
-    def states(self) -> tuple[str, ...]:
-        return tuple(self.names.values())
-
 
 def inlined_use(design: Design, state: str) -> Use | None:
     """The component that `inline_component` would put in place of a state: the last one that it requires."""

@@ -128,6 +128,11 @@ def folder_times(folder: Path) -> frozenset[tuple[str, int]]:
     return frozenset(found)
 
 
+def is_file_taken(file: Path) -> bool:
+    """Whether a new design file would be the same as another or project.yaml on a file system that ignores case."""
+    return file.name.casefold() in {*PROJECT_FILES, *(each.name.casefold() for each in file.parent.iterdir())}
+
+
 def find_design_files(folder: Path) -> tuple[Path, ...]:
     """Find the design files in and below a folder, except those of nested projects."""
     files: list[Path] = []

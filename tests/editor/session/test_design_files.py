@@ -88,10 +88,13 @@ def test_an_interrupted_rename_leaves_a_project_without_errors(workspace: Worksp
         ("../x", "letters, digits"),
         ("FaceBall", "the name is unchanged"),
         ("Taken", "already a file taken.yaml"),
+        ("Upper", "already a file upper.yaml"),
+        ("Project", "already a file project.yaml"),
     ],
 )
 def test_an_invalid_component_name_is_an_error(workspace: Workspace, folder: Path, new: str, message: str) -> None:
     (folder / "taken.yaml").write_text("nothing: of ours\n")
+    (folder / "UPPER.yaml").write_text("nothing: of ours\n")
     before = texts_of(folder)
     plan = rename_component.plan_component_rename(workspace, "FaceBall", new)
     assert message in plan.error
@@ -189,3 +192,12 @@ def test_the_overview_counts_findings_and_lists_broken_files(folder: Path) -> No
     assert document is not None
     document.edit("states", lambda design: design.__class__(component="Wobbly"))
     assert {card.component for card in overview.cards() if card.is_unsaved} == {"Wobbly"}
+
+
+def test_a_new_design_gets_no_file_that_another_file_system_would_merge_with_one(workspace: Workspace) -> None:
+    (workspace.folder / "UPPER.yaml").write_text("nothing: of ours\n")
+    for name in ("Upper", "Project"):
+        assert "there is already a file" in trash.validate_component_name(workspace, name)
+        assert not workspace.can_create(name)
+        with pytest.raises(FileExistsError):
+            workspace.create(name)

@@ -23,6 +23,7 @@ from vicode.store import (
     FileChangedError,
     OpenProject,
     find_design_files,
+    is_file_taken,
     open_project,
     read_design,
     relative_design_paths,
@@ -218,7 +219,7 @@ class Workspace:
 
     def can_create(self, component: str) -> bool:
         """Whether the file name of a new component is free."""
-        return not self._file_for(component).exists()
+        return not is_file_taken(self._file_for(component))
 
     def create(self, component: str, text: str = "") -> DocumentSession:
         """Create a design and its file, from a text or else with one state.
@@ -228,7 +229,7 @@ class Workspace:
             OSError: The file cannot be written.
         """
         file = self._file_for(component)
-        if file.exists():
+        if is_file_taken(file):
             raise FileExistsError(file)
         design = Design(component=component, initial="Start", states=(State(name="Start", at=(160, 120)),))
         if text:

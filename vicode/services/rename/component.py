@@ -11,6 +11,7 @@ from vicode.services.rename.project_files import ProjectFiles, validate_writable
 from vicode.services.rename.xabsl import rename_in_xabsl
 from vicode.store import (
     find_project_file,
+    is_file_taken,
     read_project_file,
     save_design,
     save_project_file,
@@ -55,7 +56,7 @@ def plan_component_rename(project_files: ProjectFiles, old: str, new: str) -> Co
         return ComponentRenamePlan(old=old, new=new, error=error or messages.no_design(old))
     target = file.with_name(f"{snake_case(new)}{file.suffix}")
     is_moved = target.resolve() != file.resolve()
-    if is_moved and target.exists():
+    if is_moved and target.name.casefold() != file.name.casefold() and is_file_taken(target):
         return ComponentRenamePlan(old=old, new=new, error=messages.file_exists(target.name))
     try:
         own = _own_change(renamed[old], file, target if is_moved else file, (old, new))

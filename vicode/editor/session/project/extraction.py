@@ -138,7 +138,7 @@ def inline_state(workspace: Workspace, document: DocumentSession, state: str) ->
         is_inlining=True,
         names=found.names,
     )
-    return EditResult(new_selection=_selection(found.states), error=edit.apply(document.user_id))
+    return EditResult(new_selection=_selection(found.names.values()), error=edit.apply(document.user_id))
 
 
 def _selection(states: Collection[str]) -> tuple[ItemRef, ...]:

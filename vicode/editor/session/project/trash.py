@@ -6,7 +6,7 @@ from vicode.editor.session.workspace import TrashedDesign, Workspace
 from vicode.model.edits import unique_name
 from vicode.model.names import is_valid_name, snake_case
 from vicode.services import messages
-from vicode.store import replace_text, save_design
+from vicode.store import is_file_taken, replace_text, save_design
 
 
 def validate_move_to_trash(workspace: Workspace, component: str) -> str:
@@ -64,7 +64,7 @@ def validate_component_name(workspace: Workspace, name: str) -> str:
     if workspace.project.interface(name) is not None:
         return messages.name_exists("component", name)
     file = workspace.folder / f"{snake_case(name)}.yaml"
-    return messages.file_exists(file.name) if file.exists() else ""
+    return messages.file_exists(file.name) if is_file_taken(file) else ""
 
 
 def duplicate_design(workspace: Workspace, component: str, name: str) -> None:
