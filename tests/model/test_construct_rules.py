@@ -122,6 +122,7 @@ def test_an_interrupt_beside_layers_is_reported() -> None:
         ("[Work*]", "WorkA", "Foo", ("Work*", "Foo")),
         ("[Work*]", "Rove", "WorkC", ("WorkA", "WorkB")),
         ("[Work*]", "WorkA", "WorkX", ("Work*",)),
+        ("[Rov*, WorkB]", "Rove", "Spin", ("WorkB", "Spin")),
         ("[Rove, Work*]", "Rove", "Walk", ("Walk", "Work*")),
         ("[Nothing*]", "Rove", "Nothing1", ("Nothing*",)),
     ],
@@ -160,3 +161,11 @@ def test_states_of_a_competence_keep_their_names(tmp_path: Path) -> None:
     (tmp_path / "player.yaml").write_text("vicode: 1\ncomponent: Player\ncompetence: {goal: 'false', steps: {A: {}}}\n")
     assert plan(tmp_path, "states", "Done", "End").startswith("Done is derived from 'competence'")
     assert plan(tmp_path, "states", "A", "B") == ""
+
+
+def test_the_way_back_of_an_interrupt_reaches_no_new_state() -> None:
+    text = interrupted("{do: Wait, when: eyes.person}", states="  Go: {}\n  Lonely: {}\n  Wait: {}\n")
+    design = read_design(text).design
+    assert design is not None
+    found = check_project(project_of(design))
+    assert [each.subject.path for each in found if each.rule.code == "D421" and each.subject] == [("states", "Lonely")]

@@ -15,6 +15,7 @@ from vicode.analysis.interval_diagrams import BEFORE_NAN, FALSE, TRUE, Interval,
 from vicode.findings import DesignPath
 from vicode.model.design import Design, Transition
 from vicode.model.project import Project
+from vicode.model.traversal import LocatedDecision, iter_transitions
 
 _LATE_NS = 10**15
 """A time in a state after which also computed times are beyond the constants of a design."""
@@ -96,11 +97,12 @@ class MachineAnalysis:
     def reachable(self) -> frozenset[str]:
         """The states that may become active."""
         pending, reachable = [self.design.initial], set[str]()
+        ways_back = {each.path for each in iter_transitions(self.design) if _continues(self.design, each)}
         while pending:
             name = pending.pop()
             if name not in reachable and name in self.live:
                 reachable.add(name)
-                pending += (each.target for each in self.live[name])
+                pending += (each.target for each in self.live[name] if each.path not in ways_back)
         return frozenset(reachable)
 
     def time_in(self, state: str) -> TimeInState | None:
@@ -176,3 +178,12 @@ class MachineAnalysis:
     def _is_cooperative(self, name: str) -> bool:
         state = self.design.state(name)
         return state is not None and (state.capacity is not None or state.synchronized is not None)
+
+
+def _continues(design: Design, located: LocatedDecision) -> bool:
+    """Whether a transition leads from the end of an interrupt to where the design was, or would have been, before."""
+    match getattr(located.decision, "origin", ()):
+        case ("interrupts", int(number)) if located.source == design.interrupts[number].do:
+            return design.interrupts[number].then in ("", "resume", "skip")
+        case _:
+            return False

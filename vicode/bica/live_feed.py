@@ -152,6 +152,8 @@ class LiveFeed:
             self._observed_step = self._observer.bind(root, root._find_step())
         else:
             self._observer.detach_all(root)
+            # The next viewer must not take it for the present.
+            self.newest = (0, {})
             self._plain_step = root._find_step()
 
     def _publish(self, record: IterationRecord) -> None:

@@ -71,6 +71,8 @@ class _Terminal:
         for number, line in enumerate(lines, start=1):
             if not line.strip() or line.lstrip().startswith("#"):
                 continue
+            if line.strip() in ("exit", "quit"):
+                return 0
             try:
                 answer = run(line)
             except ConsoleError as error:

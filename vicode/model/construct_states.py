@@ -38,7 +38,8 @@ def _rename_in_patterns(design: Design, patterns: tuple[str, ...], old: str, new
         any(fits_pattern(name, each) for each in names) for name, names in ((old, patterns), (new, renamed))
     )
     if before and not after:
-        return (*renamed, new)
+        names = [state.name for state in design.states if state.name != old]
+        return (*(each for each in renamed if any(fits_pattern(name, each) for name in names)), new)
     if before == after:
         return renamed
     names = [state.name for state in design.states if state.name not in (old, new)]

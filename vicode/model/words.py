@@ -61,7 +61,7 @@ def field_word(owner: type, name: str) -> str:
     return _WORDS.get(f"{owner.__name__}.{name}") or _WORDS.get(name) or name.replace("_", " ")
 
 
-_NOT_IN_WORDS = ("name", "id", "at", "label_at")
+_NOT_IN_WORDS = ("name", "id", "at", "label_at", "origin")
 
 
 def describe_fields(record: Any, apart: Collection[str] = ()) -> Iterator[str]:

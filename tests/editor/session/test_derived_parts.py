@@ -4,8 +4,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from vicode.editor.session.document import DocumentSession, SharedDocument
+from vicode.model.design import State
 from vicode.model.diff import ChangeKind, diff_designs
-from vicode.model.edits import move_nodes, remove_states, rename_state
+from vicode.model.edits import add_state, move_nodes, remove_states, rename_state
 from vicode.model.lowering import lower_design
 from vicode.store import read_design, save_design
 
@@ -71,3 +72,12 @@ def test_an_edit_beside_it_is_kept(tmp_path: Path) -> None:
     assert document.design.doc == "Fetches."
     assert [state.name for state in document.design.states] == ["Choose", "Look", "Done", "Failed"]
     assert document.shared.notice.text == ""
+
+
+def test_a_state_beside_a_competence_is_refused(tmp_path: Path) -> None:
+    document = open_fetch(tmp_path)
+    document.edit("Add", lambda design: add_state(design, State(name="Foo")))
+    assert document.is_saved
+    assert document.shared.notice.text == (
+        "Not changed: the states of this design are the steps of its competence; add one in the form of the design"
+    )

@@ -173,7 +173,7 @@ def _transitions(
             "source": "@common" if drawn.source == COMMON else drawn.source,
             "target": drawn.target,
             "label": drawn.label,
-            "guard": _guard_text(transition.guard, design.time_unit),
+            "guard": None if drawn.derived else _guard_text(transition.guard, design.time_unit),
             "order": orders[drawn.source],
             "of": counts[drawn.source],
             "disabled": drawn.disabled,

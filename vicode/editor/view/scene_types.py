@@ -61,7 +61,7 @@ class SceneTransition(SceneMarks):
     target: str
     label: str
     guard: str | None
-    """As it is edited on the label; None if it is code."""
+    """As it is edited on the label; None if it is code, or derived."""
     order: int
     of: int
     disabled: bool

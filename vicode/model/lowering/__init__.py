@@ -104,12 +104,20 @@ def is_lowered(design: Design) -> bool:
 
 def lower_edit(before: Design, after: Design) -> tuple[Design, str]:
     """Lower an edited design; if the edit changes something derived, return the design before it and the reason."""
+    if _has_states_twice(after) and not _has_states_twice(before):
+        items = "layers" if after.layers else "the steps of its competence"
+        return before, f"the states of this design are {items}; add one in the form of the design"
     origin = find_lost_edit(after)
     design = _forget_positions(lower_design(after))
     if not origin or (design != before and _keeps_derived(before, after)):
         return design, ""
     form = f"the state '{origin[1]}'" if origin[0] == "states" else "the design"
     return before, f"this part is derived from {describe_origin(origin)}; edit it in the form of {form}"
+
+
+def _has_states_twice(design: Design) -> bool:
+    is_whole = design.competence is not None or bool(design.layers)
+    return is_whole and not all(state.origin for state in design.states)
 
 
 def _forget_positions(design: Design) -> Design:
