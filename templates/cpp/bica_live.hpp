@@ -1834,6 +1834,10 @@ private:
                 send_newest(viewer, now);
             }
         }
+        if (!is_watched) {
+            // The next viewer must not take it for the present.
+            newest_ = nullptr;
+        }
         robot_.is_watched.store(is_watched, std::memory_order_release);
     }
 

@@ -168,21 +168,21 @@ def test_a_pause_ends_with_the_viewer(root: Root) -> None:
         viewer.socket.close()
 
 
-def test_who_attaches_later_does_not_see_a_pause_that_has_ended(root: Root) -> None:
-    server = root.watch(control=True)
-    viewer = Viewer(server, root)
-    viewer.get(is_iteration)
-    viewer.root = None
-    with Background(root):
+def test_who_attaches_later_does_not_see_a_pause_that_has_ended(any_robot: AnyRobot) -> None:
+    with any_robot.running():
+        viewer = any_robot.viewer()
+        viewer.get(is_iteration)
         viewer.send({"id": 1, "robot": "Lamp", "do": "pause"})
         viewer.get(lambda line: line.get("paused"))
         viewer.socket.close()
-    last = root.iteration
-    for _step in range(5):
-        advance(root)
-    line = Viewer(server, root).get(is_iteration)
-    assert not line["paused"]
-    assert line["iteration"] > last
+        # The robot notices it a moment later.
+        for _attempt in range(100):
+            time.sleep(0.02)
+            viewer = any_robot.viewer()
+            if not viewer.get(is_iteration)["paused"]:
+                return
+            viewer.socket.close()
+    raise AssertionError("it is shown as paused")
 
 
 def test_missed_iterations_are_those_between_two_lines(any_robot: AnyRobot) -> None:
