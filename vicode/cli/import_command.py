@@ -120,7 +120,7 @@ def _import_machines(args: argparse.Namespace) -> int:
 
 
 def _import_scxml(args: argparse.Namespace) -> int:
-    """Write one design; return 1 if the document cannot be expressed, or files would be overwritten."""
+    """Write the designs; return 1 if the document cannot be expressed, or files would be overwritten."""
     from vicode.cli.console import print_findings
     from vicode.importers import ImportedDesign, ImportResult
     from vicode.importers.scxml import ScxmlError, import_scxml
@@ -136,10 +136,12 @@ def _import_scxml(args: argparse.Namespace) -> int:
     except ScxmlError as error:
         print_findings([error.finding(args.agents)], to_stderr=True)
         return 1
-    about = ImportedDesign(
-        component=component, path=f"{snake_case(component)}.yaml", comments=(), file=args.agents, anchors=()
+    names = [design.component for design in converted.project.designs]
+    about = tuple(
+        ImportedDesign(component=each, path=f"{snake_case(each)}.yaml", comments=(), file=args.agents, anchors=())
+        for each in names
     )
-    imported = ImportResult(project=with_layout(converted.project), designs=(about,), comments=())
+    imported = ImportResult(project=with_layout(converted.project), designs=about, comments=())
     texts = {**format_files(imported), **render_event_queue(converted)}
     if _would_overwrite(args, texts):
         return 1
