@@ -107,7 +107,7 @@ class Oracle:
         descriptors = edge.element.get("event", "").split()
         if event is None:
             return not descriptors
-        return any(each == "*" or event == each or event.startswith(f"{each}.") for each in descriptors)
+        return any(each in ("*", event) or event.startswith(f"{each}.") for each in descriptors)
 
     def _select(self, event: str | None) -> list[Edge]:
         enabled: list[Edge] = []
@@ -271,7 +271,7 @@ class RandomDocument:
         else:
             inner = "".join(self._state(each, design, targets, item) for each in plan["children"])
         edges = "".join(self._edge(plan, design, targets, item) for _ in range(self.random.choice([1, 1, 2])))
-        exits = f"<onexit>{self._assign(item)}</onexit>" if self.random.random() < 0.1 and chance else ""
+        exits = f"<onexit>{self._assign(item)}</onexit>" if self.random.random() < 0.01 and chance else ""
         tag = "parallel" if tag == "parallel" else "state"
         return f'<{tag} id="{plan["id"]}">{self._entry(item, chance)}{exits}{edges}{inner}</{tag}>'
 
@@ -286,7 +286,7 @@ class RandomDocument:
 
     def _edge(self, plan: dict, design: dict, targets: list[str], item: str) -> str:
         chance = self.random.random()
-        if self.random.random() < 0.02:
+        if self.random.random() < 0.005:
             targets = [f"s{self.random.randint(2, self.count)}"]
         level = design["depth"] if chance > 0.01 else 0
         event = f"e{level}.{self.random.choice('abc')}"

@@ -76,13 +76,10 @@ def import_scxml(data: bytes, component: str, name: str, *, has_queue: bool = Fa
     variables = (*actions.names.values(), *(each.variable for each in actions.timers.values()))
     classes = DesignNames(frozenset({component, events.name, events.sent_type}))
     names = DesignNames(frozenset({EVENTS_ALIAS, *variables}), KEYWORDS)
-    regions = {
-        root.name: Use(
-            alias=names.allocate(snake_case(root.name)),
-            component=classes.allocate(name_from_text(root.name) or root.name),
-        )
-        for root in [*designs][1:]
-    }
+    regions = dict[str, Use]()
+    for region in (each.name for each in designs if each.caller):
+        text = name_from_text(region) or region
+        regions[region] = Use(alias=names.allocate(snake_case(region)), component=classes.allocate(text))
     aliases, report = {name: use.alias for name, use in regions.items()}, ReportWriter()
     written = [
         _Importer(
@@ -157,7 +154,7 @@ class _Importer:
         is_region = self.document.caller is not None
         if is_region:
             entered = (*self.actions.write(self.document.content("onentry"), self.document), *entered)
-            self.report.add_region(self.document, leaf)
+            self.report.starts[self.document] = leaf
         # A region starts in the iteration of the event that enters it, which its first state must not take.
         is_forced = is_region or bool(leaf.regions) or (self.has_queue and bool(first.actions))
         initial = self._go_to(entered, leaf, START, is_forced=is_forced).to

@@ -91,7 +91,7 @@ class ActionWriter:
         own += (Declaration(name=each.variable, type="float") for each in timers)
         return replace(self, names=names, _declarations=own)
 
-    def declarations(self, outputs: Collection[str] = (), *, of_outputs: bool = False) -> tuple[Declaration, ...]:
+    def declarations(self, outputs: Collection[str], *, of_outputs: bool = False) -> tuple[Declaration, ...]:
         """The variables; or the data in `outputs`, which other designs read."""
         names = {self.names[each] for each in outputs}
         return tuple(each for each in self._declarations if (each.name in names) == of_outputs)

@@ -14,16 +14,13 @@ from vicode.importers.scxml.reader import ScxmlError
 from vicode.importers.scxml.states import STATES, ScxmlState
 from vicode.importers.xml_reader import Element
 
-_NAME = re.compile(r"[A-Za-z_$][\w$]*")
-
 
 def done_event(state: ScxmlState) -> str:
     """The event raised when a final state is entered, or when all regions of a state are done; "" for none."""
     if state.regions:
         are_done = all(any(each.is_final for each in region.children) for region in state.regions)
         return f"{DONE}{state.name}" if are_done else ""
-    is_raised = state.is_final and state.parent is not None and state.parent.name
-    return f"{DONE}{state.parent.name}" if is_raised and state.parent else ""
+    return f"{DONE}{state.parent.name}" if state.is_final and state.parent and state.parent.name else ""
 
 
 def check_regions(states: Sequence[ScxmlState]) -> None:
@@ -38,7 +35,9 @@ def check_regions(states: Sequence[ScxmlState]) -> None:
         for transition in state.transitions():
             _check_target(state, transition, states)
         for region in state.regions:
-            leaving = [each for outer in state.around() for each in outer.transitions() if _target(each)]
+            leaving = [
+                each for outer in state.around() for each in outer.transitions() if each.attributes.get("target")
+            ]
             for inner in (each for each in states if leaving and region in each.around()):
                 _check_exit(inner, leaving, state)
 
@@ -53,7 +52,7 @@ def data_homes(states: Sequence[ScxmlState], names: Iterable[str]) -> tuple[dict
     for state in states:
         for element in _own_elements(state):
             texts = " ".join(element.attributes.get(each, "") for each in ("cond", "expr", "location"))
-            for name in used.keys() & set(_NAME.findall(texts)):
+            for name in used.keys() & set(re.findall(r"[A-Za-z_$][\w$]*", texts)):
                 used[name].setdefault(state.root, element.line)
                 assigned[name] |= {state.root} if element.attributes.get("location") == name else set()
     homes, outputs = {name: list(roots) or [states[0]] for name, roots in used.items()}, set[str]()
@@ -79,12 +78,9 @@ def _own_elements(state: ScxmlState) -> Iterator[Element]:
         waiting = [*waiting[0].children, *waiting[1:]]
 
 
-def _target(transition: Element) -> str:
-    return transition.attributes.get("target", "").strip()
-
-
 def _check_target(state: ScxmlState, transition: Element, states: Sequence[ScxmlState]) -> None:
-    target = next((each for each in states if each.name == _target(transition) != ""), None)
+    name = transition.attributes.get("target", "").strip()
+    target = next((each for each in states if name and each.name == name), None)
     if target is None or (state.root.caller is None and target.root is state.root):
         return
     # A transition of the region itself leaves the parallel state, unless it is internal.

@@ -71,11 +71,11 @@ class _Fact:
 
 @dataclass(slots=True)
 class ReportWriter:
-    """Collects what the transitions of a document became in each state without children."""
+    """Collects what the transitions became in each state without children; `starts` are such states by region."""
 
+    starts: dict[ScxmlState, ScxmlState] = field(default_factory=dict)
     _facts: dict[ScxmlState, list[_Fact]] = field(default_factory=dict)
     _start: tuple[ScxmlState, int] | None = None
-    _regions: dict[ScxmlState, ScxmlState] = field(default_factory=dict)
 
     def add(self, leaf: ScxmlState, owner: ScxmlState, element: Element, reached: Reached | None = None) -> None:
         """Add a transition as it is taken in a state; without `reached`, it has no target."""
@@ -84,10 +84,6 @@ class ReportWriter:
     def add_start(self, leaf: ScxmlState, line: int) -> None:
         """Add that the first state is entered in the second iteration."""
         self._start = (leaf, line)
-
-    def add_region(self, region: ScxmlState, leaf: ScxmlState) -> None:
-        """Add in which state a region starts."""
-        self._regions[region] = leaf
 
     def write(
         self, timers: Sequence[Timer], *, has_queue: bool, has_events: bool
@@ -156,7 +152,7 @@ class ReportWriter:
             state = waiting.pop()
             if id(state) not in seen:
                 seen.add(id(state))
-                waiting += [self._regions[each] for each in state.regions]
+                waiting += [self.starts[each] for each in state.regions]
                 for fact in self._facts.get(state, []):
                     if fact.reached is not None and fact.reached.is_own:
                         waiting.append(fact.reached.end)

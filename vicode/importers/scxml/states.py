@@ -86,19 +86,21 @@ class ScxmlState:
         return list(self.element.find("transition"))
 
 
-def read_states(root: Element, *, has_queue: bool) -> dict[ScxmlState, dict[str, ScxmlState]]:
+_Designs = dict[ScxmlState, dict[str, ScxmlState]]
+
+
+def read_states(root: Element, *, has_queue: bool) -> _Designs:
     """The root of each design, that of the document first, with the states inside by id.
 
     Raises:
         ScxmlError: An element cannot be expressed, or a name is unknown or used twice.
     """
     _refuse_elements(root, {**_REASONS, **({"parallel": _PARALLEL} if has_queue else {"raise": _RAISE})})
-    designs: dict[ScxmlState, dict[str, ScxmlState]] = {}
+    designs: _Designs = {}
     _read(root, None, designs)
     for design, by_name in designs.items():
         if not design.children:
-            what = f"the region '{design.name}'" if design.caller else "the document"
-            raise ScxmlError("S803", f"{what} has no states", design.line)
+            raise ScxmlError("S803", f"{'a region' if design.caller else 'the document'} has no states", design.line)
         for state in (design, *by_name.values()):
             if state.initial and state.initial not in by_name:
                 raise ScxmlError("S803", f"unknown state '{state.initial}'", state.line)
@@ -118,24 +120,20 @@ def _refuse_elements(element: Element, reasons: Mapping[str, tuple[str, str]]) -
 
 
 def _read(
-    element: Element,
-    parent: ScxmlState | None,
-    designs: dict[ScxmlState, dict[str, ScxmlState]],
-    caller: ScxmlState | None = None,
+    element: Element, parent: ScxmlState | None, designs: _Designs, caller: ScxmlState | None = None
 ) -> ScxmlState:
-    count = sum(map(len, designs.values()))
+    count = sum(map(len, designs.values())) + len(designs) - 1
     name = element.attributes.get("id", "") or (f"state_{count + 1}" if parent or caller else "")
     if any(name == root.name or name in by_name for root, by_name in designs.items()):
         raise ScxmlError("S803", f"two states have the id '{name}'", element.line)
     state = ScxmlState(name=name, element=element, parent=parent, caller=caller)
     designs.setdefault(state.root, {}).update({name: state} if parent is not None else {})
-    inside = element.find(*STATES)
     if element.tag == "parallel":
-        state.regions = [_read(child, None, designs, caller=state) for child in inside]
+        state.regions = [_read(child, None, designs, caller=state) for child in element.find(*STATES)]
         if not state.regions:
             raise ScxmlError("S803", "<parallel> without a region", element.line)
     else:
-        state.children = [_read(child, state, designs) for child in inside]
+        state.children = [_read(child, state, designs) for child in element.find(*STATES)]
     state.initial = element.attributes.get("initial", "")
     for block in element.find("initial"):
         for transition in block.find("transition"):
