@@ -73,13 +73,7 @@ def import_scxml(data: bytes, component: str, name: str, *, has_queue: bool = Fa
     inputs = EventInputs.of_descriptors(_descriptors(states, own), _TAKEN_BY_QUEUE if has_queue else _TAKEN)
     events = EventComponent.of_inputs(inputs, component, has_queue=has_queue)
     actions.events = events if has_queue else None
-    variables = (*actions.names.values(), *(each.variable for each in actions.timers.values()))
-    classes = DesignNames(frozenset({component, events.name, events.sent_type}))
-    names = DesignNames(frozenset({EVENTS_ALIAS, *variables}), KEYWORDS)
-    regions = dict[str, Use]()
-    for region in (each.name for each in designs if each.caller):
-        text = name_from_text(region) or region
-        regions[region] = Use(alias=names.allocate(snake_case(region)), component=classes.allocate(text))
+    regions = _name_regions(designs, actions, frozenset({component, events.name, events.sent_type}))
     aliases, report = {name: use.alias for name, use in regions.items()}, ReportWriter()
     written = [
         _Importer(
@@ -105,6 +99,19 @@ def import_scxml(data: bytes, component: str, name: str, *, has_queue: bool = Fa
     timers = tuple(actions.timers.values())
     transitions, notes = report.write(timers, has_queue=events.has_queue, has_events=bool(inputs.names))
     return ScxmlImport(project=project, transitions=transitions, notes=notes, events=events)
+
+
+def _name_regions(roots: Iterable[ScxmlState], actions: ActionWriter, classes: frozenset[str]) -> dict[str, Use]:
+    variables = (*actions.names.values(), *(each.variable for each in actions.timers.values()))
+    components, aliases, regions = (
+        DesignNames(classes),
+        DesignNames(frozenset({EVENTS_ALIAS, *variables}), KEYWORDS),
+        {},
+    )
+    for name in (each.name for each in roots if each.caller):
+        text = name_from_text(name) or name
+        regions[name] = Use(alias=aliases.allocate(snake_case(name)), component=components.allocate(text))
+    return regions
 
 
 def _check(project: Project, design: Design, line: int) -> None:
