@@ -94,8 +94,7 @@ def import_scxml(data: bytes, component: str, name: str, *, has_queue: bool = Fa
         components=events.interfaces(),
         designs=tuple(written),
     )
-    for design in written:
-        _check(project, design, states[0].line)
+    _check(project, states[0].line)
     timers = tuple(actions.timers.values())
     transitions, notes = report.write(timers, has_queue=events.has_queue, has_events=bool(inputs.names))
     return ScxmlImport(project=project, transitions=transitions, notes=notes, events=events)
@@ -114,12 +113,12 @@ def _name_regions(roots: Iterable[ScxmlState], actions: ActionWriter, classes: f
     return regions
 
 
-def _check(project: Project, design: Design, line: int) -> None:
-    scope = build_scope(project, design)
-    types = {each.name: each.type for each in design.variables}
-    for each in iter_expressions(design):
-        expected = each.expected or types.get(str(each.path[-1]), "")
-        check_expression(each.text, scope, expected, line)
+def _check(project: Project, line: int) -> None:
+    for design in project.designs:
+        scope = build_scope(project, design)
+        types = {each.name: each.type for each in design.variables}
+        for each in iter_expressions(design):
+            check_expression(each.text, scope, each.expected or types.get(str(each.path[-1]), ""), line)
 
 
 def _descriptors(states: Iterable[ScxmlState], own: Container[str]) -> Iterator[str]:
