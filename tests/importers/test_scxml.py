@@ -54,7 +54,7 @@ def test_a_flat_machine_is_a_design_with_the_same_states(tmp_path: Path, capsys:
 @pytest.mark.parametrize(
     ("body", "code", "line", "words"),
     [
-        ("<parallel id='p'/>", "S802", 2, "one state at a time"),
+        ("<parallel id='p'/>", "S803", 2, "without a region"),
         ("<state id='a'>\n<history id='h'/></state>", "S802", 3, "<history>"),
         ("<state id='a'>\n<onentry><raise event='e'/></onentry></state>", "S802", 3, "no queue of events"),
         ("<state id='a'>\n<onexit><cancel sendid='x'/></onexit></state>", "S802", 3, "<cancel>"),
@@ -104,7 +104,7 @@ def test_the_command_prints_file_line_and_reason(tmp_path: Path, capsys: pytest.
     (tmp_path / "two.scxml").write_text(f"{HEAD}<parallel/></scxml>", encoding="utf-8")
     assert main(["import", str(tmp_path / "two.scxml"), "--out", str(tmp_path / "out")]) == 1
     said = capsys.readouterr().err
-    assert "two.scxml:2:1: error S802 not-in-designs: <parallel>: a design is in one state at a time" in said
+    assert "two.scxml:2:1: error S803 bad-scxml: <parallel> without a region" in said
     assert not (tmp_path / "out").exists()
 
 

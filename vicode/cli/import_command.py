@@ -120,7 +120,7 @@ def _import_machines(args: argparse.Namespace) -> int:
 
 
 def _import_scxml(args: argparse.Namespace) -> int:
-    """Write one design; return 1 if the document cannot be expressed, or files would be overwritten."""
+    """Write the designs; return 1 if the document cannot be expressed, or files would be overwritten."""
     from vicode.cli.console import print_findings
     from vicode.importers import ImportedDesign, ImportResult
     from vicode.importers.design_names import design_files
@@ -137,9 +137,12 @@ def _import_scxml(args: argparse.Namespace) -> int:
     except ScxmlError as error:
         print_findings([error.finding(args.agents)], to_stderr=True)
         return 1
-    (path,) = design_files([snake_case(component)])
-    about = ImportedDesign(component=component, path=path, comments=(), file=args.agents, anchors=())
-    imported = ImportResult(project=with_layout(converted.project), designs=(about,), comments=())
+    names = [design.component for design in converted.project.designs]
+    paths = zip(names, design_files(map(snake_case, names)), strict=True)
+    about = tuple(
+        ImportedDesign(component=name, path=path, comments=(), file=args.agents, anchors=()) for name, path in paths
+    )
+    imported = ImportResult(project=with_layout(converted.project), designs=about, comments=())
     texts = {**format_files(imported), **render_event_queue(converted)}
     if _would_overwrite(args, texts):
         return 1

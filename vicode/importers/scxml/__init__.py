@@ -1,20 +1,22 @@
-"""Imports SCXML: states inside states become states of one design."""
+"""Imports SCXML: states inside states become states of one design, and regions of <parallel> designs of their own."""
 
 import re
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Container, Iterable, Iterator
+from dataclasses import dataclass, field, replace
 
 from vicode.importers.design_names import DesignNames
 from vicode.importers.scxml.actions import ActionWriter
 from vicode.importers.scxml.ecmascript import check_expression, translate
-from vicode.importers.scxml.events import DONE, KEYWORDS, EventInputs, matches, plain
+from vicode.importers.scxml.events import KEYWORDS, EventInputs, matches, plain
 from vicode.importers.scxml.queue import EVENTS_ALIAS, EventComponent
 from vicode.importers.scxml.reader import ScxmlError, read_scxml
+from vicode.importers.scxml.regions import check_regions, data_homes, done_event
 from vicode.importers.scxml.report import START, Exactness, Reached, ReportWriter, TransitionReport
 from vicode.importers.scxml.states import ScxmlState, read_states
 from vicode.importers.xml_reader import Element
-from vicode.model.design import Action, Decision, Design, Guard, State, Stay, Transition
+from vicode.model.design import Action, Call, Decision, Design, Guard, State, Stay, Transition, Use
 from vicode.model.expressions import build_scope
+from vicode.model.names import name_from_text, snake_case
 from vicode.model.project import Project
 from vicode.model.traversal import iter_expressions
 
@@ -34,7 +36,7 @@ _TAKEN_BY_QUEUE = _TAKEN | {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScxmlImport:
-    """A project with one design.
+    """A project: the design of the document, then those of the regions of <parallel>.
 
     Attributes:
         transitions: How exact the transitions of the document are, in document order.
@@ -49,11 +51,11 @@ class ScxmlImport:
 
 
 def import_scxml(data: bytes, component: str, name: str, *, has_queue: bool = False) -> ScxmlImport:
-    """Convert a document to a project with one design.
+    """Convert a document to a project.
 
-    A state of the design stands for a state of the document without children; the transitions of the states around it
-    follow its own. Entering and leaving states around it, and the content of transitions, are actions of a state in
-    between. Events are inputs.
+    A state of a design stands for a state of the document without children, or for a parallel state, which calls the
+    designs of its regions; the transitions of the states around it follow its own. Entering and leaving states around
+    it, and the content of transitions, are actions of a state in between. Events are inputs.
 
     Args:
         data: The content of the file.
@@ -64,92 +66,134 @@ def import_scxml(data: bytes, component: str, name: str, *, has_queue: bool = Fa
     Raises:
         ScxmlError: The document cannot be expressed as a design.
     """
-    document, by_name = read_states(read_scxml(data), has_queue=has_queue)
-    return _Importer(document=document, by_name=by_name, has_queue=has_queue).convert(component, name)
+    designs = read_states(read_scxml(data), has_queue=has_queue)
+    states = [state for root, by_name in designs.items() for state in (root, *by_name.values())]
+    check_regions(states)
+    actions = ActionWriter.of_document(states, has_queue=has_queue)
+    homes, outputs = data_homes(states, actions.names)
+    own = set() if has_queue else {*actions.timers, *filter(None, map(done_event, states))}
+    inputs = EventInputs.of_descriptors(_descriptors(states, own), _TAKEN_BY_QUEUE if has_queue else _TAKEN)
+    events = EventComponent.of_inputs(inputs, component, has_queue=has_queue)
+    actions.events = events if has_queue else None
+    regions = _name_regions(designs, actions, frozenset({component, events.name, events.sent_type}))
+    aliases, report = {name: use.alias for name, use in regions.items()}, ReportWriter()
+    written = [
+        _Importer(
+            document=root,
+            by_name=by_name,
+            actions=actions.for_design(root, homes, aliases),
+            events=events,
+            report=report,
+            regions=regions,
+            outputs=outputs,
+        ).convert(regions[root.name].component if root.caller else component)
+        for root, by_name in designs.items()
+    ]
+    project = Project(
+        name=name,
+        languages=("python", "cpp"),
+        enumerations=events.enumerations(),
+        components=events.interfaces(),
+        designs=tuple(written),
+    )
+    _check(project, states[0].line)
+    timers = tuple(actions.timers.values())
+    transitions, notes = report.write(timers, has_queue=events.has_queue, has_events=bool(inputs.names))
+    notes = tuple(sorted({*notes, *states[0].element.unread(_KNOWN)}))
+    return ScxmlImport(project=project, transitions=transitions, notes=notes, events=events)
+
+
+def _name_regions(roots: Iterable[ScxmlState], actions: ActionWriter, classes: frozenset[str]) -> dict[str, Use]:
+    variables = (*actions.names.values(), *(each.variable for each in actions.timers.values()))
+    components, aliases, regions = (
+        DesignNames(classes),
+        DesignNames(frozenset({EVENTS_ALIAS, *variables}), KEYWORDS),
+        {},
+    )
+    for name in (each.name for each in roots if each.caller):
+        text = name_from_text(name) or name
+        regions[name] = Use(alias=aliases.allocate(snake_case(name)), component=components.allocate(text))
+    return regions
+
+
+def _check(project: Project, line: int) -> None:
+    for design in project.designs:
+        scope = build_scope(project, design)
+        types = {each.name: each.type for each in design.variables}
+        for each in iter_expressions(design):
+            check_expression(each.text, scope, each.expected or types.get(str(each.path[-1]), ""), line)
+
+
+def _descriptors(states: Iterable[ScxmlState], own: Container[str]) -> Iterator[str]:
+    """The descriptors of all transitions; without a queue, except the events that the document itself causes."""
+    for transition in (each for state in states for each in state.transitions()):
+        for written in transition.get("event", "").split():
+            if not _EVENT.fullmatch(written):
+                raise ScxmlError("S803", f"'{written}' is not the name of an event", transition.line)
+            if plain(written) not in own:
+                yield written
 
 
 @dataclass(slots=True, kw_only=True)
 class _Importer:
+    """Writes the design of `document`, which is the document or a region. `regions` are the designs by state."""
+
     document: ScxmlState
     by_name: dict[str, ScxmlState]
-    has_queue: bool
+    actions: ActionWriter
+    events: EventComponent
+    report: ReportWriter
+    regions: dict[str, Use]
+    outputs: set[str]
     names: DesignNames = field(default_factory=lambda: DesignNames(keywords=KEYWORDS))
-    actions: ActionWriter = field(init=False)
-    events: EventComponent = field(init=False)
-    report: ReportWriter = field(default_factory=ReportWriter)
     _states: dict[str, str] = field(default_factory=dict)
     _between: dict[tuple[tuple[Action, ...], str], State] = field(default_factory=dict)
 
-    def __post_init__(self) -> None:
-        states = tuple(self.by_name.values())
-        self.actions = ActionWriter.of_document(self.document, states, has_queue=self.has_queue)
+    @property
+    def has_queue(self) -> bool:
+        return self.events.has_queue
 
-    def convert(self, component: str, name: str) -> ScxmlImport:
+    def convert(self, component: str) -> Design:
         leaves = [state for state in self.by_name.values() if state.is_atomic]
         for leaf in leaves:
             self._states[leaf.name] = self.names.allocate(leaf.name)
-        inputs = EventInputs.of_descriptors(self._descriptors(), _TAKEN_BY_QUEUE if self.has_queue else _TAKEN)
-        self.events = EventComponent.of_inputs(inputs, component, has_queue=self.has_queue)
-        self.actions.events = self.events if self.has_queue else None
-        self.has_queue = self.events.has_queue
         states = [self._leaf(leaf) for leaf in leaves]
         leaf, entered = self._enter(self.document)
         first = next(state for state in states if state.name == self._states[leaf.name])
-        initial = self._go_to(entered, leaf, START, is_forced=self.has_queue and bool(first.actions)).to
+        is_region = self.document.caller is not None
+        if is_region:
+            entered = (*self.actions.write(self.document.content("onentry"), self.document), *entered)
+            self.report.starts[self.document] = leaf
+        # A region starts in the iteration of the event that enters it, which its first state must not take.
+        is_forced = is_region or bool(leaf.regions) or (self.has_queue and bool(first.actions))
+        initial = self._go_to(entered, leaf, START, is_forced=is_forced).to
+        if initial != self._states[leaf.name] and not is_region:
+            self.report.add_start(leaf, self.document.line)
+        called = tuple(self.regions[region.name] for state in leaves for region in state.regions)
         design = Design(
             component=component,
-            uses=self.events.uses(),
-            variables=self.actions.declarations(),
+            uses=(*self.events.uses(), *called),
+            outputs=self.actions.declarations(self.outputs, of_outputs=True),
+            variables=self.actions.declarations(self.outputs),
             initial=initial,
             states=tuple(self.events.number_sent([*states, *self._between.values()])),
         )
-        project = Project(
-            name=name,
-            languages=("python", "cpp"),
-            enumerations=self.events.enumerations(),
-            components=self.events.interfaces(),
-            designs=(design,),
-        )
-        self._check(project, design)
-        if initial != self._states[leaf.name]:
-            self.report.add_start(leaf, self.document.line)
-        timers = tuple(self.actions.timers.values())
-        transitions, notes = self.report.write(timers, has_queue=self.has_queue, has_events=bool(inputs.names))
-        notes = tuple(sorted({*notes, *self.document.element.unread(_KNOWN)}))
-        return ScxmlImport(project=project, transitions=transitions, notes=notes, events=self.events)
-
-    def _check(self, project: Project, design: Design) -> None:
-        scope = build_scope(project, design)
-        types = {each.name: each.type for each in design.variables}
-        for each in iter_expressions(design):
-            expected = each.expected or types.get(str(each.path[-1]), "")
-            check_expression(each.text, scope, expected, self.document.line)
-
-    def _descriptors(self) -> Iterator[str]:
-        """The descriptors of all transitions; without a queue, except the events that the document itself causes."""
-        own = (
-            set() if self.has_queue else {*self.actions.timers, *filter(None, map(_done_event, self.by_name.values()))}
-        )
-        for state in (self.document, *self.by_name.values()):
-            for transition in state.transitions():
-                for written in transition.get("event", "").split():
-                    if not _EVENT.fullmatch(written):
-                        raise ScxmlError("S803", f"'{written}' is not the name of an event", transition.line)
-                    if plain(written) not in own:
-                        yield written
+        reads_events = any(f"{EVENTS_ALIAS}." in each.text for each in iter_expressions(design))
+        return design if reads_events or not is_region else replace(design, uses=called)
 
     def _leaf(self, leaf: ScxmlState) -> State:
         is_end = leaf.is_final and leaf.parent is self.document
-        decided = [] if is_end else list(self._decisions(leaf))
+        decided = [] if is_end and self.document.caller is None else list(self._decisions(leaf))
         enter, actions = self.actions.write(leaf.content("onentry"), leaf), list[Action]()
         if self.has_queue:
-            enter += tuple(self.events.sending(_done_event(leaf), internal=True))
+            enter += tuple(self.events.sending(done_event(leaf), internal=True))
             first = [decision.guard.when or "true" for decision, is_eventless in decided if is_eventless]
             actions += [self.events.holding(_any_of(first))] if first else []
         return State(
             name=self._states[leaf.name],
             doc=f"In {leaf.parent.name}." if leaf.parent is not None and leaf.parent is not self.document else "",
             final=is_end,
+            modulates=tuple(Call(alias=self.regions[each.name].alias) for each in leaf.regions),
             requires=(EVENTS_ALIAS,) if self.has_queue and not is_end else (),
             enter=enter,
             actions=tuple(actions),
@@ -178,14 +222,14 @@ class _Importer:
     def _is_own(self, leaf: ScxmlState, transition: Element) -> bool:
         """Whether SCXML takes a transition before the next event from outside."""
         descriptors = transition.get("event", "").split()
-        own = [*self.actions.sent_at_once, *filter(None, [_done_event(leaf)])]
+        own = [*self.actions.sent_at_once, *filter(None, [done_event(leaf)])]
         return not descriptors or any(matches(each, event) for each in descriptors for event in own)
 
     def _rank(self, leaf: ScxmlState, transition: Element) -> int:
         descriptors = transition.get("event", "").split()
         if not descriptors:
             return 0
-        done = "" if self.has_queue else _done_event(leaf)
+        done = "" if self.has_queue else done_event(leaf)
         return 1 if done and any(matches(each, done) for each in descriptors) else 2
 
     def _guard(self, leaf: ScxmlState, transition: Element, used: set[str]) -> Guard | None:
@@ -193,7 +237,7 @@ class _Importer:
 
         `used` are events of the document itself that a transition without target has taken.
         """
-        inside = {state.name for state in leaf.ancestors()}
+        inside = leaf.active()
         events, after, terms = transition.get("event", "").split(), "", list[str]()
         if events:
             own = {} if self.has_queue else self._own_events(events, leaf, used)
@@ -221,7 +265,8 @@ class _Importer:
     def _own_events(self, descriptors: list[str], leaf: ScxmlState, used: set[str]) -> dict[str, str]:
         """The events of the document itself that may occur in a state, with their conditions."""
         inside = list(leaf.ancestors())
-        conditions = {_done_event(leaf): "true"} if _done_event(leaf) else {}
+        done = " and ".join(f"done({self.regions[each.name].alias})" for each in leaf.regions) or "true"
+        conditions = {done_event(leaf): done} if done_event(leaf) else {}
         for event, timer in self.actions.timers.items():
             if timer.state is leaf:
                 conditions[event] = f"{_AFTER}{timer.seconds}"
@@ -301,12 +346,6 @@ class _Importer:
                 transitions=(Transition(to=target),),
             )
         return Transition(to=self._between[key].name)
-
-
-def _done_event(state: ScxmlState) -> str:
-    """The event that is raised when a state is entered; "" for none."""
-    parent = state.parent
-    return f"{DONE}{parent.name}" if state.is_final and parent is not None and parent.parent is not None else ""
 
 
 def _any_of(conditions: list[str]) -> str:

@@ -1,15 +1,15 @@
 """Executable content of SCXML as actions of a design, its data as variables, and delayed events as timers."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from vicode.importers.design_names import DesignNames
 from vicode.importers.scxml.ecmascript import translate
 from vicode.importers.scxml.events import KEYWORDS, matches
 from vicode.importers.scxml.queue import EVENTS_ALIAS, EventComponent
 from vicode.importers.scxml.reader import ScxmlError
-from vicode.importers.scxml.states import ScxmlState
+from vicode.importers.scxml.states import STATES, ScxmlState
 from vicode.importers.xml_reader import Element
 from vicode.model.design import Action, Assign, Declaration
 
@@ -53,7 +53,7 @@ class ActionWriter:
     _send_ids: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
-    def of_document(cls, document: ScxmlState, states: Sequence[ScxmlState], *, has_queue: bool) -> "ActionWriter":
+    def of_document(cls, states: Sequence[ScxmlState], *, has_queue: bool) -> "ActionWriter":
         """Declare the data of a document, and its timers unless delayed events are sent to a queue.
 
         Raises:
@@ -61,7 +61,7 @@ class ActionWriter:
         """
         allocator = DesignNames(frozenset({EVENTS_ALIAS}), KEYWORDS)
         names, declarations = dict[str, str](), list[Declaration]()
-        for state in (document, *states):
+        for state in states:
             for item in (data for model in state.element.find("datamodel") for data in model.find("data")):
                 name = item.get("id", "")
                 text = translate(item.get("expr", "0"), {}, lambda _name: False, item.line)
@@ -70,17 +70,31 @@ class ActionWriter:
                 initial = "" if text in ("0", "false") else text
                 declarations.append(Declaration(name=names[name], type=type_, initial=initial))
         if has_queue:
-            sent = [each for state in (document, *states) for each in _iter_sends(state.element)]
+            sent = [each for state in states for each in _iter_sends(state.element)]
             at_once = frozenset(_event_name(each) for each in sent if "delay" not in each.attributes)
             ids = _read_send_ids(each for each in sent if each.tag == "send")
             return cls(names=names, timers={}, sent_at_once=at_once, _declarations=declarations, _send_ids=ids)
         timers = _read_timers(states, allocator)
-        variables = [each.variable for each in timers.values() if not each.state.is_atomic]
-        declarations += (Declaration(name=variable, type="float") for variable in variables)
         return cls(names=names, timers=timers, _declarations=declarations)
 
-    def declarations(self) -> tuple[Declaration, ...]:
-        return tuple(self._declarations)
+    def for_design(
+        self, root: ScxmlState, homes: Mapping[str, Sequence[ScxmlState]], aliases: Mapping[str, str]
+    ) -> "ActionWriter":
+        """The writer of one design; `homes` are the designs that declare data, `aliases` those of regions."""
+        declared = {each.name: each for each in self._declarations}
+        names = {
+            name: own if root in homes[name] else f"{aliases.get(homes[name][0].name, '')}.{own}"
+            for name, own in self.names.items()
+        }
+        own = [declared[each] for each in names.values() if each in declared]
+        timers = (each for each in self.timers.values() if each.state.root is root and not each.state.is_atomic)
+        own += (Declaration(name=each.variable, type="float") for each in timers)
+        return replace(self, names=names, _declarations=own)
+
+    def declarations(self, outputs: Collection[str], *, of_outputs: bool = False) -> tuple[Declaration, ...]:
+        """The variables; or the data in `outputs`, which other designs read."""
+        names = {self.names[each] for each in outputs}
+        return tuple(each for each in self._declarations if (each.name in names) == of_outputs)
 
     def write(self, content: Iterable[Element], owner: ScxmlState) -> tuple[Action, ...]:
         """The actions of a block.
@@ -136,8 +150,7 @@ class ActionWriter:
         return self.names[location], self._translate(value, owner, element.line)
 
     def _translate(self, text: str, owner: ScxmlState, line: int) -> str:
-        inside = {state.name for state in owner.ancestors()}
-        return translate(text, self.names, inside.__contains__, line)
+        return translate(text, self.names, owner.active().__contains__, line)
 
     def _choice(self, element: Element, owner: ScxmlState) -> Iterator[Action]:
         """An <if> as assignments of conditional expressions; no branch may change what the conditions read."""
@@ -154,7 +167,7 @@ class ActionWriter:
                 written.append((*self._assignment(child, owner), held))
             elif child.tag != "log":
                 raise ScxmlError("S802", f"<{child.tag}> inside <if>: only <assign> is translated", child.line)
-        read = set(re.findall(r"\w+", " ".join(tests)))
+        read = set(re.findall(r"[\w.]+", " ".join(tests)))
         for name, value, test in written:
             if name in read and len(written) > 1:
                 reason = f"<if> assigns '{name}', which its conditions read"
@@ -233,7 +246,7 @@ def _iter_sends(element: Element) -> Iterator[Element]:
     for child in element.children:
         if child.tag in ("send", "raise"):
             yield child
-        elif child.tag not in ("state", "final"):
+        elif child.tag not in STATES:
             yield from _iter_sends(child)
 
 

@@ -20,7 +20,7 @@ _NAMES = {
     "Math.PI": "3.141592653589793",
     **{f"Math.{name}": name for name in (*_MATH, "exp", "log", "sign", "hypot")},
 }
-_IN = re.compile(r"\bIn\s*\(\s*(?:'([^']*)'|\"([^\"]*)\")\s*\)")
+IN_STATE = re.compile(r"\bIn\s*\(\s*(?:'([^']*)'|\"([^\"]*)\")\s*\)")
 _REMAINDER = "the remainder of negative numbers differs from that of designs"
 
 
@@ -30,7 +30,7 @@ def translate(text: str, names: Mapping[str, str], is_in: Callable[[str], bool],
     Raises:
         ScxmlError: A part has no counterpart.
     """
-    text = _IN.sub(lambda found: str(is_in(found[1] or found[2] or "")).lower(), text)
+    text = IN_STATE.sub(lambda found: str(is_in(found[1] or found[2] or "")).lower(), text)
     parts, place = list[str](), 0
     while place < len(text):
         found = _TOKEN.match(text, place)

@@ -71,8 +71,9 @@ class _Fact:
 
 @dataclass(slots=True)
 class ReportWriter:
-    """Collects what the transitions of a document became in each state without children."""
+    """Collects what the transitions became in each state without children; `starts` are such states by region."""
 
+    starts: dict[ScxmlState, ScxmlState] = field(default_factory=dict)
     _facts: dict[ScxmlState, list[_Fact]] = field(default_factory=dict)
     _start: tuple[ScxmlState, int] | None = None
 
@@ -125,6 +126,8 @@ class ReportWriter:
         reached = fact.reached
         if reached is None or not (reached.is_later or reached.is_own):
             return Exactness.EXACT, ""
+        if parallel := self._left_with(fact.owner):
+            return Exactness.DIFFERENT, f"'{reached.end.name}' is not entered if '{parallel}' is left in this iteration"
         lost = "" if has_queue else _lose(self._taken_in(reached.end, timers), "in this iteration")
         reasons = (
             "it takes an iteration of its own" if reached.is_own else "",
@@ -132,6 +135,14 @@ class ReportWriter:
             lost,
         )
         return Exactness.LOSSY if lost else Exactness.LATER, "; ".join(filter(None, reasons))
+
+    def _left_with(self, state: ScxmlState) -> str:
+        """The parallel state that is left while a region of it is on its way; "" if there is none."""
+        for each in state.around():
+            left = (fact for fact in self._facts.get(each, ()) if each.regions and each is not state and fact.reached)
+            if any(not (fact.events and fact.reached and fact.reached.is_own) for fact in left):
+                return each.name
+        return ""
 
     def _taken_in(self, leaf: ScxmlState, timers: Sequence[Timer]) -> list[str]:
         """The events from outside that SCXML takes in a state, or in those it leads to without such an event."""
@@ -141,6 +152,7 @@ class ReportWriter:
             state = waiting.pop()
             if id(state) not in seen:
                 seen.add(id(state))
+                waiting += [self.starts[each] for each in state.regions]
                 for fact in self._facts.get(state, []):
                     if fact.reached is not None and fact.reached.is_own:
                         waiting.append(fact.reached.end)
@@ -174,7 +186,7 @@ class ReportWriter:
         seen, waiting = set[int](), [fact.reached.end for fact in exits if fact.reached]
         while waiting:
             leaf = waiting.pop()
-            if timer.state in [*leaf.ancestors()]:
+            if timer.state in [*leaf.ancestors()] or leaf in timer.state.around():
                 return True
             if id(leaf) not in seen:
                 seen.add(id(leaf))
@@ -183,7 +195,7 @@ class ReportWriter:
 
     def _exits(self, state: ScxmlState) -> Iterator[_Fact]:
         for leaf, facts in self._facts.items():
-            if state in [*leaf.ancestors()]:
+            if state in [*leaf.ancestors()] or leaf in state.around():
                 yield from (each for each in facts if each.reached and state not in [*each.reached.domain.ancestors()])
 
 

@@ -6,9 +6,8 @@ from dataclasses import dataclass, field
 from vicode.importers.scxml.reader import ScxmlError
 from vicode.importers.xml_reader import Element
 
-_STATES = ("state", "final")
+STATES = ("state", "final", "parallel")
 _REASONS = {
-    "parallel": ("a design is in one state at a time", "make a component of each region, and call them from a state"),
     "history": ("a design does not store the state that was left", "use a component with resume: true"),
     "invoke": ("designs start no other services", "use a separate component, and call it in the state"),
     "script": ("scripts are not translated", "use <assign>"),
@@ -18,17 +17,24 @@ _REASONS = {
     "param": ("events have no data", "use an input of the design"),
     "content": ("events have no data", "use an input of the design"),
 }
+_PARALLEL = ("with an event queue, a design is in one state at a time", "import it without --event-queue")
 _RAISE = ("a design reads inputs and has no queue of events", "use --event-queue")
 _EXECUTABLE = ("assign", "if", "elseif", "else", "log", "send", "cancel", "raise")
 _KNOWN = {
-    *("scxml", "state", "final", "initial", "transition", "onentry", "onexit", "datamodel", "data"),
+    *("scxml", *STATES, "initial", "transition", "onentry", "onexit", "datamodel", "data"),
     *_EXECUTABLE,
 }
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class ScxmlState:
-    """A state; the root is the document. `initial` is the target of the initial transition, with its content."""
+    """A state of a design; the root is the document, or a region of <parallel>, which is a design of its own.
+
+    Attributes:
+        initial: The target of the initial transition, with its content.
+        regions: Of a parallel state, which has no children, the roots of the designs that it calls.
+        caller: Of the root of a region, the parallel state.
+    """
 
     name: str
     element: Element
@@ -36,6 +42,8 @@ class ScxmlState:
     children: list["ScxmlState"] = field(default_factory=list)
     initial: str = ""
     initial_content: list[Element] = field(default_factory=list)
+    regions: list["ScxmlState"] = field(default_factory=list)
+    caller: "ScxmlState | None" = None
 
     @property
     def is_atomic(self) -> bool:
@@ -50,11 +58,25 @@ class ScxmlState:
         return self.element.line
 
     def ancestors(self) -> Iterator["ScxmlState"]:
-        """The state itself, its parent, and so on up to the document."""
+        """The state itself, its parent, and so on up to the root."""
         state: ScxmlState | None = self
         while state is not None:
             yield state
             state = state.parent
+
+    @property
+    def root(self) -> "ScxmlState":
+        return [*self.ancestors()][-1]
+
+    def around(self) -> Iterator["ScxmlState"]:
+        """The state itself and those around it, also in the designs that call its own."""
+        yield from self.ancestors()
+        if self.root.caller is not None:
+            yield from self.root.caller.around()
+
+    def active(self) -> set[str]:
+        """The names of the states that are active whenever this one is."""
+        return {each.name for state in self.around() for each in (state, *state.regions)}
 
     def content(self, tag: str) -> list[Element]:
         """The executable content of all blocks of a kind, `onentry` or `onexit`."""
@@ -64,23 +86,27 @@ class ScxmlState:
         return list(self.element.find("transition"))
 
 
-def read_states(root: Element, *, has_queue: bool) -> tuple[ScxmlState, dict[str, ScxmlState]]:
-    """The tree of states, and all states by id.
+_Designs = dict[ScxmlState, dict[str, ScxmlState]]
+
+
+def read_states(root: Element, *, has_queue: bool) -> _Designs:
+    """The root of each design, that of the document first, with the states inside by id.
 
     Raises:
         ScxmlError: An element cannot be expressed, or a name is unknown or used twice.
     """
-    _refuse_elements(root, _REASONS if has_queue else {**_REASONS, "raise": _RAISE})
-    by_name: dict[str, ScxmlState] = {}
-    document = _read(root, None, by_name)
-    if not document.children:
-        raise ScxmlError("S803", "the document has no states", root.line)
-    for state in (document, *by_name.values()):
-        if state.initial and state.initial not in by_name:
-            raise ScxmlError("S803", f"unknown state '{state.initial}'", state.line)
-        if state.initial and state not in by_name[state.initial].ancestors():
-            raise ScxmlError("S803", f"the initial state '{state.initial}' is not inside", state.line)
-    return document, by_name
+    _refuse_elements(root, {**_REASONS, **({"parallel": _PARALLEL} if has_queue else {"raise": _RAISE})})
+    designs: _Designs = {}
+    _read(root, None, designs)
+    for design, by_name in designs.items():
+        if not design.children:
+            raise ScxmlError("S803", f"{'a region' if design.caller else 'the document'} has no states", design.line)
+        for state in (design, *by_name.values()):
+            if state.initial and state.initial not in by_name:
+                raise ScxmlError("S803", f"unknown state '{state.initial}'", state.line)
+            if state.initial and state not in by_name[state.initial].ancestors():
+                raise ScxmlError("S803", f"the initial state '{state.initial}' is not inside", state.line)
+    return designs
 
 
 def _refuse_elements(element: Element, reasons: Mapping[str, tuple[str, str]]) -> None:
@@ -93,14 +119,21 @@ def _refuse_elements(element: Element, reasons: Mapping[str, tuple[str, str]]) -
         _refuse_elements(child, reasons)
 
 
-def _read(element: Element, parent: ScxmlState | None, by_name: dict[str, ScxmlState]) -> ScxmlState:
-    name = element.get("id", "") or (f"state_{len(by_name) + 1}" if parent else "")
-    if name in by_name:
+def _read(
+    element: Element, parent: ScxmlState | None, designs: _Designs, caller: ScxmlState | None = None
+) -> ScxmlState:
+    count = sum(map(len, designs.values())) + len(designs) - 1
+    name = element.get("id", "") or (f"state_{count + 1}" if parent or caller else "")
+    if any(name == root.name or name in by_name for root, by_name in designs.items()):
         raise ScxmlError("S803", f"two states have the id '{name}'", element.line)
-    state = ScxmlState(name=name, element=element, parent=parent)
-    if parent is not None:
-        by_name[name] = state
-    state.children = [_read(child, state, by_name) for child in element.find(*_STATES)]
+    state = ScxmlState(name=name, element=element, parent=parent, caller=caller)
+    designs.setdefault(state.root, {}).update({name: state} if parent is not None else {})
+    if element.tag == "parallel":
+        state.regions = [_read(child, None, designs, caller=state) for child in element.find(*STATES)]
+        if not state.regions:
+            raise ScxmlError("S803", "<parallel> without a region", element.line)
+    else:
+        state.children = [_read(child, state, designs) for child in element.find(*STATES)]
     state.initial = element.get("initial", "")
     for block in element.find("initial"):
         for transition in block.find("transition"):
