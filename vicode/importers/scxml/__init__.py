@@ -97,9 +97,8 @@ def import_scxml(data: bytes, component: str, name: str, *, has_queue: bool = Fa
         designs=tuple(written),
     )
     _check(project, states[0].line)
-    timers = tuple(actions.timers.values())
-    transitions, notes = report.write(timers, has_queue=events.has_queue, has_events=bool(inputs.names))
-    notes = tuple(sorted({*notes, *states[0].element.unread(_KNOWN)}))
+    transitions, found = report.write([*actions.timers.values()], has_queue=has_queue, has_events=bool(inputs.names))
+    notes = tuple(sorted({*found, *states[0].element.unread(_KNOWN)}))
     return ScxmlImport(project=project, transitions=transitions, notes=notes, events=events)
 
 
