@@ -1,7 +1,9 @@
 """New latches, interrupts, steps, layers and competences (`vicode.model.lowering`)."""
 
+from dataclasses import replace
+
 from vicode.findings import DesignPath
-from vicode.model.design import Competence, CompetenceStep, Design, Interrupt, Latch, Layer
+from vicode.model.design import Competence, CompetenceStep, Design, Interrupt, Latch, Layer, State
 from vicode.model.edits import unique_name
 from vicode.model.lowering import COMPETENCE_STATES, derived_variables, lift_design
 from vicode.model.names import is_valid_name
@@ -13,7 +15,7 @@ def new_construct(design: Design, path: DesignPath, name: str) -> Construct | No
 
     It has this name if it is free; an interrupt makes the state of this name active if that is possible.
     """
-    has_states = bool(lift_design(design).states)
+    has_states = lift_design(design).states and not has_empty_state(design)
     match path[-1]:
         case "latches":
             return Latch(name=_free_name(design, name, "latch"))
@@ -29,6 +31,15 @@ def new_construct(design: Design, path: DesignPath, name: str) -> Construct | No
             return Competence(goal="false")
         case _:
             return None
+
+
+def has_empty_state(design: Design) -> bool:
+    """Whether the only written state is an empty one, as in a new design; a competence or layers may replace it."""
+    match lift_design(design).states:
+        case (state,):
+            return replace(state, at=None) == State(name=state.name) and not design.common.transitions
+        case _:
+            return False
 
 
 def _free_name(design: Design, wanted: str, base: str) -> str:

@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+import yaml
 
 from tests.editor.inspector.test_form_edits import edit
 from tests.editor.session.conftest import open_design
@@ -275,3 +276,17 @@ def test_a_renamed_step_is_the_same_state() -> None:
     old = opened(COMPETENCE).design
     new = rename_state(rename_state(old, "Walk", "Go"), "Stop", "Halt")
     assert find_renamed_states(old, new) == {"Walk": "Go", "Stop": "Halt"}
+
+
+@pytest.mark.parametrize("section", ["competence", "layers"])
+def test_the_empty_state_of_a_new_design_is_replaced(section: str) -> None:
+    text = "vicode: 1\ncomponent: P\ninitial: Start\nstates: {Start: {}}\n"
+    document = opened(text)
+    edit(document, "press", HERE, action="add-card", path=section, adds=section, card="b1", text="Walk")
+    written = yaml.safe_load(save_design(document.design))
+    assert set(written) == {"vicode", "component", section}
+    assert document.undo() == ""
+    assert save_design(document.design, text) == text
+    document = opened(text.replace("Start: {}", "Start: {doc: mine}"))
+    edit(document, "press", HERE, action="add-card", path=section, adds=section, card="b1", text="Walk")
+    assert document.is_saved

@@ -12,7 +12,7 @@ from vicode.editor.session.forms.list_ids import CONSTRUCT_LISTS, DECLARATION_LI
 from vicode.editor.session.forms.presses import PRESSES, Handler, Press
 from vicode.editor.session.gestures.item_paths import change_item, item_at
 from vicode.findings import DesignPath
-from vicode.model.construct_edits import new_construct
+from vicode.model.construct_edits import has_empty_state, new_construct
 from vicode.model.design import Call, CompetenceStep, Declaration, Layer
 from vicode.model.edits import add_use, remove_states, remove_uses, unique_name
 from vicode.model.names import is_valid_name
@@ -38,9 +38,11 @@ def _add_card(press: Press, document: DocumentSession, owner: DesignPath) -> For
     document.shared.list_ids.want(path, press.card)
     changed = added if path == ("competence",) else (*(item_at(design, path) or ()), added)
     owner_path, name = path[:-1], str(path[-1])
+    is_whole = path in (("competence",), ("layers",)) and has_empty_state(design)
+    replaced = {"states": (), "initial": ""} if is_whole else {}
     document.edit(
         f"add {press.to or noun_of(name)}",
-        lambda old: change_item(old, owner_path, lambda each: replace(each, **{name: changed})),
+        lambda old: change_item(old, owner_path, lambda each: replace(each, **{name: changed, **replaced})),
     )
     return FormResult()
 
