@@ -170,3 +170,16 @@ def test_layers_are_written_from_nothing(
     assert "  Stop: {when: rover.bumped, modulates: {drive: {speed: -1}}}\n" in save(page, file)
     assert no_findings(file, capsys)
     assert changes(file, capsys, *CHARGING) == ["Stop"]
+
+
+@pytest.mark.parametrize(("kind", "typed"), [("Latch", "dark"), ("Interrupt", "rover.bumped")])
+def test_what_a_menu_added_has_the_focus(editor: str, page: Page, kind: str, typed: str) -> None:
+    open_design(page, editor, "ByStates")
+    page.get_by_role("button", name=MENU).click()
+    page.get_by_role("menuitem", name=kind).first.click()
+    added = page.locator(f"[data-card^='design/{kind.lower()}']").last
+    focused = added.locator("input:focus, .cm-content:focus")
+    expect(focused).to_have_count(1)
+    page.keyboard.type(typed)
+    content = focused.input_value() if kind == "Latch" else focused.inner_text()
+    assert content.strip() == typed

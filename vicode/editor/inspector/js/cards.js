@@ -129,18 +129,29 @@ export const Cards = {
       this.store.addCard(path, adder, { id, alias, title, text });
       nextTick(() => this.edit([...path, id].join("/")));
     },
-    /** Focuses the first field of a card; its text is selected, to be typed over. */
-    edit(path) {
+    /**
+     * Focuses the first field of a card; its text is selected, to be typed over. A new list comes from the server, and
+     * a menu that closes takes the focus away again.
+     */
+    edit(path, attempts = 100, isSelected = false) {
       // The same declarations may stand in two lists of a form.
       const card = [...document.querySelectorAll(`[data-card="${CSS.escape(path)}"]`)].find((each) => each.offsetParent);
-      const input = card?.querySelector("input:not([role=combobox])");
+      const { activeElement: active } = document;
+      const isTyping = attempts < 100 && active.matches("input, textarea, .cm-content");
+      if (isTyping && !card?.contains(active)) return;
+      if (card && !isTyping) this.focusFirst(card, path, isSelected);
+      const isClosing = document.querySelector(".q-menu") !== null;
+      if (attempts && (!card || isClosing)) setTimeout(() => this.edit(path, attempts - 1, isSelected || Boolean(card)), 20);
+    },
+    focusFirst(card, path, isSelected) {
+      const input = card.querySelector("input:not([role=combobox])");
       // The condition of an interrupt is its first text.
-      if (this.node.noun && !path.includes("/interrupts/")) return input.select();
-      const content = card?.querySelector(".cm-content");
+      if (this.node.noun && !path.includes("/interrupts/")) return isSelected ? input.focus() : input.select();
+      const content = card.querySelector(".cm-content");
       const view = content && CM.EditorView.findFromDOM(content);
       if (!view) return;
       view.focus();
-      view.dispatch({ selection: { anchor: 0, head: view.state.doc.length } });
+      if (!isSelected) view.dispatch({ selection: { anchor: 0, head: view.state.doc.length } });
     },
   },
 };
