@@ -60,9 +60,14 @@ def draw_transitions(design: Design, only: Collection[str] | None = None) -> tup
 
 def shows_common(design: Design) -> bool:
     """Whether a diagram needs the box "every state", which derived actions alone do not."""
-    if design.common.transitions or any(not getattr(each, "origin", ()) for each in design.common.actions):
+    if design.common.transitions or has_written(design.common.actions):
         return True
     return bool(design.interrupts) and any(each.source == COMMON for each in draw_transitions(design))
+
+
+def has_written(actions: Iterable[Action]) -> bool:
+    """Whether there are other actions than derived ones."""
+    return any(not getattr(each, "origin", ()) for each in actions)
 
 
 def has_work(actions: Iterable[Action]) -> bool:
@@ -72,8 +77,8 @@ def has_work(actions: Iterable[Action]) -> bool:
 
 def _rank_of_shared(drawn: DrawnTransition) -> int:
     """Rules for many states come last, by their urgency, which is not the order of the states."""
-    match drawn.source, getattr(drawn.located.decision, "origin", ()):
-        case "@common", ("interrupts", int(number)):
+    match getattr(drawn.located.decision, "origin", ()):
+        case ("interrupts", int(number)) if drawn.source == COMMON:
             return number + 1
         case _:
             return 0

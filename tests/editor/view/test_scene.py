@@ -3,7 +3,19 @@
 from vicode.editor.view import ItemRef, diff_scenes, guard_label, item_at_path, make_scene
 from vicode.findings import Finding, FindingSubject, get_rule
 from vicode.model.decision_keys import parse_transition_key, transition_key
-from vicode.model.design import Code, CommonSection, DecisionGroup, Design, Guard, RunCode, State, Stay, Transition, Use
+from vicode.model.design import (
+    Call,
+    Code,
+    CommonSection,
+    DecisionGroup,
+    Design,
+    Guard,
+    RunCode,
+    State,
+    Stay,
+    Transition,
+    Use,
+)
 from vicode.model.edits import move_nodes, rename_state, set_disabled
 from vicode.model.project import Project
 
@@ -111,3 +123,14 @@ def test_guards_are_formatted_in_one_line() -> None:
     assert guard_label(Guard()) == ""
     assert guard_label(Guard(when="x", after="2.5")) == "x and 2.5 s"
     assert guard_label(Guard(when="x", after="2.5"), "ms") == "x and 2.5 ms"
+
+
+def test_calls_are_actions_of_the_common_section() -> None:
+    """They have no sign of their own there."""
+    common = CommonSection(actions=(Call(alias="drive"),))
+    design = Design(
+        component="P", uses=(Use(alias="drive", component="Drive"),), common=common, states=(State(name="A"),)
+    )
+    scene = make_scene(Project(name="P", designs=(design,)), design, (), 1)
+    assert scene["common"] is not None
+    assert scene["common"]["actions"]

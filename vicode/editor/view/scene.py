@@ -3,7 +3,7 @@
 from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable
 
-from vicode.diagram.drawn_transitions import DrawnTransition, draw_transitions, has_work, shows_common
+from vicode.diagram.drawn_transitions import DrawnTransition, draw_transitions, has_work, has_written, shows_common
 from vicode.diagram.frames import drawn_frames, frame_padding
 from vicode.diagram.layered_layout import complete_layout, note_position
 from vicode.diagram.node_geometry import note_lines, note_size
@@ -213,4 +213,4 @@ def _common(
         return None
     count = sum(1 for drawn in transitions if drawn.source == COMMON)
     marks = _marks(by_item, ItemRef(kind="common", id="@common"))
-    return {**_at(at), "transitions": count, "actions": has_work(design.common.actions), **marks}
+    return {**_at(at), "transitions": count, "actions": has_written(design.common.actions), **marks}

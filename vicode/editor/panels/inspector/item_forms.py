@@ -73,7 +73,7 @@ class ItemForms:
         self.context.show_toast(texts.invalid_event(reason), "warning")
 
     def _prepare(self, is_continued: bool) -> None:
-        """The browser goes on typing over what a killed server has left."""
+        """Recover or offer what a killed server has left."""
         self.context.page.recover_work(is_continued)
         self.refresh()
 
